@@ -210,8 +210,8 @@ static void take_path(struct rewriting *rewriting, const struct token *token, bo
 /* `at 10ms`, `expect Motor`: a word of the language, not a variable of that name. */
 static bool is_statement(const struct token *token, const struct lex *after)
 {
-	static const char *const words[] = { "scenario", "period", "plant", "at", "expect",
-					     "within", "for", "always", "never" };
+	static const char *const words[] = { "scenario", "period", "speed", "plant", "at",
+					     "expect", "within", "for", "always", "never" };
 
 	for (gsize i = 0; i < G_N_ELEMENTS(words); i++)
 		if (ascii_is(words[i], token->text, token->len))

@@ -371,7 +371,7 @@ static void act(gpointer data, const struct act *acts, int count)
 	case ACT_START: mode(values, MODE_COLD); break;
 	case ACT_WARM: mode(values, MODE_WARM); break;
 	case ACT_STOP: mode(values, MODE_STOP); break;
-	case ACT_PERIOD: break; /* why_not() */
+	case ACT_PERIOD: case ACT_SPEED: break; /* why_not() */
 	}
 }
 

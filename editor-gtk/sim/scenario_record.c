@@ -47,6 +47,7 @@ static const char *reason(const struct act *act)
 		return N_("a start cannot be part of a scenario");
 	case ACT_STOP: return N_("the simulation was stopped");
 	case ACT_PERIOD: return N_("the period cannot change within a scenario");
+	case ACT_SPEED: return N_("the speed of the board cannot change within a scenario");
 	case ACT_SET: break;
 	}
 	return N_("this variable has no name in a scenario");
@@ -159,6 +160,7 @@ bool ladder_recorder_begin(LadderRecorder *recorder, GError **error)
 	recorder->session = session_new(&twin->resource.image, twin->period_ns);
 	if (!recorder->session)
 		g_error("out of memory");
+	session_speed(recorder->session, twin->resource.pace.speed);
 	recorder->plant = plant_name(recorder);
 	session_plant(recorder->session, recorder->plant);
 	recorder->on = true;

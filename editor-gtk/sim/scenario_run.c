@@ -179,6 +179,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 	result->line = scenario->failed_line;
 	result->scan = scenario->failed_scan;
 	result->period_ns = scenario->period_ns;
+	result->speed = scenario->speed;
 	if (!held && !running->job->stop)
 		keep_way(running, index, result);
 }

@@ -25,6 +25,7 @@ struct scenario_result {
 	/* Of SCENARIO_FAILED: for ladder_sim_play(), to show the failure. */
 	guint64 scan;
 	gint64 period_ns;
+	guint64 speed;       /* of the board; 0: none                          */
 	GArray *acts;
 	char *plant;         /* file of the plant beside it; NULL: none        */
 };

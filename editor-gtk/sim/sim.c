@@ -13,6 +13,7 @@
 
 #include "engine/base/limits.h"
 #include "engine/compare/compare.h"
+#include "engine/trial/pace.h"
 
 #include <string.h>
 
@@ -38,6 +39,7 @@ struct _LadderSim {
 	gint64 told_period;         /* was emitted last                        */
 	gint64 period_ns;
 	double speed;
+	guint64 board_speed; /* words a millisecond; 0: scans take no time       */
 	bool fault_on_error;
 	char *plant_path;
 	struct sim_program *plant;
@@ -625,10 +627,10 @@ static void drop_source(LadderSim *sim)
 }
 
 static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 period_ns,
-			 GError **error)
+			 guint64 speed, GError **error)
 {
-	struct sim_thread *thread = sim_thread_new(program, sim->plant, period_ns, notified,
-						   sim);
+	struct sim_thread *thread = sim_thread_new(program, sim->plant, period_ns, speed,
+						   notified, sim);
 
 	if (!thread) {
 		g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_FAILED,
@@ -660,7 +662,7 @@ static bool may_restart(LadderSim *sim, GError **error)
 }
 
 /* @period_ns: 0: the period that the person set, or that of the tasks. */
-static bool start(LadderSim *sim, gint64 period_ns, GError **error)
+static bool start(LadderSim *sim, gint64 period_ns, guint64 speed, GError **error)
 {
 	struct sim_program *program;
 	bool good;
@@ -675,7 +677,7 @@ static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 	if (!period_ns)
 		period_ns = sim->period_ns ? sim->period_ns :
 			    tasks_tick(program->program, 0, SIM_PERIOD);
-	good = start_thread(sim, program, period_ns, error);
+	good = start_thread(sim, program, period_ns, speed, error);
 	sim_program_unref(program);
 	if (!good)
 		return false;
@@ -686,18 +688,18 @@ static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 
 bool ladder_sim_begin(LadderSim *sim, GError **error)
 {
-	return ladder_sim_is_on(sim) || start(sim, 0, error);
+	return ladder_sim_is_on(sim) || start(sim, 0, sim->board_speed, error);
 }
 
 bool ladder_sim_restart(LadderSim *sim, GError **error)
 {
-	return start(sim, 0, error);
+	return start(sim, 0, sim->board_speed, error);
 }
 
-bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
-		     GError **error)
+bool ladder_sim_play(LadderSim *sim, gint64 period_ns, guint64 speed, GArray *acts,
+		     guint64 scans, GError **error)
 {
-	if (!start(sim, period_ns, error))
+	if (!start(sim, period_ns, speed, error))
 		return false;
 	sim_thread_play(sim->thread, acts, scans);
 	return true;
@@ -1022,6 +1024,22 @@ void ladder_sim_set_period(LadderSim *sim, gint64 ns)
 	sim->period_ns = CLAMP(ns, 100000, 60000000000);
 	order(sim, ACT_PERIOD, sim->period_ns);
 	if (!sim->thread) /* a running thread reports the new period itself */
+		tell_state(sim);
+}
+
+guint64 ladder_sim_board_speed(LadderSim *sim)
+{
+	return ladder_sim_is_on(sim) && !sim->mirror ? sim->view.twin.resource.pace.speed :
+						       sim->board_speed;
+}
+
+void ladder_sim_set_board_speed(LadderSim *sim, guint64 words)
+{
+	if (refuses(sim, SIM_WISH_TIME))
+		return;
+	sim->board_speed = MIN(words, PACE_SPEED_MOST);
+	order(sim, ACT_SPEED, (gint64)sim->board_speed);
+	if (!sim->thread) /* a running thread reports the new speed itself */
 		tell_state(sim);
 }
 

@@ -9,7 +9,7 @@
  * the program that ran them.
  *
  * Signals:
- *   state-changed ()    state, period, speed, plant or fault_on_error changed
+ *   state-changed ()    state, period, speed, plant, board_speed or fault_on_error changed
  *   program-changed ()  another program runs, or ran the scan that is shown: places of
  *                       variables have changed
  *   shown ()            ladder_sim_twin() has new values; at most once a frame
@@ -101,6 +101,10 @@ const char *ladder_sim_why_not(LadderSim *sim, enum sim_wish wish);
 gint64 ladder_sim_period(LadderSim *sim);
 /** ladder_sim_set_period - ns of program time from scan to scan, 100 us to 60 s. */
 void ladder_sim_set_period(LadderSim *sim, gint64 ns);
+guint64 ladder_sim_board_speed(LadderSim *sim);
+/** ladder_sim_set_board_speed - @words of instructions a millisecond that a board runs, see
+ * trial/pace.h; 0, as at first: scans take no time. */
+void ladder_sim_set_board_speed(LadderSim *sim, guint64 words);
 double ladder_sim_speed(LadderSim *sim);
 /** ladder_sim_set_speed - scans per second of real time; 0: as the period says. */
 void ladder_sim_set_speed(LadderSim *sim, double scans);
@@ -137,8 +141,8 @@ struct sim_played {
 /** ladder_sim_play - begins anew, does @acts (of struct sim_played, in order) and pauses after
  * scan @scans; all these scans can be shown. Any order given meanwhile ends it. Fails: as
  * ladder_sim_restart(). */
-bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
-		     GError **error);
+bool ladder_sim_play(LadderSim *sim, gint64 period_ns, guint64 speed, GArray *acts,
+		     guint64 scans, GError **error);
 
 /* How late scans were in real time. For measurements. */
 struct sim_lateness { guint64 scans; double median_us, p99_us, worst_us; };

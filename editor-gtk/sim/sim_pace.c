@@ -10,7 +10,7 @@
 struct _LadderSimPace {
 	GtkPopover parent;
 	LadderSim *sim;
-	GtkSpinButton *period;
+	GtkSpinButton *period, *board;
 	GtkSwitch *slow, *fault;
 	GtkScale *speed;
 	GtkLabel *plant;
@@ -36,6 +36,7 @@ static void show(LadderSimPace *pace)
 
 	pace->showing = true;
 	gtk_spin_button_set_value(pace->period, (double)ladder_sim_period(pace->sim) / 1e6);
+	gtk_spin_button_set_value(pace->board, (double)ladder_sim_board_speed(pace->sim));
 	/* Setting a switch to its own state would end its animation. */
 	if (gtk_switch_get_active(pace->slow) != (speed > 0))
 		gtk_switch_set_active(pace->slow, speed > 0);
@@ -53,6 +54,13 @@ static void period_changed(LadderSimPace *pace)
 	if (!pace->showing)
 		ladder_sim_set_period(pace->sim,
 			(gint64)(gtk_spin_button_get_value(pace->period) * 1e6 + 0.5));
+}
+
+static void board_changed(LadderSimPace *pace)
+{
+	if (!pace->showing)
+		ladder_sim_set_board_speed(pace->sim,
+			(guint64)gtk_spin_button_get_value(pace->board));
 }
 
 static void speed_changed(LadderSimPace *pace)
@@ -95,11 +103,13 @@ static void ladder_sim_pace_class_init(LadderSimPaceClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/sim_pace.ui");
 	gtk_widget_class_bind_template_child(widget, LadderSimPace, period);
+	gtk_widget_class_bind_template_child(widget, LadderSimPace, board);
 	gtk_widget_class_bind_template_child(widget, LadderSimPace, slow);
 	gtk_widget_class_bind_template_child(widget, LadderSimPace, fault);
 	gtk_widget_class_bind_template_child(widget, LadderSimPace, speed);
 	gtk_widget_class_bind_template_child(widget, LadderSimPace, plant);
 	gtk_widget_class_bind_template_callback(widget, period_changed);
+	gtk_widget_class_bind_template_callback(widget, board_changed);
 	gtk_widget_class_bind_template_callback(widget, speed_changed);
 	gtk_widget_class_bind_template_callback(widget, fault_changed);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_pace - the popover of the clock button: period, slow motion, FAULT on a failed operation,
+ * sim_pace - the popover of the clock button: period, speed of the board,
+ * slow motion, FAULT on a failed operation,
  * plant, cold and warm start.
  */
 #ifndef EDITOR_SIM_PACE_H

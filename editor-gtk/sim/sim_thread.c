@@ -455,20 +455,24 @@ struct sim_source *sim_thread_source(struct sim_thread *thread)
 /* ---- called by the window ---- */
 
 static bool start_twin(struct twin *twin, const struct sim_program *program,
-		       const struct sim_program *plant, int64_t period_ns)
+		       const struct sim_program *plant, int64_t period_ns, guint64 speed)
 {
+	const struct act of_board = { .kind = ACT_SPEED, .value.i = (int64_t)speed };
+
 	if (!twin_init(twin, program->program, plant ? plant->program : NULL, period_ns))
 		return false;
 	twin_set_safe(twin, program->safe);
+	twin_act(twin, &of_board);
 	return true;
 }
 
 struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
-				  gint64 period_ns, GSourceFunc notify, gpointer data)
+				  gint64 period_ns, guint64 speed, GSourceFunc notify,
+				  gpointer data)
 {
 	struct sim_thread *thread = g_new0(struct sim_thread, 1);
 
-	if (!start_twin(&thread->twin, program, plant, period_ns) ||
+	if (!start_twin(&thread->twin, program, plant, period_ns, speed) ||
 	    !twin_clone(&thread->out, &thread->twin)) {
 		twin_free(&thread->twin);
 		g_free(thread);

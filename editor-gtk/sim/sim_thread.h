@@ -14,11 +14,13 @@ struct sim_source *sim_thread_source(struct sim_thread *thread);
 /**
  * sim_thread_new - in STOP, with a record
  * @program, @plant: referenced; @plant NULL: none
+ * @speed: of the board, as ACT_SPEED has it
  * @notify: called in the main context when sim_thread_take() has something new; @data borrowed
  * Owns: sim_thread_free(), which waits for its end. Fails: NULL: no memory.
  */
 struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
-				  gint64 period_ns, GSourceFunc notify, gpointer data);
+				  gint64 period_ns, guint64 speed, GSourceFunc notify,
+				  gpointer data);
 void sim_thread_free(struct sim_thread *thread);
 
 void sim_thread_run(struct sim_thread *thread, bool run);

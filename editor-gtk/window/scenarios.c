@@ -79,8 +79,8 @@ static void play(struct scenarios *scenarios, const struct scenario_result *resu
 		g_error_free(error);
 		return;
 	}
-	if (!ladder_sim_play(scenarios->core->sim, result->period_ns, result->acts, result->scan,
-			     &error)) {
+	if (!ladder_sim_play(scenarios->core->sim, result->period_ns, result->speed, result->acts,
+			     result->scan, &error)) {
 		messages_tell(scenarios->core->messages, error->message);
 		g_error_free(error);
 		return;

@@ -28,6 +28,12 @@ static int64_t clock_now(void)
 	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
+static int64_t clock_of_task(const struct resource *resource)
+{
+	(void)resource;
+	return clock_now();
+}
+
 static const struct interrupts by_clock;
 
 /* The limit of a scan with tasks is the sum of their limits. */
@@ -46,7 +52,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 		safe_ask(NULL);
 		return watchdog * cycle->period_ns;
 	}
-	resource->clock_ns = clock_now;
+	resource->clock_ns = clock_of_task;
 	resource->tick_ns = cycle->period_ns;
 	resource->patience = (uint32_t)watchdog;
 	resource->period_ns = period_ns ? period_ns : PERIOD;
@@ -357,7 +363,7 @@ static bool end_inner(struct resource *resource, int64_t now_ns)
 	       WritePhysicalOutputs(&cycle->hal, &resource->image, now_ns);
 }
 
-static const struct interrupts by_clock = { asks_clock, begin_inner, end_inner };
+static const struct interrupts by_clock = { asks_clock, begin_inner, end_inner, NULL };
 
 /* The timer has the phase of the cycles; it changes when the program starts again. */
 static void keep_phase(struct cycle *cycle)

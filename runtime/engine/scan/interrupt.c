@@ -92,14 +92,15 @@ uint32_t interrupt_levels(const struct program *program)
 	return levels;
 }
 
-/* Behind the data: outputs of whole tasks; then for each level the inputs and outputs of the
- * interrupted task, and the outputs of whole tasks as they were then. */
+/* Behind the data: outputs of whole tasks; the inputs from outside while a scan goes on that
+ * stood; then for each level the inputs and outputs of the interrupted task, and the outputs of
+ * whole tasks as they were then. */
 size_t interrupt_bytes(const struct program *program)
 {
 	const uint32_t levels = interrupt_levels(program);
-	const size_t outputs = side_bytes(program, OUTPUTS);
+	const size_t in = side_bytes(program, INPUTS), out = side_bytes(program, OUTPUTS);
 
-	return levels ? outputs + levels * (side_bytes(program, INPUTS) + 2 * outputs) : 0;
+	return levels ? out + in + levels * (in + 2 * out) : 0;
 }
 
 static uint8_t *written_at(const struct image *image)
@@ -114,7 +115,7 @@ static struct level level_at(const struct image *image, uint32_t level)
 {
 	const size_t in = side_bytes(image->program, INPUTS);
 	const size_t out = side_bytes(image->program, OUTPUTS);
-	uint8_t *at = written_at(image) + out + level * (in + 2 * out);
+	uint8_t *at = written_at(image) + out + in + level * (in + 2 * out);
 
 	return (struct level){ at, at + in, at + in + out };
 }
@@ -122,6 +123,21 @@ static struct level level_at(const struct image *image, uint32_t level)
 void interrupt_written(struct image *image)
 {
 	save(image, OUTPUTS, written_at(image));
+}
+
+static uint8_t *outside_at(const struct image *image)
+{
+	return written_at(image) + side_bytes(image->program, OUTPUTS);
+}
+
+void interrupt_keep_inputs(struct image *image)
+{
+	save(image, INPUTS, outside_at(image));
+}
+
+void interrupt_give_inputs(struct image *image)
+{
+	restore(image, INPUTS, outside_at(image));
 }
 
 void interrupt_begin(struct image *image, uint32_t level)

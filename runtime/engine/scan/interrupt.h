@@ -23,6 +23,10 @@ size_t interrupt_bytes(const struct program *program);
 /** interrupt_written - the outputs in the image are those of whole tasks. At the start of a
  * scan of a program with interrupt_levels(). Scan-safe: yes; a copy of the outputs. */
 void interrupt_written(struct image *image);
+/** interrupt_keep_inputs, interrupt_give_inputs - keeps the inputs from outside while a scan goes
+ * on that stood, and gives them back. Scan-safe: yes; a copy of the inputs. */
+void interrupt_keep_inputs(struct image *image);
+void interrupt_give_inputs(struct image *image);
 /** interrupt_begin - sets inputs and outputs aside; the outputs in the image become those of
  * whole tasks. @level: 0 for the first task that is interrupted, below interrupt_levels().
  * Scan-safe: yes; copies of inputs and outputs. */

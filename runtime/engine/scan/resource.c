@@ -35,6 +35,8 @@ static void begin_cold(struct resource *resource)
 	resource->retain_lost = resource->retain_old_copy = false;
 	resource->scan_us = resource->scan_max_us = 0;
 	resource->second_ns = INT64_MIN;
+	resource->level = 0;
+	resource->standing = false;
 	tasks_start(&resource->tasks, program, 0);
 }
 
@@ -228,85 +230,162 @@ static void write_cycle(struct resource *resource, uint32_t index)
 	store64(image_area(&resource->image, AREA_SM) + 48, cycle_ns);
 }
 
-/* Loops and calls are paid from the budget; they count as words, too. */
-static void count_spent(struct resource *resource)
+/* ---- words, and safe points ---- */
+
+static struct level_run *run_of(struct resource *resource)
 {
-	resource->words += resource->budget_seen - resource->vm.budget;
-	resource->budget_seen = resource->vm.budget;
+	return &resource->run[resource->level];
 }
 
-/* Programs without safe points are counted as a whole. */
+static void count_called(struct resource *resource)
+{
+	resource->words += resource->vm.called;
+	resource->vm.called = 0;
+}
+
+/* Where safe points are, they have counted all but the calls. */
 static void count_program(struct resource *resource, uint32_t entry)
 {
 	const struct program *program = resource->image.program;
 	const struct code_program *at = &program->entry[entry];
 
-	if (!resource->vm.ask)
-		return;
-	count_spent(resource);
-	if ((program->text[at->text] & 0xff) != VM_POINT)
+	count_called(resource);
+	if (!resource->vm.at_point || (program->text[at->text] & 0xff) != VM_POINT)
 		resource->words += at->text_words;
 }
 
-/* A safe point before a program: of the task that runs, or is about to. */
-static void stand_before(struct resource *resource)
+/* Shall tasks above the one that runs, or is about to, run here? */
+static bool asks(struct resource *resource)
+{
+	const struct program *program = resource->image.program;
+	const uint32_t count = tasks_above(program, run_of(resource)->task);
+	const struct interrupts *interrupts = resource->interrupts;
+
+	return count && resource->level < LIMIT_LEVELS &&
+	       interrupts->asks(resource, &resource->asked_ns) &&
+	       (!interrupts->begin ||
+		tasks_may_begin(&resource->tasks, program, count, resource->asked_ns));
+}
+
+/* @words: of code up to the next safe point. */
+static bool at_point(struct vm *vm, uint32_t words)
+{
+	struct resource *resource =
+		(struct resource *)((char *)vm - offsetof(struct resource, vm));
+
+	count_called(resource);
+	if (asks(resource)) {
+		run_of(resource)->ahead = words;
+		return true;
+	}
+	resource->words += words;
+	return false;
+}
+
+/* A safe point before a task or a program. */
+static bool asks_before(struct resource *resource)
 {
 	struct vm *vm = &resource->vm;
 
 	if (!vm->at_point)
-		return;
+		return false;
 	vm->points++;
-	if (vm->ask)
-		vm->at_point(vm, 0);
+	return vm->ask && asks(resource);
 }
 
-/* Runs the programs of a task; each task has its own budget. */
-static void run_task(struct resource *resource, uint32_t index, bool watch)
-{
-	const struct program *program = resource->image.program;
-	const struct code_task *task = &program->task[index];
-	struct vm *vm = &resource->vm;
-	enum fault fault = FAULT_NONE;
-
-	resource->running = index;
-	write_cycle(resource, index);
-	vm->budget = resource->budget_seen = program->header->budget;
-	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++) {
-		if (i > 0)
-			stand_before(resource);
-		if (resource->state != STATE_RUN)
-			return;
-		fault = vm_run(vm, program->call[task->first + i], watch);
-		count_program(resource, program->call[task->first + i]);
-	}
-	/* If a task that interrupted this one is in FAULT, so is all. */
-	if (fault == FAULT_NONE || resource->state != STATE_RUN)
-		return;
-	resource_fail(resource, fault);
-	resource->fault_at = place_in(resource, vm->fault_text, watch);
-	if (tasks_declared(program))
-		resource->fault_at.task = task_name(program, index);
-}
+/* ---- one task ---- */
 
 /* @due_ns: its deadline; 0: it has none. */
-static void time_task(struct resource *resource, uint32_t index, int64_t due_ns, bool watch)
+static void begin_task(struct resource *resource, uint32_t index, int64_t due_ns)
 {
 	struct task_state *state = &resource->tasks.state[index];
-	int64_t begin_ns = resource->clock_ns();
+	struct level_run *run = run_of(resource);
 
-	/* In the first scan all of them begin. */
-	if (due_ns && resource->scans && begin_ns - due_ns > state->wait_ns)
-		state->wait_ns = begin_ns - due_ns;
-	run_task(resource, index, watch);
-	state->last_ns = resource->clock_ns() - begin_ns;
+	run->task = index;
+	run->call = 0;
+	run->begun = true;
+	run->passed = false;
+	if (resource->clock_ns) {
+		run->begin_ns = resource->clock_ns(resource);
+		/* In the first scan all of them begin. */
+		if (due_ns && resource->scans && run->begin_ns - due_ns > state->wait_ns)
+			state->wait_ns = run->begin_ns - due_ns;
+	}
+	write_cycle(resource, index);
+	resource->vm.budget = resource->image.program->header->budget;
+}
+
+static void time_task(struct resource *resource)
+{
+	const struct level_run *run = run_of(resource);
+	struct task_state *state = &resource->tasks.state[run->task];
+
+	if (!resource->clock_ns)
+		return;
+	state->last_ns = resource->clock_ns(resource) - run->begin_ns;
 	if (state->last_ns > state->max_ns)
 		state->max_ns = state->last_ns;
 	if (resource->state != STATE_RUN ||
-	    !is_too_slow(resource, index, state->last_ns))
+	    !is_too_slow(resource, run->task, state->last_ns))
 		return;
 	resource_fail(resource, FAULT_WATCHDOG);
-	resource->fault_at.task = task_name(resource->image.program, index);
+	resource->fault_at.task = task_name(resource->image.program, run->task);
 }
+
+static void fail_task(struct resource *resource, enum fault fault, bool watch)
+{
+	const struct program *program = resource->image.program;
+
+	resource_fail(resource, fault);
+	resource->fault_at = place_in(resource, resource->vm.fault_text, watch);
+	if (tasks_declared(program))
+		resource->fault_at.task = task_name(program, run_of(resource)->task);
+}
+
+/* Runs the programs of a task, or goes on with them; each task has its own budget. False: it
+ * stands at a safe point. */
+static bool run_programs(struct resource *resource, bool watch)
+{
+	const struct program *program = resource->image.program;
+	struct level_run *run = run_of(resource);
+	const struct code_task *task = &program->task[run->task];
+	struct vm *vm = &resource->vm;
+	enum fault fault = FAULT_NONE;
+
+	for (; run->call < task->count && fault == FAULT_NONE; run->call++) {
+		const uint32_t entry = program->call[task->first + run->call];
+
+		if (run->call > 0 && !run->passed && !run->resume && asks_before(resource)) {
+			run->passed = true;
+			return false;
+		}
+		run->passed = false;
+		vm->resume = run->resume;
+		resource->words += run->ahead;
+		run->ahead = 0;
+		fault = vm_run(vm, entry, watch);
+		run->resume = vm->resume;
+		if (fault == FAULT_PAUSED)
+			return false;
+		count_program(resource, entry);
+	}
+	if (fault != FAULT_NONE)
+		fail_task(resource, fault, watch);
+	return true;
+}
+
+static bool run_task(struct resource *resource, bool watch)
+{
+	const struct interrupts *interrupts = resource->interrupts;
+	const uint64_t from = resource->words;
+	const bool whole = run_programs(resource, watch);
+
+	if (interrupts && interrupts->ran)
+		interrupts->ran(resource, run_of(resource)->task, from, whole);
+	return whole;
+}
+
+/* ---- the tasks of a cycle ---- */
 
 /* All tasks run in the first scan, so that they see SYS_FIRST_SCAN. */
 static bool must_yield(const struct resource *resource, uint32_t task)
@@ -318,120 +397,160 @@ static bool must_yield(const struct resource *resource, uint32_t task)
 		return resource->tasks_ran >= resource->tasks_most;
 	if (!resource->clock_ns || resource->scans == 0 || resource->vm.at_point)
 		return false;
-	now_ns = resource->clock_ns();
+	now_ns = resource->clock_ns(resource);
 	late = resource->tick_ns &&
 	       now_ns - resource->due_ns >= resource->tick_ns;
 	return tasks_must_yield(&resource->tasks, resource->image.program, task,
 				now_ns, late);
 }
 
-static void run_one(struct resource *resource, uint32_t task, int64_t now_ns, bool watch)
+/* The task that is due next; its number is @end or above: none. */
+static uint32_t next_task(struct resource *resource, uint32_t *end)
 {
 	const struct program *program = resource->image.program;
-	struct tasks *tasks = &resource->tasks;
-	const int64_t due_ns = program->task[task].kind == TASK_INTERVAL ?
-				       tasks->state[task].next_ns : 0;
+	const uint32_t task = tasks_next(&resource->tasks, program);
 
-	tasks_take(tasks, program, task, now_ns);
-	if (resource->clock_ns)
-		time_task(resource, task, due_ns, watch);
-	else
-		run_task(resource, task, watch);
-	tasks_look(tasks, program, resource->image.memory);
+	*end = resource->level == 0 ? program->task_count :
+	       tasks_above(program, resource->run[resource->level - 1].task);
+	if (resource->level == 0 && task < *end && resource->tasks_ran &&
+	    must_yield(resource, task))
+		*end = task;
+	return task;
 }
 
-static void run_due(struct resource *resource, int64_t now_ns, bool watch)
+/* Begins the next task of this level. @none: there is none. False: the scan stands before it. */
+static bool begin_next(struct resource *resource, bool *none)
 {
 	const struct program *program = resource->image.program;
 	struct tasks *tasks = &resource->tasks;
+	struct level_run *run = run_of(resource);
+	uint32_t end, task = next_task(resource, &end);
+	int64_t due_ns = 0;
 
-	tasks_begin(tasks, program, resource->image.memory, now_ns);
-	while (resource->state == STATE_RUN) {
-		uint32_t task = tasks_next(tasks, program);
-
-		if (task == program->task_count ||
-		    (resource->tasks_ran && must_yield(resource, task)))
-			return;
-		resource->running = task;
-		if (resource->tasks_ran)
-			stand_before(resource);
-		/* What interrupted may have made another task due. */
-		if (resource->state != STATE_RUN || tasks_next(tasks, program) != task)
-			continue;
-		run_one(resource, task, now_ns, watch);
-		resource->tasks_ran++;
+	/* What interrupted may have made another task due. */
+	if (run->passed && task != run->task)
+		run->passed = false;
+	*none = task >= end && !run->passed;
+	if (*none)
+		return true;
+	if (!run->passed && resource->level == 0 && resource->tasks_ran) {
+		run->task = task;
+		run->passed = true;
+		if (asks_before(resource))
+			return false;
 	}
+	if (program->task[task].kind == TASK_INTERVAL)
+		due_ns = tasks->state[task].next_ns;
+	tasks_take(tasks, program, task, run->now_ns);
+	begin_task(resource, task, due_ns);
+	return true;
+}
+
+static void end_task(struct resource *resource)
+{
+	time_task(resource);
+	run_of(resource)->begun = false;
+	tasks_look(&resource->tasks, resource->image.program, resource->image.memory);
+	resource->tasks_ran += resource->level == 0;
+}
+
+/* The tasks of this level that are due, until there are no more. False: one of them stands at a
+ * safe point. */
+static bool run_tasks(struct resource *resource, bool watch)
+{
+	bool none = false;
+
+	while (resource->state == STATE_RUN) {
+		if (!run_of(resource)->begun && !begin_next(resource, &none))
+			return false;
+		if (none)
+			return true;
+		if (!run_task(resource, watch))
+			return false;
+		end_task(resource);
+	}
+	return true;
 }
 
 /* ---- tasks that interrupt others ---- */
 
-/* The tasks above the one that runs, until none of them is due. */
-static void run_above(struct resource *resource, uint32_t count, int64_t now_ns, bool watch)
+static void put_aside(struct resource *resource)
 {
-	const struct program *program = resource->image.program;
-	struct tasks *tasks = &resource->tasks;
-	uint32_t task;
+	struct level_run *run = run_of(resource);
 
-	tasks_begin_above(tasks, program, count, resource->image.memory, now_ns);
-	while (resource->state == STATE_RUN &&
-	       (task = tasks_next(tasks, program)) < count)
-		run_one(resource, task, now_ns, watch);
+	run->budget = resource->vm.budget;
+	run->second_ns = resource->second_ns;
+	run->day_ns = resource->day_ns;
+	interrupt_begin(&resource->image, resource->level++);
+	memset(run_of(resource), 0, sizeof(*run));
 }
 
-/* One cycle of the tasks above the one that runs: inputs, tasks, outputs. */
-static void run_inner(struct resource *resource, uint32_t count, int64_t now_ns)
+/* Afterwards the interrupted task finds its time, inputs and outputs as they were. */
+static void go_back(struct resource *resource)
 {
-	struct image *image = &resource->image;
-	bool watch = resource->watch && image->program->watch_words;
+	const struct level_run *run;
 
-	if (!resource->interrupts->begin(resource, now_ns)) {
+	interrupt_end(&resource->image, --resource->level);
+	run = run_of(resource);
+	resource->vm.budget = run->budget;
+	resource->vm.now_ns = run->now_ns + resource->timers_ns;
+	resource->second_ns = run->second_ns;
+	resource->day_ns = run->day_ns;
+}
+
+static uint32_t tasks_over(const struct resource *resource)
+{
+	return tasks_above(resource->image.program, resource->run[resource->level - 1].task);
+}
+
+/* A cycle of the tasks above the one that was put aside. */
+static void begin_inner(struct resource *resource, int64_t now_ns)
+{
+	const struct level_run *under = &resource->run[resource->level - 1];
+	const struct interrupts *interrupts = resource->interrupts;
+	struct image *image = &resource->image;
+
+	run_of(resource)->now_ns = now_ns;
+	resource->tasks.state[under->task].interrupted += under->resume != 0;
+	if (interrupts->begin && !interrupts->begin(resource, now_ns)) {
 		resource_fail(resource, FAULT_IO);
 		return;
 	}
 	write_times(resource, now_ns);
 	image_begin(image);
 	resource->vm.now_ns = now_ns + resource->timers_ns;
-	run_above(resource, count, now_ns, watch);
-	image_end(image);
-	if (resource->state == STATE_RUN && !resource->vm.stop &&
-	    !resource->interrupts->end(resource, now_ns))
+	tasks_begin_above(&resource->tasks, image->program, tasks_over(resource), image->memory,
+			  now_ns);
+}
+
+static void end_inner(struct resource *resource)
+{
+	const struct interrupts *interrupts = resource->interrupts;
+	const int64_t now_ns = run_of(resource)->now_ns;
+
+	image_end(&resource->image);
+	if (resource->state == STATE_RUN && !resource->vm.stop && interrupts->end &&
+	    !interrupts->end(resource, now_ns))
 		resource_fail(resource, FAULT_IO);
+	go_back(resource);
 }
 
-/* Afterwards the interrupted task finds its time, inputs and outputs as they were. */
-static void interrupt(struct resource *resource, uint32_t count, int64_t now_ns)
+/* Runs the levels from the highest one down. False: the scan stands. */
+static bool run_levels(struct resource *resource, bool watch)
 {
-	const uint32_t running = resource->running, budget = resource->vm.budget;
-	const int64_t task_ns = resource->vm.now_ns, second_ns = resource->second_ns,
-		      day_ns = resource->day_ns;
-
-	interrupt_begin(&resource->image, resource->level++);
-	run_inner(resource, count, now_ns);
-	interrupt_end(&resource->image, --resource->level);
-	resource->running = running;
-	resource->vm.budget = resource->budget_seen = budget;
-	resource->vm.now_ns = task_ns;
-	resource->second_ns = second_ns;
-	resource->day_ns = day_ns;
-}
-
-/* @words: of code up to the next safe point. */
-static enum fault at_point(struct vm *vm, uint32_t words)
-{
-	struct resource *resource =
-		(struct resource *)((char *)vm - offsetof(struct resource, vm));
-	const struct program *program = resource->image.program;
-	const uint32_t count = tasks_above(program, resource->running);
-	int64_t now_ns;
-
-	count_spent(resource);
-	if (count && resource->level < LIMIT_LEVELS && resource->interrupts->asks(resource, &now_ns) &&
-	    tasks_may_begin(&resource->tasks, program, count, now_ns)) {
-		resource->tasks.state[resource->running].interrupted += words > 0;
-		interrupt(resource, count, now_ns);
+	for (;;) {
+		if (!run_tasks(resource, watch)) {
+			put_aside(resource);
+			resource->standing = !resource->interrupts->begin;
+			if (resource->standing)
+				return false;
+			begin_inner(resource, resource->asked_ns);
+		} else if (resource->level > 0) {
+			end_inner(resource);
+		} else {
+			return true;
+		}
 	}
-	resource->words += words;
-	return resource->state == STATE_RUN ? FAULT_NONE : resource->fault;
 }
 
 /* No task interrupts another in the first scan, in which all of them run. */
@@ -442,12 +561,47 @@ static void ready_points(struct resource *resource)
 
 	resource->vm.at_point = on ? at_point : NULL;
 	resource->vm.points = 0;
-	resource->words = 0;
-	resource->tasks_ran = 0;
+	resource->vm.called = 0;
 	if (on)
 		interrupt_written(&resource->image);
-	else
+	else if (!resource->interrupts || resource->interrupts->begin)
 		resource->vm.ask = 0;
+}
+
+static bool run_due(struct resource *resource, int64_t now_ns, bool watch)
+{
+	const struct program *program = resource->image.program;
+	const bool declared = tasks_declared(program);
+
+	resource->tasks_ran = 0;
+	memset(run_of(resource), 0, sizeof(struct level_run));
+	run_of(resource)->now_ns = now_ns;
+	if (declared)
+		tasks_begin(&resource->tasks, program, resource->image.memory, now_ns);
+	if (declared || !program->task_count)
+		return !declared || run_levels(resource, watch);
+	begin_task(resource, 0, 0);
+	run_task(resource, watch);
+	return true;
+}
+
+/* Goes on with a scan that stands. False: it stands again. Inputs that came from outside
+ * meanwhile stay in the image for the next one. */
+static bool go_on(struct resource *resource, int64_t now_ns, bool watch)
+{
+	bool whole;
+
+	resource->standing = false;
+	interrupt_keep_inputs(&resource->image);
+	if (tasks_may_begin(&resource->tasks, resource->image.program, tasks_over(resource),
+			    now_ns))
+		begin_inner(resource, now_ns);
+	else
+		go_back(resource);
+	whole = run_levels(resource, watch);
+	interrupt_give_inputs(&resource->image);
+	resource->second_ns = INT64_MIN; /* the calendar is that of the begin */
+	return whole;
 }
 
 static void clear_area(struct resource *resource, enum iec_area area)
@@ -476,30 +630,38 @@ static void halt(struct resource *resource, bool watch)
 	clear_area(resource, AREA_XAQ);
 }
 
-bool resource_scan(struct resource *resource, int64_t now_ns)
+static void begin_scan(struct resource *resource, int64_t now_ns)
 {
-	const struct program *program = resource->image.program;
-	bool watch = resource->watch && program->watch_words;
-	struct vm *vm = &resource->vm;
-	uint32_t errors = vm->errors;
-
-	if (resource->state != STATE_RUN)
-		return false;
 	if (resource->scans == 0) {
 		resource->start_ns = now_ns;
-		tasks_start(&resource->tasks, program, resource->due_ns ?
+		tasks_start(&resource->tasks, resource->image.program, resource->due_ns ?
 			    resource->due_ns : now_ns);
 	}
 	write_system(resource, now_ns);
 	image_begin(&resource->image);
 	ready_points(resource);
-	vm->now_ns = now_ns + resource->timers_ns;
-	if (tasks_declared(program))
-		run_due(resource, now_ns, watch);
-	else if (program->task_count)
-		run_task(resource, 0, watch);
+	resource->vm.now_ns = now_ns + resource->timers_ns;
+}
+
+bool resource_scan(struct resource *resource, int64_t now_ns)
+{
+	bool watch = resource->watch && resource->image.program->watch_words, whole;
+	struct vm *vm = &resource->vm;
+	uint32_t errors = vm->errors;
+
+	if (resource->state != STATE_RUN)
+		return false;
+	resource->words = 0;
+	if (resource->standing) {
+		whole = go_on(resource, now_ns, watch);
+	} else {
+		begin_scan(resource, now_ns);
+		whole = run_due(resource, now_ns, watch);
+	}
 	if (errors == 0 && vm->errors)
 		resource->error_at = place_in(resource, vm->error_text, watch);
+	if (!whole)
+		return true;
 	image_end(&resource->image);
 	resource->scans++;
 	if (vm->stop && resource->state == STATE_RUN)

@@ -26,10 +26,44 @@ struct interrupts {
 	/* At a safe point, while vm.ask is not 0: shall tasks that have become due run? Then
 	 * @now_ns gets their time. */
 	bool (*asks)(struct resource *resource, int64_t *now_ns);
-	/* Reads inputs into the image. Fails: false: FAULT_IO. */
+	/* Reads inputs into the image. Fails: false: FAULT_IO. NULL: the scan stands at this
+	 * point, and the next call of resource_scan() goes on with it. */
 	bool (*begin)(struct resource *resource, int64_t now_ns);
 	/* Uses the outputs in the image. Fails: likewise. */
 	bool (*end)(struct resource *resource, int64_t now_ns);
+	/* A task ran from @from of `words` up to now; @whole: it has ended. NULL: nobody wants
+	 * to know. */
+	void (*ran)(struct resource *resource, uint32_t task, uint64_t from, bool whole);
+};
+
+/* Work in virtual time; for trial/pace.h only. */
+#define PACE_PARTS 16
+struct pace_part {
+	uint32_t from, to; /* words since the begin of the work; 2^32 - 1: or more */
+	uint8_t task;
+	bool whole;        /* the run ended; otherwise it goes on later       */
+};
+struct paced {
+	uint64_t speed;              /* words a millisecond; 0: work takes no time */
+	uint64_t most;               /* words left in this period when it began */
+	uint64_t owed;               /* words that reach into the next period */
+	uint64_t taken;              /* of the scan, in all its periods       */
+	uint32_t late_row;
+	int64_t begin_ns;            /* of the work in this period            */
+	struct pace_part part[PACE_PARTS]; /* the first ones of this period   */
+	uint32_t parts;
+};
+
+/* A task that runs, or was interrupted and goes on later. */
+struct level_run {
+	uint32_t task, call;         /* which one of its programs runs        */
+	uint32_t resume;             /* where that goes on, as vm.resume      */
+	uint32_t ahead;              /* words from there to the next safe point */
+	uint32_t budget;             /* that is left                          */
+	bool begun, passed;          /* the point before it, or before the program, is passed */
+	int64_t now_ns;              /* of its cycle                          */
+	int64_t second_ns, day_ns;   /* likewise, as those of the resource    */
+	int64_t begin_ns;            /* by clock_ns                           */
 };
 
 struct resource {
@@ -55,16 +89,22 @@ struct resource {
 	uint32_t tasks_most;         /* tasks that run in the scan, when it is computed again;
 				      * 0: as the clock allows               */
 	uint32_t tasks_ran;          /* in this scan, without those that interrupted others */
-	uint32_t running;            /* the task that runs                    */
+	struct level_run run[LIMIT_LEVELS + 1]; /* run[level] runs, those below it wait */
 	uint32_t level;              /* how many are interrupted              */
-	uint64_t words;              /* of instructions that ran in this scan; counted only while
-				      * vm.ask is not 0                      */
-	uint32_t budget_seen;        /* of the task, when words were counted last */
+	bool standing;               /* the scan stands at a safe point: see interrupts.begin */
+	int64_t asked_ns;            /* the time that interrupts.asks() gave  */
+	uint64_t words;              /* of instructions that ran in this call of
+				      * resource_scan(). Each round of a loop counts where
+				      * there are safe points: not in a program that is
+				      * called, nor in one that no task interrupts. While
+				      * vm.ask is 0, safe points do not count.         */
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Set once by the caller; a start does not change them. */
-	int64_t (*clock_ns)(void);   /* measures declared tasks; NULL: no times */
+	/* Measures declared tasks; NULL: no times. */
+	int64_t (*clock_ns)(const struct resource *resource);
 	const struct interrupts *interrupts; /* NULL: no task interrupts another */
+	struct paced pace;
 	int64_t tick_ns;             /* from one cycle to the next; 0: unknown */
 	int64_t period_ns;           /* of cycles, where tasks have no INTERVAL */
 	uint32_t patience;           /* watchdog of each task: so many late runs in a row,
@@ -105,6 +145,9 @@ void resource_fail(struct resource *resource, enum fault fault);
  * statements, or before a program) tasks of higher priority that are due interrupt it, if
  * `interrupts` is set; not in the first scan. Without `interrupts`, and with a clock, the scan
  * ends early, between two tasks: see tasks_must_yield().
+ * If `standing` is set afterwards, the scan is not complete: the image shows inputs and outputs
+ * as a task of higher priority would see them. The next call goes on with it at its own @now_ns,
+ * after the tasks of higher priority that are due then.
  * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
  * does nothing. Scan-safe: yes, it is the scan.
  * Fails: false and STATE_FAULT when a program faults. Also false when a program asked

@@ -567,13 +567,13 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const struct program *program = vm->program;
 	const struct code_program *at = &program->entry[entry];
 	const uint32_t *base = watch ? program->watch : program->text;
-	const uint32_t *pc = base + (watch ? at->watch : at->text);
+	const uint32_t *pc = base + (vm->resume ? vm->resume : watch ? at->watch : at->text);
 	uint8_t *m = vm->memory;
 	const uint32_t *back[LIMIT_CALLS]; /* return addresses                */
 	const uint32_t *run = pc;          /* last target of EACH            */
 	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
-	enum fault fault;
 
+	vm->resume = 0;
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
 
@@ -657,6 +657,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			at = &program->entry[pc[1]];
 			if (!pay(&budget, watch ? at->watch_words : at->text_words))
 				goto out_of_budget;
+			vm->called += at->text_words;
 			back[depth++] = pc + 2;
 			pc = base + (watch ? at->watch : at->text);
 			break;
@@ -736,13 +737,12 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				pc++;
 				break;
 			}
-			vm->budget = budget;
-			fault = vm->at_point(vm, n);
-			if (fault != FAULT_NONE)
-				return fault;
-			budget = vm->budget;
 			pc++;
-			break;
+			if (!vm->at_point(vm, n))
+				break;
+			vm->budget = budget;
+			vm->resume = (uint32_t)(pc - base);
+			return FAULT_PAUSED;
 		case VM_COUNT:
 		default:
 			return FAULT_CODE;

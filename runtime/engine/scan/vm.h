@@ -16,7 +16,8 @@ enum fault {
 	FAULT_WATCHDOG, /* scan too late or too long (cycle)                  */
 	FAULT_IO,       /* a line did not answer three times (hal)            */
 	FAULT_CODE,     /* the image was changed in memory                    */
-	FAULT_COUNT
+	FAULT_COUNT,
+	FAULT_PAUSED = FAULT_COUNT /* none: the program stands at a safe point */
 };
 /** fault_text - "instruction budget exceeded"; static. */
 const char *fault_text(enum fault fault);
@@ -34,7 +35,11 @@ struct vm {
 	/* Safe points, see resource_scan(). */
 	volatile int ask;      /* call at_point; a signal handler may set it  */
 	uint32_t points;       /* passed since the scan began                 */
-	enum fault (*at_point)(struct vm *vm, uint32_t words);
+	/* @words: up to the next point. True: vm_run() shall end here. */
+	bool (*at_point)(struct vm *vm, uint32_t words);
+	uint32_t resume;       /* word of the section where vm_run() begins; 0: at the
+				* beginning. Where it ended with FAULT_PAUSED. */
+	uint32_t called;       /* words of CODE_TEXT of all programs that were called; wraps */
 };
 
 /**
@@ -43,7 +48,8 @@ struct vm {
  * @watch: run the instrumented section
  *
  * Scan-safe: yes; at most vm->budget instructions, no recursion.
- * Fails: FAULT_BUDGET; the image holds what was written until then.
+ * Fails: FAULT_BUDGET; the image holds what was written until then. FAULT_PAUSED: at_point()
+ * wants it; vm->resume tells where the next call goes on.
  */
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
 

@@ -996,7 +996,7 @@ static bool end_recorded(struct resource *resource, int64_t now_ns)
 	return true;
 }
 
-static const struct interrupts by_record = { asks_record, begin_recorded, end_recorded };
+static const struct interrupts by_record = { asks_record, begin_recorded, end_recorded, NULL };
 
 /* Copies of the twin interrupt nothing. */
 static void scan_recorded(struct playback *playback)

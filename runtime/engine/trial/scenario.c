@@ -5,6 +5,7 @@
  */
 #include "engine/trial/scenario.h"
 
+#include "engine/trial/pace.h"
 #include "engine/trial/value.h"
 
 #include <string.h>
@@ -35,7 +36,7 @@ static void scan(struct run *run)
 {
 	if (run->plant)
 		plant_scan(run->plant, &run->resource->image, run->now_ns);
-	resource_scan(run->resource, run->now_ns);
+	pace_scan(run->resource, run->now_ns, run->scenario->period_ns);
 }
 
 /* An earlier scan, with the variables of @formula. */
@@ -285,6 +286,7 @@ bool scenario_run(const struct scenario_file *file, int index,
 
 	open_steps(run.scenario);
 	run.scenario->failed_line = 0;
+	pace_set(resource, run.scenario->speed);
 	resource_start(resource);
 	if (run.scenario->with_plant && plant) {
 		run.plant = plant;
@@ -331,10 +333,11 @@ bool scenario_each_act(const struct scenario_file *file, int index, struct twin 
 {
 	const struct scenario *scenario = &file->scenario[index];
 	const struct act period = { .kind = ACT_PERIOD, .value.i = scenario->period_ns };
+	const struct act speed = { .kind = ACT_SPEED, .value.i = (int64_t)scenario->speed };
 	const struct act start = { .kind = ACT_START };
 	int next = 0;
 
-	if (!twin_act(twin, &period) || !twin_act(twin, &start))
+	if (!twin_act(twin, &period) || !twin_act(twin, &speed) || !twin_act(twin, &start))
 		return false;
 	while (twin->scan < scans) {
 		const uint64_t before = twin->scan;

@@ -4,6 +4,7 @@
  *
  *   scenario "stop wins over start"        # any number in a file
  *     period 10ms                          # if not said: of the tasks, or 10ms
+ *     speed 500                            # words of instructions a millisecond
  *     plant "door.plant.rung"              # before the first scenario: of all
  *     at 0ms     Open = 1, Stop = 0        # before the first scan at t >= 0
  *     at 20ms    expect Motor = 1          # checked after that scan
@@ -65,6 +66,7 @@ struct scenario {
 	const char *name;        /* in the arena, without its quotes          */
 	int line;
 	int64_t period_ns;       /* 0: not given yet                          */
+	uint64_t speed;          /* of the board, words a millisecond; 0: scans take no time */
 	bool with_plant;         /* it runs with the plant of its file        */
 	struct scenario_step *step;
 	int step_count;

@@ -4,6 +4,7 @@
  * on.
  */
 #include "engine/scan/task.h"
+#include "engine/trial/pace.h"
 #include "engine/trial/scenario.h"
 #include "engine/trial/value.h"
 
@@ -367,6 +368,27 @@ static bool take_period(struct reader *reader)
 	return true;
 }
 
+static bool take_speed(struct reader *reader)
+{
+	const struct token *token = &reader->lex.token;
+	struct scenario *scenario = reader->scenario;
+	uint64_t speed = 0;
+
+	if (scenario->speed)
+		return complain(reader, DIAG_SPEED_TWICE, "");
+	for (size_t i = 0; i < token->len && speed <= PACE_SPEED_MOST; i++) {
+		if (token->text[i] < '0' || token->text[i] > '9')
+			return complain(reader, DIAG_EXPECTED, "words a millisecond, such as 500");
+		speed = speed * 10 + (uint64_t)(token->text[i] - '0');
+	}
+	if (!speed || speed > PACE_SPEED_MOST)
+		return token->kind == TOKEN_NUMBER ? complain_here(reader, DIAG_LITERAL_RANGE) :
+		       complain(reader, DIAG_EXPECTED, "words a millisecond, such as 500");
+	scenario->speed = speed;
+	step_over(reader);
+	return true;
+}
+
 /* The plant is loaded already; the statement says which scenarios use it. */
 static bool take_plant(struct reader *reader)
 {
@@ -460,6 +482,8 @@ static bool take_statement(struct reader *reader)
 		       complain(reader, DIAG_EXPECTED, "scenario \"name\"");
 	if (accept(reader, "period"))
 		return take_period(reader);
+	if (accept(reader, "speed"))
+		return take_speed(reader);
 	if (accept(reader, "at"))
 		return take_at(reader);
 	if (accept(reader, "always"))

@@ -4,6 +4,7 @@
  * to run it.
  */
 #include "engine/trial/script.h"
+#include "engine/trial/pace.h"
 #include "engine/trial/twin.h"
 #include "engine/trial/value.h"
 
@@ -193,7 +194,7 @@ static bool scan(struct script *script)
 
 	if (plant)
 		plant_scan(plant, &script->resource->image, script->now_ns);
-	return resource_scan(script->resource, script->now_ns) &&
+	return pace_scan(script->resource, script->now_ns, script->resource->period_ns) &&
 	       (!plant || plant->resource.state != STATE_FAULT);
 }
 
@@ -312,6 +313,28 @@ static bool set_period(struct script *script, struct script_word head)
 	return true;
 }
 
+/* 0: scans take no time. */
+static bool set_speed(struct script *script, struct script_word head)
+{
+	struct diag place = place_of(script, head.text);
+	struct script_word word;
+	uint64_t speed = 0;
+
+	place.id = DIAG_EXPECTED;
+	if (!next_word(script, &word))
+		return diag_add(script->diags, place, "words a millisecond after @speed");
+	for (size_t i = 0; i < word.len && speed <= PACE_SPEED_MOST; i++) {
+		if (word.text[i] < '0' || word.text[i] > '9')
+			return complain(script, DIAG_BAD_LITERAL, word);
+		speed = speed * 10 + (uint64_t)(word.text[i] - '0');
+	}
+	if (speed > PACE_SPEED_MOST)
+		return complain(script, DIAG_LITERAL_RANGE, word);
+	if (!script->dry)
+		pace_set(script->resource, speed);
+	return true;
+}
+
 static void echo(struct script *script)
 {
 	while (script->at < script->end && *script->at == ' ')
@@ -336,6 +359,8 @@ static bool directive(struct script *script)
 	}
 	if (is_word(head, "@period"))
 		good = set_period(script, head);
+	else if (is_word(head, "@speed"))
+		good = set_speed(script, head);
 	else if (is_word(head, "@warm") || is_word(head, "@reset"))
 		good = script->dry || restart(script, is_word(head, "@warm")) ||
 		       complain(script, DIAG_NO_MEMORY, head);

@@ -24,6 +24,7 @@ struct noted {
 struct session {
 	const struct image *image;
 	int64_t period_ns;
+	uint64_t speed;    /* words a millisecond; 0: scans take no time         */
 	const char *plant; /* file; NULL: none                                  */
 	struct noted *noted;
 	int count, room, expects;
@@ -48,6 +49,11 @@ void session_free(struct session *session)
 		free(session->noted[i].text);
 	free(session->noted);
 	free(session);
+}
+
+void session_speed(struct session *session, uint64_t speed)
+{
+	session->speed = speed;
 }
 
 void session_plant(struct session *session, const char *name)
@@ -198,6 +204,7 @@ static bool session_can_hold(const struct session *session, uint64_t after,
 	case ACT_SET: return true;
 	case ACT_START: return after == 0 && session->count == 0;
 	case ACT_PERIOD: return act->value.i == session->period_ns;
+	case ACT_SPEED: return (uint64_t)act->value.i == session->speed;
 	case ACT_FORCE: case ACT_RELEASE: case ACT_RELEASE_ALL: case ACT_WARM: case ACT_STOP:
 		break;
 	}
@@ -310,6 +317,8 @@ bool session_write(const struct session *session, const char *name,
 	sink_text(out, "scenario \"");
 	write_name(name, out);
 	sink_printf(out, "\"\n  period %s\n", period + 2); /* T# */
+	if (session->speed)
+		sink_printf(out, "  speed %llu\n", (unsigned long long)session->speed);
 	if (session->plant) {
 		sink_text(out, "  plant \"");
 		write_name(session->plant, out);

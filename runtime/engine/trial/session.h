@@ -25,6 +25,8 @@ void session_free(struct session *session);
 /** session_plant - names the plant of the session; @name: its file, relative to the
  * scenario file; borrowed as long as the session. */
 void session_plant(struct session *session, const char *name);
+/** session_speed - the board's speed in the session, as ACT_SPEED has it; 0 at first. */
+void session_speed(struct session *session, uint64_t speed);
 /** session_act - adds @act, done after scan @after, which is not before that of an
  * earlier call. Fails: false: session_can_hold() is false, the variable has no name, no
  * memory. */

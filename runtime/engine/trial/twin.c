@@ -6,6 +6,7 @@
 
 #include "engine/scan/carry.h"
 #include "engine/scan/retain.h"
+#include "engine/trial/pace.h"
 #include "engine/trial/plant.h"
 
 #include <stdlib.h>
@@ -106,14 +107,31 @@ static bool change(struct twin *twin, const struct twin *from, struct arena *are
 	return true;
 }
 
+/* The state of @from after the scan that stands. */
+static bool change_finished(struct twin *twin, const struct twin *from, struct arena *arena)
+{
+	struct twin *finished = malloc(sizeof(*finished));
+	bool good = finished && twin_clone(finished, from);
+
+	if (good) {
+		pace_finish(&finished->resource);
+		good = change(twin, finished, arena);
+		twin_free(finished);
+	}
+	free(finished);
+	return good;
+}
+
 bool twin_change(struct twin *twin, const struct twin *from)
 {
 	struct arena arena;
 	bool good;
 
 	arena_init(&arena);
-	good = change(twin, from, &arena);
+	good = from->resource.standing ? change_finished(twin, from, &arena) :
+					 change(twin, from, &arena);
 	arena_free(&arena);
+	pace_set(&twin->resource, from->resource.pace.speed);
 	twin->resource.watch = from->resource.watch;
 	twin->now_ns = from->now_ns;
 	twin->period_ns = from->period_ns;
@@ -237,6 +255,14 @@ static bool set_period(struct twin *twin, int64_t ns)
 	return true;
 }
 
+static bool set_speed(struct twin *twin, int64_t speed)
+{
+	if (speed < 0 || (uint64_t)speed > PACE_SPEED_MOST)
+		return false;
+	pace_set(&twin->resource, (uint64_t)speed);
+	return true;
+}
+
 bool twin_act(struct twin *twin, const struct act *act)
 {
 	struct image *image = act->plant ? &twin->plant.image : &twin->resource.image;
@@ -252,6 +278,7 @@ bool twin_act(struct twin *twin, const struct act *act)
 	case ACT_WARM: return start(twin, true);
 	case ACT_STOP: stop(twin); return true;
 	case ACT_PERIOD: return set_period(twin, act->value.i);
+	case ACT_SPEED: return !act->plant && set_speed(twin, act->value.i);
 	}
 	return false;
 }
@@ -272,7 +299,7 @@ bool twin_scan(struct twin *twin)
 	if (has_plant(twin))
 		plant_turn(&twin->plant, twin->plant_drives, &resource->image,
 			   twin->now_ns);
-	resource_scan(resource, twin->now_ns);
+	pace_scan(resource, twin->now_ns, twin->period_ns);
 	if (resource->state == STATE_FAULT)
 		twin_outputs_safe(twin);
 	return resource->state == STATE_RUN;

@@ -23,6 +23,7 @@ enum act_kind {
 			  * only the controller lost power */
 	ACT_STOP,        /* to STOP: outputs are safe                         */
 	ACT_PERIOD,      /* value.i ns from now on                            */
+	ACT_SPEED,       /* value.i words a millisecond from now on; 0: scans take no time */
 };
 struct act {
 	enum act_kind kind;
@@ -64,7 +65,7 @@ void twin_copy(struct twin *twin, const struct twin *from);
  * the state of @from (scan/carry.h); so does its plant, if both have one
  * @twin: just initialised @from: does not change
  *
- * Between two scans. A record of @from cannot continue.
+ * Between two scans; one that stands is finished first. A record of @from cannot continue.
  * Owns: nothing. Scan-safe: no. Fails: false: no memory; free @twin.
  */
 bool twin_change(struct twin *twin, const struct twin *from);
@@ -93,6 +94,7 @@ void twin_outputs_safe(struct twin *twin);
 /**
  * twin_scan - advances time by a period: the plant runs once, then the program
  *
+ * With a speed a scan may take several periods (trial/pace.h): then not each call begins one.
  * Does nothing unless the program is in RUN. After a FAULT outputs are safe. Scan-safe:
  * as resource_scan().
  * Fails: false: it is not in RUN now. A scan that ends in FAULT or STOP counts.

@@ -158,7 +158,7 @@ static void test_record(void)
 	CHECK(result && result->outcome == SCENARIO_FAILED && result->line == 6 &&
 	      result->scan == 7);
 	CHECK_TEXT(result->why, "at 70 ms: not true: at 70ms       expect Late = 0");
-	CHECK(ladder_sim_play(sim, result->period_ns, result->acts, result->scan, NULL));
+	CHECK(ladder_sim_play(sim, result->period_ns, result->speed, result->acts, result->scan, NULL));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 7 && ladder_sim_state(sim) == SIM_PAUSE);
 	CHECK(value("Late") == 1 && value("Start") == 0 &&
 	      value("Delay.ET") == G_GINT64_CONSTANT(50000000));
@@ -228,7 +228,7 @@ static void test_unread(void)
 		     "  at 30ms expect Label = 'abd'\n");
 	CHECK(result->outcome == SCENARIO_FAILED && result->scan == 3 &&
 	      result->acts->len == 2);
-	CHECK(ladder_sim_play(sim, result->period_ns, result->acts, result->scan, NULL));
+	CHECK(ladder_sim_play(sim, result->period_ns, result->speed, result->acts, result->scan, NULL));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 3);
 	CHECK(value("Level") == 7);
 	CHECK(image_get(&ladder_sim_twin(sim)->resource.image, place("Label")).s->length == 3);
@@ -255,7 +255,7 @@ static void test_plant(void)
 		printf("# %d: %s\n", result->line, result->why);
 	CHECK(g_strcmp0(result->plant, path) == 0);
 	CHECK(ladder_sim_set_plant(sim, result->plant, NULL));
-	CHECK(ladder_sim_play(sim, result->period_ns, result->acts, result->scan, NULL));
+	CHECK(ladder_sim_play(sim, result->period_ns, result->speed, result->acts, result->scan, NULL));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 3);
 	CHECK(ladder_sim_show(sim, 2) && value("Stop") == 1 && value("Motor") == 0);
 	begin_paused();

@@ -256,7 +256,7 @@ static void test_stale(void)
 		"RUNGBOARD 1\n\nVAR\n  Near : INT := 5;\nEND_VAR\n\nPROGRAM Main LD\n"
 		"RUNG\n  | --- | [ Near := Near ] |\nEND_PROGRAM\n";
 	struct sim_program *old = program_of(sample), *new = program_of(other);
-	struct sim_thread *thread = sim_thread_new(old, NULL, SIM_PERIOD, nothing_to_do,
+	struct sim_thread *thread = sim_thread_new(old, NULL, SIM_PERIOD, 0, nothing_to_do,
 						   NULL);
 	struct sim_source *source = sim_thread_source(thread);
 	struct sim_view view = { .program = NULL };
@@ -383,7 +383,7 @@ static void test_heeds(void)
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
 	g_clear_pointer(&told, g_free);
-	CHECK(ladder_sim_play(sim, SIM_PERIOD, acts, 5, NULL));
+	CHECK(ladder_sim_play(sim, SIM_PERIOD, 0, acts, 5, NULL));
 	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
 	g_clear_pointer(&told, g_free);

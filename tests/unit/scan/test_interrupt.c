@@ -8,6 +8,7 @@
  * be seen must be the same after each scan and at each interruption.
  */
 #include "engine/scan/interrupt.h"
+#include "engine/trial/pace.h"
 #include "tests/unit/rig.h"
 
 #include <stdarg.h>
@@ -239,7 +240,7 @@ static struct seen engine_sees(const struct set *plan)
 static bool asks(struct resource *resource, int64_t *now_ns)
 {
 	struct saved *at = &saved[saved_count];
-	const uint32_t task = resource->running;
+	const uint32_t task = resource->run[resource->level].task;
 
 	if (saved_count == SAVED || any(hurry))
 		return false;
@@ -269,7 +270,7 @@ static bool end(struct resource *resource, int64_t now_ns)
 	return true;
 }
 
-static const struct interrupts at_random = { asks, begin, end };
+static const struct interrupts at_random = { asks, begin, end, NULL };
 
 /* ---- the model ---- */
 
@@ -501,25 +502,17 @@ static bool agree(const struct set *plan, int scans)
 	return true;
 }
 
-static bool try_seed(uint64_t seed, bool watch)
+static bool open_plan(const struct set *plan, bool watch)
 {
-	static struct set plan;
-	bool good;
+	static char whole[sizeof(file) + 16];
 
-	state = seed * 77777 + 1;
-	make_plan(&plan);
-	put_plan(&plan);
-	hurry = 1 + any(4);
+	put_plan(plan);
 	memset(&rig, 0, sizeof(rig));
 	rig.ladder = ladder_new();
 	ladder_watch(rig.ladder, watch);
-	{
-		static char whole[sizeof(file) + 16];
-
-		snprintf(whole, sizeof(whole), "RUNGBOARD 1\n%s", file);
-		rig.good = ladder_load_text(rig.ladder, "pair.rung", whole, strlen(whole)) &&
-			   ladder_build(rig.ladder);
-	}
+	snprintf(whole, sizeof(whole), "RUNGBOARD 1\n%s", file);
+	rig.good = ladder_load_text(rig.ladder, "pair.rung", whole, strlen(whole)) &&
+		   ladder_build(rig.ladder);
 	if (!rig.good) {
 		rig_say_why(rig.ladder);
 		ladder_free(rig.ladder);
@@ -528,10 +521,23 @@ static bool try_seed(uint64_t seed, bool watch)
 	rig.memory = calloc(1, image_memory_size(ladder_program(rig.ladder)));
 	resource_init(&rig.resource, ladder_program(rig.ladder), rig.memory);
 	rig.resource.watch = watch;
-	rig.resource.interrupts = &at_random;
 	rig.resource.period_ns = RIG_PERIOD;
 	resource_start(&rig.resource);
-	find_places(&plan);
+	find_places(plan);
+	return true;
+}
+
+static bool try_seed(uint64_t seed, bool watch)
+{
+	static struct set plan;
+	bool good;
+
+	state = seed * 77777 + 1;
+	make_plan(&plan);
+	hurry = 1 + any(4);
+	if (!open_plan(&plan, watch))
+		return false;
+	rig.resource.interrupts = &at_random;
 	good = agree(&plan, 30);
 	rig_close(&rig);
 	return good;
@@ -553,6 +559,159 @@ static void random_tasks(void)
 	CHECK_AS(wrong == 0, "the engine and the model agree after every scan");
 	CHECK_AS(interruptions > (uint64_t)count && nested > (uint64_t)count / 10,
 		 "there were interruptions, some of them nested");
+}
+
+/* ---- the same in virtual time, with a speed ---- */
+
+enum { PERIODS = 60 };
+/* Where a period ended in a scan and tasks of higher priority began; a whole scan. */
+struct cut { uint64_t scans; uint32_t points; int64_t now; uint8_t in; };
+struct whole { int64_t now; uint8_t in; struct seen seen; uint64_t interrupted; };
+static struct cut cut[PERIODS];
+static struct whole whole_scan[PERIODS];
+static int cuts, next_cut, wholes;
+static bool inputs_stay = true;
+static uint64_t cuts_of_all;
+
+static uint64_t all_interrupted(void)
+{
+	uint64_t sum = 0;
+
+	for (int t = 0; t < TASKS; t++)
+		sum += rig.resource.tasks.state[t].interrupted;
+	return sum;
+}
+
+/* What a scan that stands will do in a period that begins at @now. */
+static void foresee_cut(int64_t now, uint8_t in)
+{
+	const struct resource *resource = &rig.resource;
+	const struct program *program = resource->image.program;
+	const struct paced *pace = &resource->pace;
+
+	if (!resource->standing || pace->owed >= pace->speed)
+		return;
+	now += (int64_t)(pace->owed * (uint64_t)MS / pace->speed);
+	if (tasks_may_begin(&resource->tasks, program,
+			    tasks_above(program, resource->run[resource->level - 1].task), now))
+		cut[cuts++] = (struct cut){ resource->scans, resource->vm.points, now, in };
+}
+
+/* Runs in periods of 1 ms, and notes what happened. */
+static void run_paced(const struct set *plan, uint64_t speed)
+{
+	struct resource *resource = &rig.resource;
+
+	cuts = wholes = 0;
+	pace_set(resource, speed);
+	for (int64_t now = MS; now <= PERIODS * MS && resource->state == STATE_RUN; now += MS) {
+		const uint64_t before = resource->scans;
+		const uint8_t in = (uint8_t)any(256);
+
+		image_area(&resource->image, AREA_I)[0] = in;
+		if (!resource->standing && !resource->pace.owed)
+			whole_scan[wholes] = (struct whole){ .now = now, .in = in };
+		foresee_cut(now, in);
+		pace_scan(resource, now, MS);
+		inputs_stay &= image_area(&resource->image, AREA_I)[0] == in;
+		if (resource->scans == before || resource->state != STATE_RUN)
+			continue;
+		whole_scan[wholes].interrupted = all_interrupted();
+		whole_scan[wholes++].seen = engine_sees(plan);
+	}
+}
+
+static bool asks_as_cut(struct resource *resource, int64_t *now_ns)
+{
+	const struct cut *at = &cut[next_cut];
+
+	if (next_cut == cuts || at->scans != resource->scans || at->points != resource->vm.points)
+		return false;
+	*now_ns = at->now;
+	return true;
+}
+
+static bool begin_as_cut(struct resource *resource, int64_t now_ns)
+{
+	(void)now_ns;
+	image_area(&resource->image, AREA_I)[0] = cut[next_cut++].in;
+	return true;
+}
+
+static const struct interrupts as_cut = { asks_as_cut, begin_as_cut, NULL, NULL };
+
+/* The inputs at the end of a scan are those of its begin for a board; in virtual time they are
+ * those that came from outside. */
+static bool same_seen(const struct seen *a, struct seen b)
+{
+	b.i = a->i;
+	return memcmp(a, &b, sizeof(b)) == 0;
+}
+
+static bool run_cut(const struct set *plan)
+{
+	struct resource *resource = &rig.resource;
+
+	next_cut = 0;
+	resource->interrupts = &as_cut;
+	for (int i = 0; i < wholes; i++) {
+		image_area(&resource->image, AREA_I)[0] = whole_scan[i].in;
+		resource->vm.ask = 1;
+		if (!resource_scan(resource, whole_scan[i].now) ||
+		    !same_seen(&whole_scan[i].seen, engine_sees(plan)) ||
+		    whole_scan[i].interrupted != all_interrupted()) {
+			printf("# scan %d differs\n", i + 1);
+			return false;
+		}
+	}
+	return true;
+}
+
+/* A board that is interrupted where the periods end gets the same values. With and without
+ * power flow the periods end at the same points. */
+static bool try_speed(uint64_t seed)
+{
+	static struct set plan;
+	static struct cut other[PERIODS];
+	uint64_t speed;
+	bool good = true;
+
+	state = seed * 99991 + 3;
+	make_plan(&plan);
+	speed = 10 + any(150);
+	for (int watch = 0; watch < 2 && good; watch++) {
+		state = seed;
+		if (!open_plan(&plan, watch))
+			return false;
+		memset(cut, 0, sizeof(cut));
+		run_paced(&plan, speed);
+		rig_close(&rig);
+		good = watch == 0 || memcmp(other, cut, sizeof(cut)) == 0;
+		memcpy(other, cut, sizeof(cut));
+	}
+	if (!good || !open_plan(&plan, false))
+		return false;
+	good = run_cut(&plan);
+	cuts_of_all += (uint64_t)cuts;
+	rig_close(&rig);
+	return good;
+}
+
+static void random_speeds(void)
+{
+	const int count = tap_rounds(600);
+	int wrong = 0;
+
+	for (int seed = 1; seed <= count && wrong < 3; seed++)
+		if (!try_speed((uint64_t)seed)) {
+			printf("# seed %d:\n%s\n", seed, file);
+			wrong++;
+		}
+	printf("# %d sets of tasks, %llu periods that began in a scan\n", count,
+	       (unsigned long long)cuts_of_all);
+	CHECK_AS(wrong == 0, "virtual time with a speed gives the values of a board");
+	CHECK_AS(inputs_stay, "after each period the inputs are those from outside");
+	CHECK_AS(cuts_of_all > (uint64_t)count, "tasks interrupted others");
 }
 
 /* ---- one interruption at each safe point ---- */
@@ -586,7 +745,7 @@ static bool end_always(struct resource *resource, int64_t now_ns)
 	return writes;
 }
 
-static const struct interrupts at_each = { asks_always, begin_always, end_always };
+static const struct interrupts at_each = { asks_always, begin_always, end_always, NULL };
 
 /* Slow loops 20 times; each round begins with a safe point. */
 static bool open_pair(const char *fast)
@@ -713,7 +872,7 @@ static bool asks_deeper(struct resource *resource, int64_t *now_ns)
 
 static void depth(void)
 {
-	static const struct interrupts deeper = { asks_deeper, begin_always, end_always };
+	static const struct interrupts deeper = { asks_deeper, begin_always, end_always, NULL };
 	static char text[4096];
 	size_t at = 0;
 
@@ -748,5 +907,6 @@ int main(void)
 	stops();
 	times();
 	random_tasks();
+	random_speeds();
 	return tap_done();
 }

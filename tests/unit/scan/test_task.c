@@ -179,8 +179,9 @@ static void keeps_an_event(void)
 /* Each read of this clock advances it by the test's number. */
 static int64_t clock_ns, clock_step;
 
-static int64_t slow_clock(void)
+static int64_t slow_clock(const struct resource *resource)
 {
+	(void)resource;
 	return clock_ns += clock_step;
 }
 

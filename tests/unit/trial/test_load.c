@@ -33,12 +33,12 @@ static struct load load;
 static int64_t idle_ns;
 
 /* Each run took its time when it is taken. */
-static int64_t clock_of_runs(void)
+static int64_t clock_of_runs(const struct resource *resource)
 {
 	int64_t now_ns = idle_ns;
 
 	for (int i = 0; i < TASKS; i++)
-		now_ns += (int64_t)rig.resource.tasks.state[i].runs * load.task[i].run_ns;
+		now_ns += (int64_t)resource->tasks.state[i].runs * load.task[i].run_ns;
 	return now_ns;
 }
 
@@ -54,14 +54,14 @@ static void run_board(int64_t end_ns, uint64_t *skipped)
 	resource->tick_ns = load.tick_ns;
 	resource->clock_ns = clock_of_runs;
 	while (due_ns < end_ns) {
-		idle_ns += due_ns - clock_of_runs();
+		idle_ns += due_ns - clock_of_runs(resource);
 		resource->due_ns = due_ns;
 		rig_set(&rig, "Idle", 100); /* one round of its loop */
 		resource_scan(resource, due_ns);
 		due_ns += load.tick_ns;
-		if (clock_of_runs() < due_ns)
+		if (clock_of_runs(resource) < due_ns)
 			continue;
-		missed = (clock_of_runs() - due_ns) / load.tick_ns + 1;
+		missed = (clock_of_runs(resource) - due_ns) / load.tick_ns + 1;
 		due_ns += missed * load.tick_ns;
 		*skipped += (uint64_t)missed;
 	}

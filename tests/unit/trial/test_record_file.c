@@ -77,8 +77,9 @@ static int64_t board_clock_ns;
 static struct random_source board_clock_source;
 
 /* Some tasks take long, so that others of higher priority cut the cycle. */
-static int64_t board_clock(void)
+static int64_t board_clock(const struct resource *resource)
 {
+	(void)resource;
 	board_clock_ns += random_chance(&board_clock_source, 20) ?
 			  (int64_t)random_below(&board_clock_source, 20000000) : 1000;
 	return board_clock_ns;
@@ -271,7 +272,7 @@ static bool end(struct resource *resource, int64_t now_ns)
 	return true;
 }
 
-static const struct interrupts at_random = { asks, begin, end };
+static const struct interrupts at_random = { asks, begin, end, NULL };
 
 static void fail(enum fault fault)
 {
