@@ -681,9 +681,9 @@ valgrind-editor: all ## scripts of the editor under valgrind: lost and uninitial
 # Scripts that use the editor mostly wait for it. So more tests run at once than there are processors, and each
 # script runs beside a test that computes. The longest tests are first.
 JOBS     ?= $$(($$(nproc) * 2))
-LONGEST  := tests/arm.sh tests/compilers.sh
+LONGEST  := tests/arm.sh $(BIN)/sfc_differential $(BIN)/differential tests/push.t tests/compilers.sh
 COMPUTING := $(sort $(filter-out $(LONGEST) $(EDITOR_PERSON),$(TESTS_T) $(TESTS_SH) tests/small.sh)) \
-            $(TESTS_BIN:$(BUILD)/%=$(ASAN)/%) $(filter-out $(BIN)/exhaustion,$(TESTS_BIN)) $(BIN)/exhaustion
+            $(TESTS_BIN:$(BUILD)/%=$(ASAN)/%) $(filter-out $(LONGEST) $(BIN)/exhaustion,$(TESTS_BIN)) $(BIN)/exhaustion
 in_turn   = $(subst |, ,$(join $(addsuffix |,$(1)),$(2)))
 IN_ORDER  = $(LONGEST) $(call in_turn,$(EDITOR_PERSON),$(filter-out $(ASAN)/%/exhaustion,$(COMPUTING))) \
             $(filter-out $(TESTS_BIN),$(BUILT)) $(filter-out $(COMPUTING),$(ASAN_RUN))
