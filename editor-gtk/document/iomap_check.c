@@ -204,6 +204,17 @@ static void place(struct io_check *check, int index, const struct io_machine *ma
 		check_twice(check, index);
 }
 
+/* A safe value belongs to each output, so each one without is told. */
+static void check_safe(struct io_check *check, const struct io_point *point)
+{
+	char address[24];
+
+	if (!point->output || point->has_safe)
+		return;
+	iec_addr_print(point->addr, address, sizeof(address));
+	diag_add(&check->doubts, io_place(&check->map, point, DIAG_IO_NO_SAFE), "%s", address);
+}
+
 struct io_check *io_check_new(const char *text, size_t len, const struct areas *areas,
 			      const struct io_machine *machine, const char *dev)
 {
@@ -213,6 +224,7 @@ struct io_check *io_check_new(const char *text, size_t len, const struct areas *
 		return NULL;
 	arena_init(&check->arena);
 	diag_init(&check->errors);
+	diag_init(&check->doubts);
 	diag_init(&check->here);
 	if (!iomap_read(&check->map, &check->arena, "", text, len, &check->errors))
 		read_good(check, text, len);
@@ -224,6 +236,7 @@ struct io_check *io_check_new(const char *text, size_t len, const struct areas *
 	}
 	for (int i = 0; i < check->map.count; i++) {
 		check->placed[i] = (struct io_placed){ &check->map.point[i], -1 };
+		check_safe(check, check->placed[i].point);
 		place(check, i, machine, dev);
 	}
 	return check;
@@ -246,12 +259,14 @@ static const struct diag *diag_at(const struct diag_list *list, int line)
 	return NULL;
 }
 
-const struct diag *io_check_at(const struct io_check *check, int line, bool *here)
+const struct diag *io_check_at(const struct io_check *check, int line, bool *warns)
 {
-	const struct diag *error = diag_at(&check->errors, line);
+	const struct diag *said = diag_at(&check->errors, line);
 
-	*here = !error;
-	return error ? error : diag_at(&check->here, line);
+	*warns = !said;
+	if (!said)
+		said = diag_at(&check->doubts, line);
+	return said ? said : diag_at(&check->here, line);
 }
 
 const struct io_placed *io_check_point(const struct io_check *check, int line)

@@ -44,6 +44,7 @@ struct io_check {
 	struct iomap map;          /* of the lines without errors              */
 	struct io_placed *placed;  /* of map.point                             */
 	struct diag_list errors;   /* of the text: they hold on every machine  */
+	struct diag_list doubts;   /* of the text: outputs without safe= (LD030) */
 	struct diag_list here;     /* of this machine only                     */
 };
 
@@ -56,9 +57,9 @@ struct io_check {
 struct io_check *io_check_new(const char *text, size_t len, const struct areas *areas,
 			      const struct io_machine *machine, const char *dev);
 void io_check_free(struct io_check *check);
-/** io_check_at - the first message of a line (1-based), errors of the text first; NULL:
- * none. @here: gets whether it is about this machine. */
-const struct diag *io_check_at(const struct io_check *check, int line, bool *here);
+/** io_check_at - the first message of a line (1-based): an error of the text, a doubt, one about
+ * this machine; NULL: none. @warns: gets whether it is no error of the text. */
+const struct diag *io_check_at(const struct io_check *check, int line, bool *warns);
 /** io_check_point - the point of a line of the text; NULL: the line has errors. */
 const struct io_placed *io_check_point(const struct io_check *check, int line);
 

@@ -424,9 +424,17 @@ void panel_list_init(struct panel_list *list, GtkColumnView *view)
 	across_changed(list);
 }
 
+void panel_list_follow(struct panel_list *list, GCallback changed, gpointer owner)
+{
+	list->followed = g_signal_connect_swapped(list->selection, "notify::selected-item",
+						  changed, owner);
+}
+
 void panel_list_clear(struct panel_list *list)
 {
 	g_clear_handle_id(&list->fit, g_source_remove);
+	if (list->selection)
+		g_clear_signal_handler(&list->followed, list->selection);
 	if (list->across)
 		g_signal_handlers_disconnect_by_data(list->across, list);
 	g_clear_object(&list->across);
@@ -471,7 +479,7 @@ void panel_list_update(struct panel_list *list, GPtrArray *rows)
 
 LadderPanelRow *panel_list_row(struct panel_list *list)
 {
-	return list->selection ? gtk_single_selection_get_selected_item(list->selection) : NULL;
+	return gtk_single_selection_get_selected_item(list->selection);
 }
 
 void panel_list_go(struct panel_list *list, guint at)

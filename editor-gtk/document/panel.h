@@ -25,6 +25,7 @@ struct panel_list {
 	GtkAdjustment *across; /* of it                                        */
 	int page;              /* px that it shows; 0: unknown                 */
 	guint fit;             /* sets the widths when it elapses              */
+	gulong followed;       /* panel_list_follow(); 0: not                  */
 };
 
 enum panel_column_flag {
@@ -50,6 +51,9 @@ enum panel_column_flag {
  * panel_list_clear(). */
 void panel_list_init(struct panel_list *list, GtkColumnView *view);
 void panel_list_clear(struct panel_list *list);
+/** panel_list_follow - calls @changed(@owner, …) when another row is selected, once for each list,
+ * until panel_list_clear(): the view may live a little longer than its owner and select rows. */
+void panel_list_follow(struct panel_list *list, GCallback changed, gpointer owner);
 /** panel_list_column - adds a column of labels.
  * @name: translated; @width: px, 0: natural. More for longer texts; less in a narrow list, but
  * not less than its texts need. Returns it, borrowed. */

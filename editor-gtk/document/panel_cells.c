@@ -241,11 +241,11 @@ static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
 	GtkWidget *table = gtk_widget_get_ancestor(cell, GTK_TYPE_COLUMN_VIEW);
+	GtkSelectionModel *rows = table ? gtk_column_view_get_model(GTK_COLUMN_VIEW(table)) : NULL;
 
-	if (table)
-		gtk_single_selection_set_selected(GTK_SINGLE_SELECTION(
-			gtk_column_view_get_model(GTK_COLUMN_VIEW(table))),
-			gtk_list_item_get_position(item));
+	if (rows) /* none while the table goes */
+		gtk_single_selection_set_selected(GTK_SINGLE_SELECTION(rows),
+						  gtk_list_item_get_position(item));
 }
 
 bool panel_cells_commit(GtkColumnView *view)

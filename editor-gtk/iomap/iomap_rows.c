@@ -21,7 +21,7 @@ char *iomap_field(const struct io_text *io, int row, enum io_field field)
 	return out;
 }
 
-/* The error of the row, else its line on this machine. */
+/* What is wrong with the row, else its line on this machine. */
 static char *state_of(const struct io_machine *machine, const struct io_placed *placed,
 		      const struct diag *diag)
 {
@@ -37,12 +37,12 @@ static char *state_of(const struct io_machine *machine, const struct io_placed *
 	return g_strdup_printf("%s %u", found->chip, (unsigned)found->offset);
 }
 
-static void fill_note(LadderPanelRow *row, const struct diag *diag, bool here)
+static void fill_note(LadderPanelRow *row, const struct diag *diag, bool warns)
 {
 	if (!diag)
 		return;
 	row->note = diag_said_whole(diag);
-	row->tone = here ? PANEL_WARNING : PANEL_ERROR;
+	row->tone = warns ? PANEL_WARNING : PANEL_ERROR;
 }
 
 static char *spoken(const LadderPanelRow *row)
@@ -78,8 +78,8 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 	LadderPanelRow *row = ladder_panel_row_new();
 	const int line = io->row[number].line;
 	const struct io_placed *placed = check ? io_check_point(check, line) : NULL;
-	bool here = false;
-	const struct diag *diag = check ? io_check_at(check, line, &here) : NULL;
+	bool warns = false;
+	const struct diag *diag = check ? io_check_at(check, line, &warns) : NULL;
 
 	for (int i = 0; i < IO_FIELDS; i++)
 		row->text[i] = iomap_field(io, number, (enum io_field)i);
@@ -87,7 +87,7 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 	row->text[IOMAP_STATE] = state_of(machine, placed, diag);
 	row->index = number;
 	row->number = number;
-	fill_note(row, diag, here);
+	fill_note(row, diag, warns);
 	row->spoken = spoken(row);
 	return row;
 }
@@ -159,6 +159,23 @@ char *iomap_first_error(const struct io_check *check, const struct io_text *io, 
 		return text;
 	}
 	return NULL;
+}
+
+char *iomap_first_doubt(const struct io_check *check)
+{
+	const struct diag *first = check && check->doubts.count ? &check->doubts.diag[0] : NULL;
+	char *arg, *said, *text;
+
+	if (!first)
+		return NULL;
+	arg = check->doubts.count + check->doubts.dropped == 1 ? g_strdup(first->arg) :
+	      g_strdup_printf("%s" DIAG_AND "%d", first->arg,
+			      check->doubts.count + check->doubts.dropped - 1);
+	said = diag_said_of(first->id, arg);
+	text = g_strdup_printf(_("Line %d: %s"), first->line, said);
+	g_free(said);
+	g_free(arg);
+	return text;
 }
 
 /* ---- choices ---- */

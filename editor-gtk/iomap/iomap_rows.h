@@ -30,6 +30,9 @@ char *iomap_lacks(const struct io_uses *uses, const struct io_text *io);
 /** iomap_first_error - "Line 4: ..."; @all: also of lines that have a row. NULL: none.
  * Caller: g_free. */
 char *iomap_first_error(const struct io_check *check, const struct io_text *io, bool all);
+/** iomap_first_doubt - the first output without safe=, "Line 4: ...", and how many there are more.
+ * NULL: none. Caller: g_free. */
+char *iomap_first_doubt(const struct io_check *check);
 /** iomap_choices - the values of a field to choose from: pairs of a text and its description.
  * Caller: g_ptr_array_unref. */
 GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *machine,

@@ -364,6 +364,8 @@ static void find_said(LadderIomapView *view, const struct io_check *check,
 	g_free(view->said);
 	view->said = iomap_first_error(check, io, view->as_text);
 	view->said_wrong = view->said != NULL;
+	if (!view->said)
+		view->said = iomap_first_doubt(check);
 	if (!view->said && view->machine.diags.count)
 		view->said = diag_said_whole(&view->machine.diags.diag[0]);
 	else if (!view->said && !view->machine.count)
@@ -596,8 +598,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	gtk_widget_init_template(widget);
 	panel_list_init(&view->list, view->list.view);
 	add_columns(view);
-	g_signal_connect_object(view->list.selection, "notify::selected-item",
-				G_CALLBACK(show_message), view, G_CONNECT_SWAPPED);
+	panel_list_follow(&view->list, G_CALLBACK(show_message), view);
 	view->watch = panel_watch_new(widget, true, refresh);
 }
 

@@ -1113,6 +1113,8 @@ static void dispose(GObject *object)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(object);
 
+	if (panel->stack) /* its rows and its scrolling ask the panel */
+		gtk_list_view_set_model(GTK_LIST_VIEW(panel->list), NULL);
 	g_clear_handle_id(&panel->behind_timer, g_source_remove);
 	let_go(panel);
 	end_asking(panel);

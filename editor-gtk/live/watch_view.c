@@ -1107,6 +1107,8 @@ static void dispose(GObject *object)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	if (view->sim)
 		g_signal_handlers_disconnect_by_data(view->sim, view);
+	if (view->selection) /* the list may live a little longer and select rows */
+		g_signal_handlers_disconnect_by_data(view->selection, view);
 	g_clear_pointer(&view->popup, gtk_widget_unparent);
 	g_clear_pointer(&view->box, gtk_widget_unparent);
 	g_clear_object(&view->selection);

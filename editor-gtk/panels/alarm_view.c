@@ -61,22 +61,6 @@ static const char *class_text(uint8_t class)
 	return class < G_N_ELEMENTS(text) ? _(text[class]) : "?";
 }
 
-/* The board's own alarms in the language of this desk. */
-static const char *message_of(const struct alarm_row *row)
-{
-	static const char *const known[] = {
-		N_("variables are forced"), N_("retained values were lost"), N_("scans are late"),
-		N_("an input or output line does not answer"), N_("FAULT: outputs are safe"),
-		N_("a part of the list of alarms was damaged and is lost"),
-		N_("something that the board stores cannot be written to its disk"),
-	};
-
-	for (gsize i = 0; row->class == 0 && i < G_N_ELEMENTS(known); i++)
-		if (strcmp(row->text, known[i]) == 0)
-			return _(known[i]);
-	return row->text;
-}
-
 /* Texts come from programs: what is not printable is a question mark. */
 static char *printable(const char *text)
 {
@@ -121,7 +105,8 @@ static LadderPanelRow *row_new(LadderAlarmView *view, const struct alarm_row *al
 	row->text[COL_STATE] = g_strdup(state_text(alarm->state));
 	row->text[COL_CLASS] = g_strdup(class_text(alarm->class));
 	row->text[COL_BLOCK] = printable(alarm->name);
-	row->text[COL_MESSAGE] = printable(message_of(alarm));
+	/* the board's own in the language of this desk */
+	row->text[COL_MESSAGE] = printable(alarm->class ? alarm->text : said(alarm->text));
 	row->text[COL_WENT] = alarm->state == ALARM_EVENT ? g_strdup("") :
 			       time_text(view, alarm->went_ns);
 	row->text[COL_ACKED] = *who ? g_strdup_printf("%s %s", acked, who) : g_strdup(acked);
@@ -527,8 +512,7 @@ static void ladder_alarm_view_init(LadderAlarmView *view)
 	panel_list_column(&view->list, _("Went"), COL_WENT, 0, 150);
 	panel_list_column(&view->list, _("Acknowledged"), COL_ACKED, 0, 150);
 	panel_list_column(&view->list, _("Times"), COL_TIMES, 0, 60);
-	g_signal_connect_swapped(view->list.selection, "notify::selected",
-				 G_CALLBACK(show_buttons), view);
+	panel_list_follow(&view->list, G_CALLBACK(show_buttons), view);
 }
 
 GtkWidget *ladder_alarm_view_new(LadderSim *sim, LadderBoardLink *link)

@@ -324,8 +324,7 @@ static void ladder_report_view_init(LadderReportView *view)
 	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 76);
 	panel_list_add(&view->list, _("Message"), REPORT_TEXT, PANEL_EXPAND, 0, text_factory());
 	panel_list_column(&view->list, _("Here"), REPORT_HERE, PANEL_NUMBER, 104);
-	g_signal_connect_object(view->list.selection, "selection-changed",
-				G_CALLBACK(selected), view, G_CONNECT_SWAPPED);
+	panel_list_follow(&view->list, G_CALLBACK(selected), view);
 	view->picture = ladder_picture_view_new(draw, view);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(view->picture_place),
 				      view->picture);

@@ -635,8 +635,7 @@ static void ladder_symbols_view_init(LadderSymbolsView *view)
 	panel_message_init(&view->message, view->message.label);
 	add_columns(view);
 	fill_kinds(view);
-	g_signal_connect_object(view->list.selection, "notify::selected-item",
-				G_CALLBACK(show_kind), view, G_CONNECT_SWAPPED);
+	panel_list_follow(&view->list, G_CALLBACK(show_kind), view);
 	show_kind(view);
 	view->watch = panel_watch_new(widget, true, refresh);
 }

@@ -655,8 +655,7 @@ static void ladder_tasks_view_init(LadderTasksView *view)
 	panel_message_init(&view->message, view->message.label);
 	add_columns(view);
 	add_controllers(view);
-	g_signal_connect_object(view->list.selection, "notify::selected-item",
-				G_CALLBACK(show_actions), view, G_CONNECT_SWAPPED);
+	panel_list_follow(&view->list, G_CALLBACK(show_actions), view);
 	view->watch = panel_watch_new(widget, true, refresh);
 }
 

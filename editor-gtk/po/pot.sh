@@ -4,7 +4,7 @@
 # pot.sh - every text of the editor that a person reads, as a template for translators.
 #
 # pot.sh OUTPUT, in the folder of the project. Six sources: the marked texts of the
-# editor, its .ui files, the engine's diagnostics, its reports of imports and exports, events of a board, and what
+# editor, its .ui files, the engine's diagnostics, its reports of imports and exports, events and alarms of a board, and what
 # it says of its words (a row's texts are arguments of nested macros, so the preprocessor takes
 # them apart; those of conversions are macros). It merges nothing: `make po` does.
 set -eu
@@ -71,7 +71,7 @@ $take -L C -k -ktell:3 -ktell_change:2 -ktell_lost:2 -ktell_line:3 -kclassic_los
 	runtime/engine/exchange/classic/*.c | sed 's/charset=CHARSET/charset=UTF-8/' |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/told.pot" -
 $take -L C -k -kPROPERTY:2 -o "$work/properties.pot" runtime/engine/properties.def
-$take -L C -k -kEVENT:3 -o "$work/events.pot" runtime/online/events.def
+$take -L C -k -kEVENT:3 -kALARM:4 -o "$work/events.pot" runtime/online/events.def runtime/online/alarms.def
 
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \

@@ -31,13 +31,8 @@ static const struct {
 	const char *name, *text;
 	bool quiet;            /* needs no acknowledgement                     */
 } systems[ALARM_SYSTEMS] = {
-	[ALARM_FORCED] = { "SYS_FORCED_ANY", "variables are forced", true },
-	[ALARM_RETAIN_LOST] = { "SYS_RETAIN_LOST", "retained values were lost", false },
-	[ALARM_LATE] = { "SYS_WD_LATE", "scans are late", false },
-	[ALARM_IO] = { "SYS_IO_FAULT", "an input or output line does not answer", false },
-	[ALARM_FAULT] = { "FAULT", "FAULT: outputs are safe", false },
-	[ALARM_DAMAGED] = { "alarms", "a part of the list of alarms was damaged and is lost", false },
-	[ALARM_DISK] = { "SYS_DISK_FAULT", "something that the board stores cannot be written to its disk", false },
+#define ALARM(id, name, quiet, text) { name, text, quiet },
+#include "online/alarms.def"
 };
 
 /* Whole characters of UTF-8. */

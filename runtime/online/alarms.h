@@ -24,9 +24,8 @@
 
 /* The board's own alarms, class 0. */
 enum alarm_system {
-	ALARM_FORCED, ALARM_RETAIN_LOST, ALARM_LATE, ALARM_IO, ALARM_FAULT,
-	ALARM_DAMAGED, /* rows of the stored list were damaged                 */
-	ALARM_DISK,
+#define ALARM(id, name, quiet, text) ALARM_##id,
+#include "online/alarms.def"
 	ALARM_SYSTEMS
 };
 

@@ -38,7 +38,7 @@ def whole(editor, what, faults=warnings):
 
 def sheets(editor, least=2):
     """The labels of the tabs of sheets; AdwTab has no role."""
-    found = [node for node in editor.all(role='label') if node.name and node.has(30) and
+    found = [node for node in editor.all(role='label') if node.name and node.states >> 30 & 1 and
              50 < node.box()[1] < 85 and node.box()[0] > 220]
     assert len(found) >= least, 'no tabs'
     return found
@@ -57,7 +57,7 @@ class Hand:
         """Does something; returns what."""
         editor, chance = self.editor, self.dice.random()
         if chance < 0.35:
-            tabs = [node for node in editor.all(role='page tab') if node.has(30)] + sheets(editor, 0)
+            tabs = [node for node in editor.all(role='page tab') if node.states >> 30 & 1] + sheets(editor, 0)
             if tabs:
                 tab = self.dice.choice(tabs)
                 editor.click(tab)

@@ -51,7 +51,7 @@ class Hand:
         if chance < 0.6:
             return ['key', self.dice.choice(self.keys)]
         if chance < 0.75:
-            return ['type', '--delay', '1', self.dice.choice(WORDS), 'key', self.dice.choice(['Return', 'Return', 'Escape', 'Tab'])]
+            return ['type', '--delay', '1', '--args', '1', self.dice.choice(WORDS), 'key', self.dice.choice(['Return', 'Return', 'Escape', 'Tab'])]
         if chance < 0.9:
             return ['mousemove', *self.point(), 'click', *self.dice.choice(
                 [['1'], ['1'], ['3'], ['--repeat', '2', '--delay', '30', '1']])]

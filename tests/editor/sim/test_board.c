@@ -64,18 +64,20 @@ static struct io_check *check(const char *text)
 
 static bool says(const struct io_check *checked, int line, enum diag_id id)
 {
-	bool here;
-	const struct diag *diag = io_check_at(checked, line, &here);
+	bool warns;
+	const struct diag *diag = io_check_at(checked, line, &warns);
 
-	return id == DIAG_COUNT ? !diag : diag && diag->id == id && !here;
+	return id == DIAG_COUNT ? !diag : diag && diag->id == id &&
+	       warns == (id == DIAG_IO_NO_SAFE);
 }
 
 static void checks(void)
 {
-	static const char text[] =
+	static const char map[] =
 		"BOARD \"x\"\n%IX0.0 sim\n%IX0.0 sim\n%QX0.0 sim safe=2\n%IX0.1 what\n"
 		"%IX0.2 gpio\n%IX600.0 sim\n%QX0.1 sim safe=1\n";
-	struct io_check *checked = check(text);
+	struct io_check *checked = check(map);
+	char *text;
 
 	CHECK(says(checked, 2, DIAG_COUNT) && says(checked, 3, DIAG_IO_TWICE) &&
 	      says(checked, 4, DIAG_IO_VALUE) && says(checked, 5, DIAG_IO_DRIVER) &&
@@ -92,6 +94,15 @@ static void checks(void)
 	io_check_free(checked);
 	checked = check("BOARD oops\n%IX0.1 sim\n");
 	CHECK(says(checked, 1, DIAG_IO_NO_BOARD) && io_check_point(checked, 2));
+	io_check_free(checked);
+	checked = check("BOARD \"x\"\n%QX0.0 sim\n%QX0.1 sim safe=hold\n%IX0.1 sim\n%QX0.2 sim\n");
+	CHECK_AS(says(checked, 2, DIAG_IO_NO_SAFE) && says(checked, 3, DIAG_COUNT) &&
+		 says(checked, 4, DIAG_COUNT) && says(checked, 5, DIAG_IO_NO_SAFE),
+		 "each output without safe= has its warning");
+	text = iomap_first_doubt(checked);
+	CHECK_TEXT(text, "Line 2: \"%QX0.0\" has no safe=, so it is off while no program runs, as are "
+		   "other outputs: 1; write safe=0, safe=1 or safe=hold");
+	g_free(text);
 	io_check_free(checked);
 	checked = check("");
 	CHECK(checked->map.count == 0 && checked->errors.errors == 1);
