@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -20,6 +21,7 @@
 #ifndef SYS_pidfd_open
 #define SYS_pidfd_open 434
 #endif
+#define SEALS     (F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL)
 #define VARIABLES 512
 
 extern char **environ;
@@ -55,13 +57,30 @@ static bool make_environment(char **table, char *ours)
 	return true;
 }
 
+/* With its size sealed: a ladderd that cut it would end the guard by SIGBUS. */
+void child_page(struct child *child)
+{
+	const int fd = (int)syscall(SYS_memfd_create, "ladder-guard", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+	void *page = MAP_FAILED;
+
+	if (fd >= 0 && ftruncate(fd, sizeof(*child->page)) == 0 && fcntl(fd, F_ADD_SEALS, SEALS) == 0)
+		page = mmap(NULL, sizeof(*child->page), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+	child->page = page != MAP_FAILED ? page : NULL;
+	child->page_fd = child->page ? fd : -1;
+	if (!child->page)
+		dprintf(STDERR_FILENO, "ladder-guard: no memory to share with ladderd: %s; a scan that "
+			"hangs is found by its heartbeat\n", strerror(errno));
+}
+
 /* After vfork(): system calls only. */
-static void become(char **argv, const sigset_t *signals, int socket, pid_t guard)
+static void become(char **argv, const sigset_t *signals, int socket, int page, pid_t guard)
 {
 	prctl(PR_SET_PDEATHSIG, SIGTERM);
 	if (getppid() != guard)
 		_exit(0);
 	fcntl(socket, F_SETFD, 0);
+	if (page >= 0)
+		fcntl(page, F_SETFD, 0);
 	sigprocmask(SIG_UNBLOCK, signals, NULL);
 	execvp(argv[0], argv);
 	_exit(CHILD_NO_PROGRAM);
@@ -81,8 +100,10 @@ bool child_start(struct child *child, char **argv, const sigset_t *signals, int 
 		dprintf(STDERR_FILENO, "ladder-guard: no socket pair: %s\n", strerror(errno));
 		return false;
 	}
-	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d", pair[1], heartbeat_ms, stopped,
-		 count, how);
+	if (child->page)
+		memset(child->page, 0, sizeof(*child->page));
+	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d %d", pair[1], heartbeat_ms, stopped,
+		 count, how, child->page_fd);
 	if (!make_environment(table, ours)) {
 		dprintf(STDERR_FILENO, "ladder-guard: more than %d variables in the environment\n",
 			VARIABLES - 2);
@@ -93,7 +114,7 @@ bool child_start(struct child *child, char **argv, const sigset_t *signals, int 
 	environ = table;
 	pid = vfork();
 	if (pid == 0)
-		become(argv, signals, pair[1], guard);
+		become(argv, signals, pair[1], child->page_fd, guard);
 	environ = before;
 	close(pair[1]);
 	if (pid < 0) {

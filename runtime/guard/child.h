@@ -12,13 +12,18 @@
 
 #define CHILD_NO_PROGRAM 127 /* status of a child that could not be started  */
 
+struct guard_page;
 struct child {
+	struct guard_page *page; /* of the present ladderd; NULL: the kernel has no such memory */
+	int page_fd;           /* -1: none                                    */
 	pid_t pid;             /* 0: none runs                                */
 	int pidfd;             /* -1: the kernel has none; SIGCHLD tells      */
 	int socket;            /* -1: none                                    */
 	int status;            /* of waitpid(), after the end                 */
 };
 
+/** child_page - the memory that each ladderd gets; without it only heartbeats tell that one hangs. */
+void child_page(struct child *child);
 /**
  * child_start - runs @argv with LADDER_GUARD and without the variables of a service manager
  * @signals: those that the guard has blocked; the child blocks none

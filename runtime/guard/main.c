@@ -15,6 +15,7 @@
 #include <errno.h>
 #include <poll.h>
 #include <sched.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,6 +46,7 @@ struct guard {
 	struct lines lines;
 	struct feed feed;
 	int64_t due_ms;        /* of the next heartbeat                       */
+	int64_t look_ms;       /* when a scan may be over its limit           */
 	int64_t again_ms;      /* next attempt; 0: none                       */
 	int64_t end_ms[ENDS];  /* of the last abnormal ends, the newest first */
 	unsigned ends;         /* abnormal ones since the start               */
@@ -53,6 +55,7 @@ struct guard {
 	bool safe;             /* the guard keeps the lines                   */
 	bool stop;             /* SIGTERM came                                */
 	bool killed;           /* the guard has killed ladderd                */
+	bool hung;             /* … because its scan hung                     */
 	bool deaf;             /* ladderd has closed its socket               */
 	bool strange;          /* a bad packet was told                       */
 };
@@ -178,7 +181,7 @@ static bool start(int64_t now)
 {
 	const bool stopped = are_many(now);
 
-	guard.killed = guard.deaf = false;
+	guard.killed = guard.hung = guard.deaf = false;
 	guard.again_ms = 0;
 	guard.due_ms = now + BEGIN_MS;
 	if (stopped)
@@ -261,7 +264,7 @@ static void count_end(int64_t now)
 	memmove(guard.end_ms + 1, guard.end_ms, sizeof(guard.end_ms) - sizeof(guard.end_ms[0]));
 	guard.end_ms[0] = now ? now : 1;
 	guard.ends++;
-	guard.how = guard.killed ? GUARD_FROZEN : WIFSIGNALED(guard.child.status) ?
+	guard.how = guard.hung ? GUARD_HUNG : guard.killed ? GUARD_FROZEN : WIFSIGNALED(guard.child.status) ?
 		    WTERMSIG(guard.child.status) : GUARD_STATUS + WEXITSTATUS(guard.child.status);
 }
 
@@ -270,7 +273,9 @@ static void tell_end(void)
 	const int status = guard.child.status;
 	char how[48];
 
-	if (guard.killed)
+	if (guard.hung)
+		snprintf(how, sizeof(how), "hung in a scan and is killed");
+	else if (guard.killed)
 		snprintf(how, sizeof(how), "was frozen and is killed");
 	else if (WIFSIGNALED(status))
 		snprintf(how, sizeof(how), "died of signal %d", WTERMSIG(status));
@@ -304,12 +309,39 @@ static int on_end(int64_t now)
 	return -1;
 }
 
+/* A scan that is over its limit and its grace. One in which ladderd has made the outputs safe itself
+ * is left alone: that ladderd can tell its fault, and its heartbeat says whether it goes on. */
+static bool is_hung(int64_t now)
+{
+	struct guard_page *page = guard.child.page;
+	const uint32_t limit = page ? atomic_load(&page->limit) : 0;
+	const uint32_t scan = page ? atomic_load(&page->scan) : 0;
+	const int64_t most_ms = (int64_t)limit * GUARD_TICK / 1000000 + GUARD_GRACE + 1;
+	struct timespec time;
+	int64_t left_ms;
+
+	guard.look_ms = limit ? now + most_ms : INT64_MAX;
+	if (!limit || !(scan & 1) || atomic_load(&page->safe) == scan)
+		return false;
+	clock_gettime(CLOCK_MONOTONIC, &time);
+	left_ms = (int64_t)(int32_t)(atomic_load(&page->began) + limit -
+		  (uint32_t)((time.tv_sec * INT64_C(1000000000) + time.tv_nsec) / GUARD_TICK)) *
+		  GUARD_TICK / 1000000 + GUARD_GRACE;
+	if (atomic_load(&page->scan) != scan)
+		return false;
+	if (left_ms > 0)
+		guard.look_ms = now + left_ms;
+	return left_ms <= 0;
+}
+
 /* What is due. */
 static void on_time(int64_t now)
 {
-	if (guard.child.pid && now >= guard.due_ms && !guard.killed) {
-		guard.killed = true;
-		kill(guard.child.pid, SIGKILL);
+	if (guard.child.pid && !guard.killed) {
+		guard.hung = is_hung(now);
+		guard.killed = guard.hung || now >= guard.due_ms;
+		if (guard.killed)
+			kill(guard.child.pid, SIGKILL);
 	}
 	if (guard.child.pid || now < guard.again_ms)
 		return;
@@ -329,6 +361,8 @@ static void wait_for_it(int64_t now)
 
 	if (guard.child.pid && !guard.killed && guard.due_ms < until)
 		until = guard.due_ms;
+	if (guard.child.pid && !guard.killed && guard.look_ms < until)
+		until = guard.look_ms;
 	if (!guard.child.pid && guard.again_ms < until)
 		until = guard.again_ms;
 	poll(ready, 3, until > now ? (int)(until - now) : 0);
@@ -369,6 +403,7 @@ int main(int argc, char **argv)
 	guard.child.pidfd = guard.child.socket = -1;
 	if (!be_the_only_one() || !listen_to_signals() || !feed_open(&guard.feed, guard.device))
 		return 1;
+	child_page(&guard.child);
 	make_ready();
 	if (!start(now_ms()))
 		return 1;

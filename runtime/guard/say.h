@@ -9,10 +9,12 @@
 
 #include <stdint.h>
 
-/* Environment of ladderd: "FD MS STOPPED COUNT HOW": the descriptor, the heartbeat in ms, 1 if ladderd
- * shall begin in STOP, else 0, how many ladderd have ended abnormally since the guard began, and how
- * the last one did: its signal, GUARD_FROZEN, or GUARD_STATUS and its exit status. */
+/* Environment of ladderd: "FD MS STOPPED COUNT HOW PAGE": the descriptor, the heartbeat in ms, 1 if ladderd
+ * shall begin in STOP, else 0, how many ladderd have ended abnormally since the guard began, how
+ * the last one did: its signal, GUARD_FROZEN, GUARD_HUNG, or GUARD_STATUS and its exit status; and the
+ * descriptor of a struct guard_page, or -1. */
 #define GUARD_FROZEN   128
+#define GUARD_HUNG     129
 #define GUARD_STATUS   256
 #define GUARD_VARIABLE "LADDER_GUARD"
 #define GUARD_OWNER    "ladder-guard" /* consumer of the lines that the guard holds */
@@ -63,6 +65,20 @@ struct guard_table {
 struct guard_levels {
 	struct guard_head head;
 	uint8_t bit[GUARD_LINES / 8];
+};
+
+/*
+ * Memory that both programs map, so that the guard sees a scan that hangs where no signal reaches it, and
+ * no scan needs a system call for that. ladderd writes it. Times are in GUARD_TICK ns of CLOCK_MONOTONIC,
+ * modulo 2^32.
+ */
+#define GUARD_TICK  1024
+#define GUARD_GRACE 20    /* ms after the limit in which ladderd makes the outputs safe itself */
+struct guard_page {
+	_Atomic uint32_t scan;  /* odd while a scan runs; each has another number */
+	_Atomic uint32_t began; /* it, or the one before                      */
+	_Atomic uint32_t limit; /* of a scan; 0: none is watched              */
+	_Atomic uint32_t safe;  /* the scan in which ladderd has made the outputs safe */
 };
 
 struct guard_tell {

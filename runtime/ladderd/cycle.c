@@ -386,7 +386,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	keep_phase(cycle);
 	resource->wall_offset_ns = wall_offset(&cycle->wall, begin_ns);
 	stats_add(&cycle->wake, begin_ns - *due_ns);
-	monitor_begin(&cycle->monitor);
+	monitor_begin(&cycle->monitor, begin_ns);
 	fault = scan_lines(cycle, begin_ns);
 	monitor_end(&cycle->monitor);
 	took_ns = clock_now() - begin_ns;

@@ -14,6 +14,9 @@
 
 /** guarded_begin - reads LADDER_GUARD. Returns whether ladderd shall begin in STOP. */
 bool guarded_begin(void);
+struct guard_page;
+/** guarded_page - what the guard sees of each scan (guard/say.h); without a guard nobody sees it. Static. */
+struct guard_page *guarded_page(void);
 /** guarded_again - once: how the ladderd before ended abnormally, as in guard/say.h, and how many did
  * since the guard began; 0: this is the first start, or there is no guard. */
 int guarded_again(unsigned *count);

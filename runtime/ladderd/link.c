@@ -1070,7 +1070,7 @@ static void note_again(struct link *link)
 		return;
 	snprintf(number, sizeof(number), "%d", how >= GUARD_STATUS ? how - GUARD_STATUS : how);
 	snprintf(times, sizeof(times), "%u", count);
-	journal_add(link->journal, how >= GUARD_STATUS ? EVENT_FAILED :
+	journal_add(link->journal, how >= GUARD_STATUS ? EVENT_FAILED : how == GUARD_HUNG ? EVENT_HUNG :
 		    how == GUARD_FROZEN ? EVENT_FROZE : EVENT_DIED, 0, "", number, times);
 }
 

@@ -7,10 +7,12 @@
 
 #include "ladderd/safe.h"
 
+#include "guard/say.h"
 #include "ladderd/guarded.h"
 
 #include <errno.h>
 #include <poll.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -65,26 +67,58 @@ void requests_attend(struct requests *asked)
 		asked->stop = 1;
 }
 
-/* The first tick during a scan remembers it. If the same scan still runs two ticks later,
- * its limit is over. */
+static int64_t clock_now(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
+}
+
+/* setitimer() uses the monotonic clock, too; timer_create() would link thread code of the C
+ * library. */
+static int set_ticks(int64_t first_ns, int64_t limit_ns)
+{
+	struct itimerval tick;
+
+	first_ns += 1000; /* 0 us would stop the timer */
+	tick.it_value.tv_sec = first_ns / 1000000000;
+	tick.it_value.tv_usec = first_ns % 1000000000 / 1000;
+	tick.it_interval.tv_sec = limit_ns / 2 / 1000000000;
+	tick.it_interval.tv_usec = limit_ns / 2 % 1000000000 / 1000;
+	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
+}
+
+/* ns until the scan that runs is over its limit; without a scan more than between two ticks. */
+static int64_t time_left(const struct monitor *monitor)
+{
+	const int64_t limit_ns = monitor->limit_ns;
+
+	return atomic_load_explicit(&monitor->page->scan, memory_order_relaxed) & 1 ?
+		monitor->began_ns + limit_ns - clock_now() : limit_ns;
+}
+
+/* Two ticks come in the time of a limit. The one at which a scan has less time left than until the next
+ * one sets the next one to the end of that time, so scans that end soon set no timer. */
 static void on_tick(int signal_number, siginfo_t *about, void *context)
 {
 	struct monitor *monitor = watched;
 	int error = errno;
+	int64_t left_ns;
 
 	(void)signal_number, (void)context;
 	if (about->si_code != SI_KERNEL || !monitor) /* sent by another process */
 		return;
-	if (!(monitor->scan & 1) || monitor->scan != monitor->seen) {
-		monitor->seen = monitor->scan;
-		monitor->still = 0;
-		guarded_beat(tick_ms, false);
-	} else if (++monitor->still < 2) {
+	left_ns = time_left(monitor);
+	if (left_ns > 0) {
+		if (left_ns < monitor->limit_ns / 2)
+			set_ticks(left_ns, monitor->limit_ns);
 		guarded_beat(tick_ms, false);
 	} else {
 		/* A guard that hears nothing more kills a ladderd whose scan hangs. */
 		monitor->tripped = 1;
 		hal_write_safe(monitor->hal);
+		atomic_store(&monitor->page->safe, atomic_load(&monitor->page->scan));
 		requests_attend(monitor->requests);
 		if (monitor->requests->stop)
 			_exit(1);
@@ -92,16 +126,13 @@ static void on_tick(int signal_number, siginfo_t *about, void *context)
 	errno = error;
 }
 
-static int set_limit(int64_t limit_ns)
+static int set_limit(struct monitor *monitor, int64_t limit_ns)
 {
-	struct itimerval tick;
+	const bool seen = limit_ns / 1000000 < GUARD_LONGEST;
 
-	/* setitimer() uses the monotonic clock, too; timer_create() would link thread code
-	 * of the C library. */
-	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
-	tick.it_value.tv_usec = limit_ns / 2 % 1000000000 / 1000;
-	tick.it_interval = tick.it_value;
-	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
+	monitor->limit_ns = limit_ns;
+	atomic_store(&monitor->page->limit, seen ? (uint32_t)(limit_ns / GUARD_TICK + 1) : 0);
+	return set_ticks(limit_ns / 2, limit_ns);
 }
 
 /* In a time that is too long for the guard it waits for the longest that it takes. */
@@ -117,7 +148,7 @@ static void tell_limit(int64_t limit_ns)
 /* It cannot fail when it has worked once. */
 void monitor_limit(int64_t limit_ns)
 {
-	set_limit(limit_ns);
+	set_limit(watched, limit_ns);
 	tell_limit(limit_ns);
 }
 
@@ -129,6 +160,7 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 	memset(monitor, 0, sizeof(*monitor));
 	monitor->hal = hal;
 	monitor->requests = asked;
+	monitor->page = guarded_page();
 	watched = monitor;
 	memset(&action, 0, sizeof(action));
 	action.sa_sigaction = on_tick;
@@ -137,27 +169,38 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 	if (sigaction(SIGALRM, &action, NULL) != 0)
 		return -errno;
 	tell_limit(limit_ns);
-	return set_limit(limit_ns);
+	return set_limit(monitor, limit_ns);
 }
 
 void monitor_stop(struct monitor *monitor)
 {
 	static const struct itimerval never;
 
-	(void)monitor;
+	atomic_store(&monitor->page->limit, 0);
 	setitimer(ITIMER_REAL, &never, NULL);
 	guarded_beat(GUARDED_PAUSE_MS, true);
 	watched = NULL;
 }
 
-void monitor_begin(struct monitor *monitor)
+static void count_scan(struct monitor *monitor)
 {
-	monitor->scan = (monitor->scan + 1) & 0xffff;
+	_Atomic uint32_t *scan = &monitor->page->scan;
+
+	atomic_store_explicit(scan, atomic_load_explicit(scan, memory_order_relaxed) + 1,
+			      memory_order_release);
+}
+
+void monitor_begin(struct monitor *monitor, int64_t now_ns)
+{
+	monitor->began_ns = now_ns;
+	atomic_store_explicit(&monitor->page->began, (uint32_t)(now_ns / GUARD_TICK),
+			      memory_order_relaxed);
+	count_scan(monitor);
 }
 
 void monitor_end(struct monitor *monitor)
 {
-	monitor->scan = (monitor->scan + 1) & 0xffff;
+	count_scan(monitor);
 }
 
 /* ---- safe points ---- */

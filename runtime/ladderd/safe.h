@@ -34,14 +34,15 @@ void requests_attend(struct requests *requests);
 struct monitor {
 	struct hal *hal;
 	struct requests *requests;
-	volatile sig_atomic_t scan;   /* odd while a scan runs                */
+	struct guard_page *page;
+	volatile int64_t began_ns;    /* the scan that runs                   */
+	volatile int64_t limit_ns;
 	volatile sig_atomic_t tripped;
-	int seen, still;              /* used by the handler only             */
 };
 
 /**
  * monitor_start - writes the safe outputs if a scan takes longer than @limit_ns
- * @limit_ns: at least 2 us; it is noticed after up to 1.5 times this time
+ * @limit_ns: at least 2 us
  *
  * Calls hal_write_safe() again at each further tick, and ends the process with status 1 if
  * a stop is requested meanwhile. There is only one monitor at a time.
@@ -53,8 +54,9 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 /** monitor_limit - another limit from now on. Scan-safe: between scans, a system call. */
 void monitor_limit(int64_t limit_ns);
 void monitor_stop(struct monitor *monitor);
-/** monitor_begin, monitor_end - called around each scan. Scan-safe: yes, no system call. */
-void monitor_begin(struct monitor *monitor);
+/** monitor_begin, monitor_end - called around each scan, which begins at @now_ns. Scan-safe: yes, no
+ * system call. */
+void monitor_begin(struct monitor *monitor, int64_t now_ns);
 void monitor_end(struct monitor *monitor);
 
 /**
