@@ -137,9 +137,9 @@ void requests_attend(struct requests *asked)
 	(void)asked;
 }
 
-void monitor_begin(struct monitor *monitor, int64_t now_ns)
+void monitor_begin(struct monitor *monitor, int64_t at_ns)
 {
-	(void)monitor, (void)now_ns;
+	(void)monitor, (void)at_ns;
 }
 
 void monitor_end(struct monitor *monitor)
