@@ -110,14 +110,11 @@ static void print_json(const struct load *load, int64_t speed, uint64_t enough, 
 			    load->busy_permille, good ? "true" : "false");
 }
 
-static enum status print(struct ladder *ladder, struct load *load, const char *path,
-			 int64_t speed, bool json, const struct sink *out)
+static enum status print(struct load *load, int64_t speed, bool json, const struct sink *out)
 {
 	uint64_t enough = 0;
 	bool good = true;
 
-	if (!load_measure(ladder_program(ladder), program_period(ladder, 0), load))
-		return report_no_memory(path);
 	if (json)
 		enough = load_enough(load);
 	if (speed)
@@ -135,9 +132,12 @@ enum status load_print(struct ladder *ladder, const char *path, int64_t speed, b
 	struct load *load = malloc(sizeof(*load));
 	enum status status;
 
-	if (!load)
+	if (!load || !load_measure(ladder_program(ladder), program_period(ladder, 0), load)) {
+		free(load);
 		return report_no_memory(path);
-	status = print(ladder, load, path, speed, json, out);
+	}
+	status = print(load, speed, json, out);
+	load_free(load);
 	free(load);
 	return status;
 }

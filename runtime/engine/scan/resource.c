@@ -249,9 +249,10 @@ static void count_program(struct resource *resource, uint32_t entry)
 	const struct program *program = resource->image.program;
 	const struct code_program *at = &program->entry[entry];
 
+	const bool points = resource->vm.at_point && (program->text[at->text] & 0xff) == VM_POINT;
+
 	count_called(resource);
-	if (!resource->vm.at_point || (program->text[at->text] & 0xff) != VM_POINT)
-		resource->words += at->text_words;
+	resource->words += points ? 0 : at->text_words;
 }
 
 /* Shall tasks above the one that runs, or is about to, run here? */

@@ -63,9 +63,26 @@ static struct counted count(const struct program *program, struct counted *entry
 	return entry[i] = sum;
 }
 
-/* A loop of the program itself has a safe point in each round. */
-static void measure_way(const struct program *program, struct counted *entry, uint32_t i,
-			struct load_task *task)
+static bool add_point(struct load_task *task, uint64_t words)
+{
+	const uint32_t room = task->points ? 2 * task->points : 16;
+	uint64_t *point;
+
+	/* The room is a power of two. */
+	if (!task->points || (task->points >= 16 && !(task->points & (task->points - 1)))) {
+		point = realloc(task->point, room * sizeof(*point));
+		if (!point)
+			return false;
+		task->point = point;
+	}
+	task->point[task->points++] = words;
+	return true;
+}
+
+/* The safe points of a program of a task, and the longest way between two. A loop of the program
+ * itself has a safe point in each round. @before: words of its programs before this one. */
+static bool measure_way(const struct program *program, struct counted *entry, uint32_t i,
+			uint64_t before, struct load_task *task)
 {
 	const uint32_t *pc = program->text + program->entry[i].text;
 	const uint32_t *end = pc + program->entry[i].text_words;
@@ -74,45 +91,65 @@ static void measure_way(const struct program *program, struct counted *entry, ui
 	for (; pc < end; pc += code_words(pc)) {
 		const uint32_t op = *pc & 0xff;
 
-		if (op == VM_POINT)
+		if (op == VM_POINT) {
+			if (!add_point(task, before))
+				return false;
 			way = 0;
+		}
 		way += code_words(pc) + beside(pc);
+		before += code_words(pc) + beside(pc);
 		if (op == VM_CALL) {
 			const struct counted called = count(program, entry, pc[1]);
 
 			way += called.words;
+			before += called.words;
 			task->way_loops |= called.loops;
 		}
 		if (way > task->way)
 			task->way = way;
 	}
+	return true;
+}
+
+static bool measure_task(const struct program *program, struct counted *entry, uint32_t i,
+			 struct load_task *out)
+{
+	const struct code_task *task = &program->task[i];
+
+	for (uint32_t k = 0; k < task->count; k++) {
+		const uint32_t at = program->call[task->first + k];
+		const struct counted one = count(program, entry, at);
+
+		if (interrupt_can(program, i) &&
+		    !measure_way(program, entry, at, out->words, out))
+			return false;
+		out->words += one.words;
+		out->loops |= one.loops;
+	}
+	return true;
 }
 
 bool load_measure(const struct program *program, int64_t tick_ns, struct load *out)
 {
 	struct counted *entry = calloc(program->entry_count + 1, sizeof(*entry));
+	bool good = entry != NULL;
 
 	memset(out, 0, sizeof(*out));
 	out->program = program;
 	out->tick_ns = tick_ns;
-	if (!entry)
-		return false;
-	for (uint32_t i = 0; i < program->task_count; i++) {
-		const struct code_task *task = &program->task[i];
-
-		for (uint32_t k = 0; k < task->count; k++) {
-			const struct counted one = count(program, entry,
-							 program->call[task->first + k]);
-
-			out->task[i].words += one.words;
-			out->task[i].loops |= one.loops;
-			if (interrupt_can(program, i))
-				measure_way(program, entry, program->call[task->first + k],
-					    &out->task[i]);
-		}
-	}
+	for (uint32_t i = 0; good && i < program->task_count; i++)
+		good = measure_task(program, entry, i, &out->task[i]);
 	free(entry);
-	return true;
+	if (!good)
+		load_free(out);
+	return good;
+}
+
+void load_free(struct load *load)
+{
+	for (int i = 0; i < LIMIT_TASKS; i++)
+		free(load->task[i].point);
+	memset(load, 0, sizeof(*load));
 }
 
 /* ---- a schedule ---- */
@@ -158,19 +195,24 @@ static int64_t cycles(const struct load *load)
 	return 2 * all;
 }
 
+static int64_t time_of(const struct load *load, uint64_t words)
+{
+	return (int64_t)(words * MS_NS / load->speed);
+}
+
 /* An event comes in every cycle. */
-static void begin_cycle(struct load_schedule *at)
+static void begin_tasks(struct load_schedule *at, uint32_t count)
 {
 	static const uint8_t zero;
 
-	tasks_begin(&at->tasks, &at->program, &zero, at->now_ns);
-	for (uint32_t i = 0; i < at->program.task_count; i++)
+	tasks_begin_above(&at->tasks, &at->program, count, &zero, at->now_ns);
+	for (uint32_t i = 0; i < count; i++)
 		if (at->task[i].kind == TASK_EVENT)
 			at->tasks.state[i].due = true;
 }
 
 /* Only a task with an interval has a deadline; the others wait from the cycle on. */
-static void run_one(struct load_task *task, struct load_schedule *at, uint32_t i, int64_t begin_ns)
+static void take(struct load_task *task, struct load_schedule *at, uint32_t i, int64_t cycle_ns)
 {
 	int64_t from = at->due_ns;
 
@@ -178,26 +220,100 @@ static void run_one(struct load_task *task, struct load_schedule *at, uint32_t i
 		from = at->tasks.state[i].next_ns;
 	if (at->now_ns - from > task->wait_ns)
 		task->wait_ns = at->now_ns - from;
-	tasks_take(&at->tasks, &at->program, i, begin_ns);
-	at->now_ns += task->run_ns;
+	tasks_take(&at->tasks, &at->program, i, cycle_ns);
 	at->busy_ns += task->run_ns;
 }
 
-/* As run_due() and must_yield() of scan/resource.c. */
-static void run_cycle(struct load *load, struct load_schedule *at, bool first)
+static bool is_due(const struct load *load, const struct load_schedule *at)
 {
-	const int64_t begin_ns = at->now_ns;
-	bool any = false;
+	return at->now_ns >= at->due_ns + load->tick_ns;
+}
 
-	for (begin_cycle(at);; any = true) {
-		const uint32_t i = tasks_next(&at->tasks, &at->program);
-		const bool late = at->now_ns - at->due_ns >= load->tick_ns;
+/* The ticks that have come; the last one begins a cycle, the others are left out. */
+static void next_tick(const struct load *load, struct load_schedule *at)
+{
+	const int64_t ticks = (at->now_ns - at->due_ns) / load->tick_ns;
 
-		if (i == at->program.task_count ||
-		    (any && !first &&
-		     tasks_must_yield(&at->tasks, &at->program, i, at->now_ns, late)))
+	at->due_ns += ticks * load->tick_ns;
+	at->skipped += (uint64_t)ticks;
+}
+
+static void run_one(struct load *load, struct load_schedule *at, uint32_t i, int64_t cycle_ns,
+		    uint32_t level);
+
+/* A cycle of the tasks above @i. */
+static void run_above(struct load *load, struct load_schedule *at, uint32_t i, uint32_t level)
+{
+	const uint32_t count = tasks_above(&at->program, i);
+	const int64_t cycle_ns = at->now_ns;
+	uint32_t next;
+
+	next_tick(load, at);
+	begin_tasks(at, count);
+	while ((next = tasks_next(&at->tasks, &at->program)) < count)
+		run_one(load, at, next, cycle_ns, level + 1);
+}
+
+static bool may_interrupt(const struct load_schedule *at, uint32_t i, uint32_t level)
+{
+	return level < LIMIT_LEVELS && interrupt_can(&at->program, i);
+}
+
+/* The time up to the first safe point at which a cycle is due, from @done_ns on, or behind it;
+ * past the end: there is none. */
+static int64_t next_point(const struct load *load, const struct load_task *task, int64_t done_ns,
+			  bool behind)
+{
+	const int64_t wait_ns = load->at.due_ns + load->tick_ns - load->at.now_ns;
+	const int64_t from_ns = done_ns + (wait_ns > behind ? wait_ns : behind);
+	uint32_t low = 0, high = task->points;
+
+	while (low < high) {
+		const uint32_t middle = low + (high - low) / 2;
+
+		if (time_of(load, task->point[middle]) < from_ns)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return low < task->points ? time_of(load, task->point[low]) : INT64_MAX;
+}
+
+/* As run_levels() of scan/resource.c. */
+static void run_one(struct load *load, struct load_schedule *at, uint32_t i, int64_t cycle_ns,
+		    uint32_t level)
+{
+	struct load_task *task = &load->task[i];
+	const bool can = !at->first && may_interrupt(at, i, level);
+	int64_t done_ns = 0, to_ns;
+
+	take(task, at, i, cycle_ns);
+	to_ns = next_point(load, task, 0, false);
+	while (can && to_ns < INT64_MAX) {
+		at->now_ns += to_ns - done_ns;
+		done_ns = to_ns;
+		run_above(load, at, i, level);
+		to_ns = next_point(load, task, done_ns, true);
+	}
+	at->now_ns += task->run_ns - done_ns;
+}
+
+/* As run_due() of scan/resource.c, with a safe point before each task. */
+static void run_cycle(struct load *load, struct load_schedule *at)
+{
+	const int64_t cycle_ns = at->now_ns;
+	uint32_t i;
+
+	begin_tasks(at, at->program.task_count);
+	for (bool any = false;; any = true) {
+		i = tasks_next(&at->tasks, &at->program);
+		if (i == at->program.task_count)
 			return;
-		run_one(&load->task[i], at, i, begin_ns);
+		if (any && !at->first && may_interrupt(at, i, 0) && is_due(load, at)) {
+			run_above(load, at, i, 0);
+			i = tasks_next(&at->tasks, &at->program);
+		}
+		run_one(load, at, i, cycle_ns, 0);
 	}
 }
 
@@ -205,8 +321,8 @@ static void run_cycle(struct load *load, struct load_schedule *at, bool first)
 static void end_cycle(const struct load *load, struct load_schedule *at)
 {
 	at->due_ns += load->tick_ns;
-	if (at->now_ns >= at->due_ns) {
-		const int64_t missed = (at->now_ns - at->due_ns) / load->tick_ns + 1;
+	if (at->now_ns > at->due_ns) {
+		const int64_t missed = (at->now_ns - at->due_ns - 1) / load->tick_ns + 1;
 
 		at->due_ns += missed * load->tick_ns;
 		at->skipped += (uint64_t)missed;
@@ -227,13 +343,15 @@ bool load_run(struct load *load, uint64_t speed)
 	const int64_t count = cycles(load);
 	struct load_schedule *at = &load->at;
 
+	load->speed = speed;
 	begin(load, at);
 	for (uint32_t i = 0; i < at->program.task_count; i++) {
-		load->task[i].run_ns = (int64_t)(load->task[i].words * MS_NS / speed);
+		load->task[i].run_ns = time_of(load, load->task[i].words);
 		load->task[i].wait_ns = 0;
 	}
 	for (int64_t i = 0; i < count; i++) {
-		run_cycle(load, at, i == 0);
+		at->first = i == 0; /* it is not interrupted */
+		run_cycle(load, at);
 		end_cycle(load, at);
 	}
 	for (uint32_t i = 0; i < at->program.task_count; i++) {

@@ -17,9 +17,11 @@ struct load_task {
 	bool loops;        /* there are loops, so a run may have more words      */
 	uint64_t way;      /* the most words from one safe point to the next; 0: no task
 			    * interrupts this one                                */
+	uint64_t *point;   /* the safe points: words from the begin of the run   */
+	uint32_t points;
 	bool way_loops;    /* … with loops of a function or block that it calls */
 	/* The result of load_run(). */
-	int64_t run_ns;    /* of one run                                         */
+	int64_t run_ns;    /* of one run, without interruptions                  */
 	int64_t wait_ns;   /* the longest time from its deadline to its run      */
 	uint64_t runs, overruns; /* periods left out; without an interval: cycles   */
 };
@@ -31,13 +33,15 @@ struct load_schedule {
 	struct tasks tasks;
 	int64_t due_ns, now_ns;       /* of the cycle; the clock                  */
 	int64_t busy_ns;
-	uint64_t skipped;             /* cycles                                   */
+	uint64_t skipped;             /* cycles that programs without a task have not */
+	bool first;                   /* cycle                                   */
 };
 
 /* Some kilobytes: not for a frame. */
 struct load {
 	const struct program *program; /* borrowed                               */
 	int64_t tick_ns;               /* of the cycles                          */
+	uint64_t speed;                /* of load_run()                          */
 	struct load_task task[LIMIT_TASKS];
 	uint32_t busy_permille;        /* result of load_run(): the time that tasks take */
 	struct load_schedule at;
@@ -46,14 +50,15 @@ struct load {
 /** load_measure - counts the words of each task
  * @tick_ns: the time of a cycle, above 0
  *
- * Owns: nothing; @out borrows @program. Scan-safe: no. Fails: false: no memory. */
+ * Owns: load_free(); @out borrows @program. Scan-safe: no. Fails: false: no memory; nothing to
+ * free. */
 bool load_measure(const struct program *program, int64_t tick_ns, struct load *out);
+void load_free(struct load *load);
 /** load_run - computes a schedule from a start, in which every run is the longest one and each
  * event comes in every cycle
  * @speed: words a millisecond, 1 … LOAD_SPEED_MOST
  *
- * No task interrupts another in it: a board begins tasks of higher priority earlier, by what
- * their `wait_ns` is longer than the longest `way` of the others.
+ * Tasks interrupt each other at their safe points, as on a board with POSIX timers.
  * It ends when all intervals have met again, or after LOAD_CYCLES cycles. Reading inputs and
  * writing outputs take no time in it. Scan-safe: no. Returns whether no task leaves out a
  * period. */

@@ -4,6 +4,7 @@
  * moves by these words.
  */
 #include "engine/trial/load.h"
+#include "engine/trial/pace.h"
 #include "tests/unit/rig.h"
 
 #define MS INT64_C(1000000)
@@ -30,41 +31,24 @@ enum { FAST, SLOW, IDLE, REST, TASKS };
 
 static struct rig rig;
 static struct load load;
-static int64_t idle_ns;
 
-/* Each run took its time when it is taken. */
-static int64_t clock_of_runs(const struct resource *resource)
-{
-	int64_t now_ns = idle_ns;
-
-	for (int i = 0; i < TASKS; i++)
-		now_ns += (int64_t)resource->tasks.state[i].runs * load.task[i].run_ns;
-	return now_ns;
-}
-
-/* The cycles of a board, until its clock is at @end_ns; @skipped: cycles left out. */
-static void run_board(int64_t end_ns, uint64_t *skipped)
+/* Periods of a board of the same speed, until @end_ns. False: it ended in FAULT. @left: cycles
+ * without the program that has no task. */
+static bool run_board(uint64_t speed, int64_t end_ns, uint64_t *left)
 {
 	struct resource *resource = &rig.resource;
-	int64_t due_ns = 0, missed;
+	uint64_t cycles = 0;
 
-	idle_ns = 0;
-	*skipped = 0;
+	pace_set(resource, 0);
 	resource_start(resource);
-	resource->tick_ns = load.tick_ns;
-	resource->clock_ns = clock_of_runs;
-	while (due_ns < end_ns) {
-		idle_ns += due_ns - clock_of_runs(resource);
-		resource->due_ns = due_ns;
+	pace_set(resource, speed);
+	for (int64_t now_ns = 0; now_ns < end_ns && resource->state == STATE_RUN;
+	     now_ns += load.tick_ns, cycles++) {
 		rig_set(&rig, "Idle", 100); /* one round of its loop */
-		resource_scan(resource, due_ns);
-		due_ns += load.tick_ns;
-		if (clock_of_runs(resource) < due_ns)
-			continue;
-		missed = (clock_of_runs(resource) - due_ns) / load.tick_ns + 1;
-		due_ns += missed * load.tick_ns;
-		*skipped += (uint64_t)missed;
+		pace_scan(resource, now_ns, load.tick_ns);
 	}
+	*left = cycles - resource->tasks.state[REST].runs;
+	return resource->state == STATE_RUN;
 }
 
 static void words(void)
@@ -91,30 +75,30 @@ static void words(void)
 	CHECK(load.task[IDLE].way > 0 && load.task[IDLE].way == text[IDLE] - 1);
 }
 
-/* From far too slow to fast enough. */
+/* From far too slow to fast enough, at speeds of which a word takes whole ns. A board ends in FAULT where tasks are late again and again. */
 static void schedules(void)
 {
-	uint64_t skipped, enough = load_enough(&load);
-	int slow = 0, fast = 0;
+	uint64_t left, enough = load_enough(&load);
+	int slow = 0, fast = 0, interrupted = 0;
 
-	for (uint64_t speed = 1; speed <= 2 * enough; speed++) {
+	for (uint64_t speed = 1; speed <= 8 * enough; speed++) {
 		const bool good = load_run(&load, speed);
 
-		run_board(load.at.now_ns, &skipped);
+		if (1000000 % speed || !run_board(speed, load.at.now_ns, &left))
+			continue;
 		for (int i = 0; i < TASKS; i++) {
 			const struct task_state *state = &rig.resource.tasks.state[i];
 
 			CHECK(state->runs == load.task[i].runs);
-			CHECK(load.task[i].overruns == (i == REST ? skipped : state->overruns));
+			CHECK(load.task[i].overruns == (i == REST ? left : state->overruns));
+			interrupted += state->interrupted > 0;
 		}
-		CHECK(rig.resource.state == STATE_RUN);
 		slow += !good;
 		fast += good;
 	}
-	CHECK(slow > 0 && fast > 0);
-	CHECK(load_run(&load, enough) && load.task[FAST].wait_ns == 0);
-	CHECK(load.task[SLOW].wait_ns == load.task[FAST].run_ns);
-	CHECK(load.task[IDLE].wait_ns == load.task[FAST].run_ns + load.task[SLOW].run_ns);
+	printf("# %d too slow, %d fast enough, %d tasks interrupted\n", slow, fast, interrupted);
+	CHECK(slow > 0 && fast > 0 && interrupted > 0);
+	CHECK(load_run(&load, enough) && load.task[FAST].wait_ns <= load.task[SLOW].run_ns);
 	CHECK(!load_run(&load, enough - 1));
 	CHECK(load_run(&load, LOAD_SPEED_MOST) && load.busy_permille == 0);
 }
@@ -126,6 +110,7 @@ int main(void)
 	CHECK(load_measure(ladder_program(rig.ladder), 5 * MS, &load));
 	words();
 	schedules();
+	load_free(&load);
 	rig_close(&rig);
 	return tap_done();
 }
