@@ -59,7 +59,7 @@ static void turn_over(void)
 		struct iec_addr addr;
 		uint32_t line;
 		struct request *request;
-		char text[16];
+		char text[24];
 
 		snprintf(text, sizeof(text), "%%IX0.%d", i);
 		iec_addr_parse(text, strlen(text), &addr);
