@@ -154,6 +154,21 @@ static bool is_bad(const struct task_run *run)
 	return run->late_ns || run->missed || run->fault;
 }
 
+/* A run that takes time is as wide as that; a line joins its parts. */
+static void draw_run(struct drawing *drawing, const struct task_run *run, double x, bool bad)
+{
+	const enum token token = bad ? TOKEN_ERROR : TOKEN_POWER;
+	const double high = bad ? BAR_BAD : BAR_HIGH, wide = (double)run->took_ns * drawing->px;
+	const double paused = (double)(run->at_ns - run->paused_ns) * drawing->px;
+
+	if (run->took_ns)
+		fill(drawing, token, x, HIGH - 6 - high, MAX(wide, BAR_LEAST), high);
+	else
+		draw_bar(drawing, token, x, high);
+	if (run->paused_ns && paused > 1)
+		fill(drawing, token, x - paused, HIGH - 6 - BAR_HIGH / 2.0, paused, 1);
+}
+
 /* At most one bar for each px, bad ones before good ones. */
 static void draw_real(struct drawing *drawing)
 {
@@ -175,7 +190,7 @@ static void draw_real(struct drawing *drawing)
 			continue;
 		drawn = x;
 		bad = is_bad(run);
-		draw_bar(drawing, bad ? TOKEN_ERROR : TOKEN_POWER, x, bad ? BAR_BAD : BAR_HIGH);
+		draw_run(drawing, run, x, bad);
 		if (late > 1)
 			fill(drawing, TOKEN_ERROR, x - late, HIGH - 6 - BAR_BAD, late, 2);
 	}

@@ -16,7 +16,8 @@
 /* The line of a list counts from its heading. */
 static char *place_of(const struct project *project, const struct fault_place *at)
 {
-	const int pou = project ? project_find_pou(project, at->pou, strlen(at->pou)) : -1;
+	const char *name = at->pou ? at->pou : "";
+	const int pou = project ? project_find_pou(project, name, strlen(name)) : -1;
 	struct place_sheet sheet = { 0 };
 
 	if (pou >= 0 && at->rung)
@@ -24,7 +25,7 @@ static char *place_of(const struct project *project, const struct fault_place *a
 				  (int)at->col - 1);
 	if (pou >= 0 && at->line)
 		return place_line(project, pou, MAX((int)at->line - project->pou[pou].line, 0));
-	return g_strdup(at->pou);
+	return g_strdup(name);
 }
 
 char *sim_place_words(const struct sim_program *program, const struct fault_place *at)
@@ -35,12 +36,18 @@ char *sim_place_words(const struct sim_program *program, const struct fault_plac
 char *sim_fault_words(const struct sim_program *program, const struct resource *resource)
 {
 	char *place = sim_place_words(program, &resource->fault_at), *text;
+	const char *what = said(fault_text(resource->fault));
 
-	if (resource->fault_at.task)
+	/* A watchdog has no place. */
+	if (!*place && resource->fault_at.task)
+		text = g_strdup_printf(_("task %s: %s"), resource->fault_at.task, what);
+	else if (!*place)
+		text = g_strdup(what);
+	else if (resource->fault_at.task)
 		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
-				       said(fault_text(resource->fault)), place);
+				       what, place);
 	else
-		text = g_strdup_printf(_("%s: %s"), said(fault_text(resource->fault)), place);
+		text = g_strdup_printf(_("%s: %s"), what, place);
 	g_free(place);
 	return text;
 }

@@ -8,6 +8,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
 
+#include "engine/trial/pace.h"
+
 #include <string.h>
 
 struct task_runs {
@@ -19,6 +21,7 @@ struct task_runs {
 	GArray *run;         /* of struct task_run                              */
 	struct tasks before; /* after the scan `next` - 1                       */
 	guint64 program;     /* that it belongs to; 0: it is not known          */
+	gint64 paused_ns[LIMIT_TASKS]; /* of tasks that go on later; else 0     */
 };
 
 struct task_runs *task_runs_new(LadderSim *sim)
@@ -67,7 +70,10 @@ static void set_lateness(const struct task_runs *runs, const struct twin *twin, 
 		return;
 	run->missed = (guint)(now->overruns - then->overruns);
 	if (of->kind == TASK_INTERVAL)
-		run->late_ns = MAX(twin->now_ns - then->next_ns, 0);
+		run->late_ns = MAX(run->at_ns - then->next_ns, 0);
+	/* It waits for tasks of higher priority. */
+	if (twin->resource.pace.speed && run->late_ns < twin->period_ns)
+		run->late_ns = 0;
 }
 
 static bool has_run(const struct twin *twin, guint32 task)
@@ -85,13 +91,41 @@ static bool has_failed(const struct twin *twin, const char *task)
 	       (failed ? strcmp(failed, task) == 0 : !*task);
 }
 
-static void take(struct task_runs *runs, const struct twin *twin)
+/* What ran in a period, in the order of time. */
+static void take_parts(struct task_runs *runs, const struct twin *twin)
+{
+	const struct resource *resource = &twin->resource;
+	const struct paced *pace = &resource->pace;
+
+	for (guint32 i = 0; i < pace->parts; i++) {
+		const struct pace_part *part = &pace->part[i];
+		gint64 *paused_ns = &runs->paused_ns[part->task];
+		struct task_run run = { .at_ns = pace_at(resource, part->from),
+					.paused_ns = *paused_ns, .scan = twin->scan,
+					.whole = part->whole };
+		const gint64 end_ns = pace_at(resource, part->to);
+
+		run.took_ns = end_ns - run.at_ns;
+		*paused_ns = part->whole ? 0 : end_ns;
+		if (part->from == part->to && !part->whole)
+			continue; /* it stands before its first rung */
+		run.task = g_intern_string(task_name(resource->image.program, part->task));
+		run.fault = has_failed(twin, run.task) && i + 1 == pace->parts;
+		if (!run.paused_ns)
+			set_lateness(runs, twin, part->task, &run);
+		g_array_append_val(runs->run, run);
+	}
+}
+
+static void take_scan(struct task_runs *runs, const struct twin *twin)
 {
 	const struct program *program = twin->resource.image.program;
 	guint order = 0;
 
+	memset(runs->paused_ns, 0, sizeof(runs->paused_ns));
 	for (guint32 i = 0; i < program->task_count; i++) {
-		struct task_run run = { .at_ns = twin->now_ns, .scan = twin->scan };
+		struct task_run run = { .at_ns = twin->now_ns, .scan = twin->scan,
+					.whole = true };
 
 		if (!twin->resource.scans || !has_run(twin, i))
 			continue;
@@ -101,6 +135,14 @@ static void take(struct task_runs *runs, const struct twin *twin)
 		set_lateness(runs, twin, i, &run);
 		g_array_append_val(runs->run, run);
 	}
+}
+
+static void take(struct task_runs *runs, const struct twin *twin)
+{
+	if (twin->resource.pace.speed)
+		take_parts(runs, twin);
+	else
+		take_scan(runs, twin);
 	if (runs->run->len > TASK_RUNS_MOST)
 		g_array_remove_range(runs->run, 0, TASK_RUNS_MOST / 4);
 	runs->before = twin->resource.tasks;
@@ -190,9 +232,16 @@ guint task_runs_from(const struct task_runs *runs, gint64 ns)
 static char *trouble_text(const struct task_run *run)
 {
 	GString *text = g_string_new(NULL);
-	char late[32];
+	char late[32], took[32];
 
 	live_time_print(run->late_ns, late, sizeof(late));
+	live_time_print((run->took_ns + 500) / 1000 * 1000, took, sizeof(took));
+	if (run->took_ns)
+		g_string_append(text, took);
+	if (!run->whole)
+		g_string_append_printf(text, "%s%s", text->len ? ", " : "", _("interrupted"));
+	if (run->late_ns)
+		g_string_append_printf(text, "%s", text->len ? ", " : "");
 	if (run->late_ns)
 		g_string_append_printf(text, _("%s late"), late);
 	if (run->missed)
@@ -205,20 +254,32 @@ static char *trouble_text(const struct task_run *run)
 	return g_string_free(text, FALSE);
 }
 
+/* Whether runs take time in [@from, @to). */
+static bool is_paced(const struct task_runs *runs, gint64 from, gint64 to)
+{
+	const guint first = task_runs_from(runs, from);
+
+	return first < task_runs_count(runs) && task_runs_get(runs, first)->at_ns < to &&
+	       task_runs_get(runs, first)->took_ns;
+}
+
 char *task_runs_at_text(const struct task_runs *runs, gint64 ns, gint64 period_ns)
 {
 	GString *names = g_string_new(NULL);
 	gint64 at = MAX(ns, 0) / period_ns * period_ns;
+	const bool paced = is_paced(runs, at, at + period_ns);
 	char time[32], *text;
 
-	for (guint i = task_runs_from(runs, ns - period_ns + 1); i < task_runs_count(runs); i++) {
+	for (guint i = task_runs_from(runs, paced ? at : ns - period_ns + 1);
+	     i < task_runs_count(runs); i++) {
 		const struct task_run *run = task_runs_get(runs, i);
 		char *trouble;
 
-		if (run->at_ns > ns)
+		if (run->at_ns > ns && (!paced || run->at_ns >= at + period_ns))
 			break;
 		trouble = trouble_text(run);
-		at = run->at_ns;
+		if (!paced)
+			at = run->at_ns;
 		g_string_append_printf(names, "%s%s", names->len ? _(", then ") : "",
 				       *run->task ? run->task : _("Each scan"));
 		if (*trouble)
@@ -229,6 +290,19 @@ char *task_runs_at_text(const struct task_runs *runs, gint64 ns, gint64 period_n
 	text = g_strdup_printf(_("At %s: %s"), time, names->len ? names->str : _("nothing ran"));
 	g_string_free(names, TRUE);
 	return text;
+}
+
+/* Takes @text; the caller frees what it returns. */
+static char *with_interruptions(char *text, guint64 count)
+{
+	char *more;
+
+	if (!count)
+		return text;
+	more = g_strdup_printf(ngettext("%s, interrupted %llu time", "%s, interrupted %llu times",
+					(gulong)count), text, (unsigned long long)count);
+	g_free(text);
+	return more;
 }
 
 char *task_runs_sum_text(const struct twin *twin, const char *task)
@@ -248,7 +322,7 @@ char *task_runs_sum_text(const struct twin *twin, const char *task)
 			"%s, %llu left out", (gulong)state->overruns), ran,
 			(unsigned long long)state->overruns) : g_strdup(ran);
 		g_free(ran);
-		return text;
+		return with_interruptions(text, state->interrupted);
 	}
 	return NULL;
 }

@@ -10,9 +10,14 @@
 
 #define TASK_RUNS_MOST 60000u /* that are kept; the oldest are dropped first      */
 
-/* Runs of one scan follow each other by priority. */
+/* Runs of one scan follow each other by priority. With a speed of the board (trial/pace.h) they
+ * follow each other in time, and a run that was interrupted is several of them, one behind the
+ * other. */
 struct task_run {
 	gint64 at_ns;        /* virtual time                                    */
+	gint64 took_ns;      /* with a speed; else 0                            */
+	gint64 paused_ns;    /* it goes on: when it was interrupted; else 0     */
+	bool whole;          /* it ended; otherwise it goes on later            */
 	guint64 scan;
 	const char *task;    /* interned; "": programs without a task           */
 	gint64 late_ns;      /* behind its deadline                             */
@@ -36,7 +41,8 @@ gint64 task_runs_time(const struct task_runs *runs);
 /** task_runs_from - the number of the first run at or after @ns; their count: there is none. */
 guint task_runs_from(const struct task_runs *runs, gint64 ns);
 /** task_runs_at_text - what ran in the scan at or before @ns: "At 20 ms: Fast, then Slow (5 ms late, 1
- * period left out)", translated. @period_ns: of the scans. Caller frees. */
+ * period left out)", translated. With a speed: in that period, and how long. @period_ns: of the scans.
+ * Caller frees. */
 char *task_runs_at_text(const struct task_runs *runs, gint64 ns, gint64 period_ns);
 /** task_runs_sum_text - of a task in the scan that is shown: "24 runs, 3 periods left out",
  * translated; NULL: that program has no such task. Caller frees. */

@@ -40,6 +40,35 @@ END_VAR
 END_CONFIGURATION
 ''' + PROGRAMS
 PLAIN = 'RUNGBOARD 1\n\nVAR\n  Door AT %IX0.0 : BOOL;\nEND_VAR\n' + PROGRAMS
+PAIR = '''RUNGBOARD 1
+
+VAR_GLOBAL
+  Ticks, Sum : INT;
+END_VAR
+CONFIGURATION Plant
+  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);
+  TASK Slow (INTERVAL := T#5ms, PRIORITY := 2);
+  PROGRAM A WITH Fast : Count;
+  PROGRAM B WITH Slow : Add;
+END_CONFIGURATION
+
+PROGRAM Count IL
+  LD Ticks
+  ADD 1
+  ST Ticks
+END_PROGRAM
+
+PROGRAM Add IL
+  LD 0
+  ST Sum
+Again:
+  LD Sum
+  ADD 1
+  ST Sum
+  LT 100
+  JMPC Again
+END_PROGRAM
+'''
 QUESTION = 'Its programs then run in each scan: Quick, Lazy.'
 
 
@@ -329,4 +358,27 @@ def simulated(screen):
     until(lambda: not editor.find('Zoom out', 'push button').has(24), 'the whole time of the plan')
 
 
-main([table, rows, tree, last_program, implicit, picture, simulated])
+def paced(screen):
+    """with a speed of the board runs take time: the picture and its text say who interrupted whom"""
+    editor, _ = opened(screen, PAIR)
+    editor.keys('ctrl+t')
+    editor.says('PAUSE')
+    editor.click(editor.find('Simulation settings', 'push button'))
+    editor.focus_on('Period, ms')
+    editor.keys('Tab')
+    editor.focus_on('Speed of the board, words/ms')
+    editor.keys('ctrl+a')
+    editor.type('1000')
+    editor.keys('Tab')
+    editor.shot('tasks-speed')
+    editor.keys('Escape')
+    editor.keys(*['ctrl+t'] * 10)
+    slow = editor.find('Slow: priority 2, every 5 ms, .* 3 runs, interrupted [0-9]+ time', 'list item')
+    x, y, width, height = editor.place(slow)
+    editor.click((x + 20, y + height // 2))
+    editor.keys('Left')
+    editor.says('At .* ms: Fast \\(.* ms\\), then Slow \\(.* ms.*\\)')
+    editor.shot('tasks-paced')
+
+
+main([table, rows, tree, last_program, implicit, picture, simulated, paced])

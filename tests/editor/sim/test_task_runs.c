@@ -25,6 +25,16 @@ static const char tasks[] =
 static const char plain[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
 
+/* Slow counts to 20 in a loop that begins with a safe point. */
+static const char pair[] =
+	"RUNGBOARD 1\n\nVAR_GLOBAL\n  N, K : INT;\nEND_VAR\n\nCONFIGURATION Plant\n"
+	"  TASK Fast (INTERVAL := T#1ms, PRIORITY := 0);\n"
+	"  TASK Slow (INTERVAL := T#50ms, PRIORITY := 1);\n"
+	"  PROGRAM A WITH Fast : One;\n  PROGRAM B WITH Slow : Two;\nEND_CONFIGURATION\n\n"
+	"PROGRAM One IL\n  LD N\n  ADD 1\n  ST N\nEND_PROGRAM\n\n"
+	"PROGRAM Two IL\n  LD 0\n  ST K\nAgain:\n  LD K\n  ADD 1\n  ST K\n  LT 20\n"
+	"  JMPC Again\nEND_PROGRAM\n";
+
 static LadderDocument *document;
 static LadderSim *sim;
 static struct task_runs *runs;
@@ -201,6 +211,61 @@ static void test_plain(void)
 	CHECK(!task_runs_feed(runs, G_USEC_PER_SEC) && task_runs_count(runs) == 0);
 }
 
+static char *last_told;
+
+static void told(LadderSim *of, const char *text, gboolean bad)
+{
+	(void)of, (void)bad;
+	g_free(last_told);
+	last_told = g_strdup(text);
+}
+
+/* With a speed of the board: how long the runs took, and which one was interrupted. */
+static void test_paced(void)
+{
+	const struct task_run *run;
+	guint first, count;
+	char *text;
+
+	ladder_sim_end(sim);
+	open_text(pair);
+	ladder_sim_set_period(sim, MS);
+	ladder_sim_set_board_speed(sim, 120);
+	CHECK(ladder_sim_board_speed(sim) == 120 && ladder_sim_begin(sim, NULL));
+	CHECK(ladder_sim_twin(sim)->resource.pace.speed == 120);
+	while (task_runs_feed(runs, G_USEC_PER_SEC))
+		;
+	scan(54);
+	first = task_runs_from(runs, 51 * MS);
+	count = task_runs_count(runs);
+	CHECK(count - first >= 6);
+	run = task_runs_get(runs, first);
+	CHECK(strcmp(run->task, "Fast") == 0 && run->at_ns == 51 * MS && run->whole &&
+	      run->took_ns > 0 && !run->paused_ns);
+	run = task_runs_get(runs, first + 1);
+	CHECK(strcmp(run->task, "Slow") == 0 && !run->whole && !run->paused_ns &&
+	      run->at_ns == 51 * MS + task_runs_get(runs, first)->took_ns);
+	CHECK(task_runs_get(runs, first + 3)->paused_ns == run->at_ns + run->took_ns);
+	CHECK(task_runs_get(runs, first + 3)->at_ns > 52 * MS);
+	text = task_runs_at_text(runs, 51 * MS + MS / 2, MS);
+	CHECK(g_str_has_prefix(text, "At 51 ms: Fast (") && strstr(text, ", then Slow (") &&
+	      g_str_has_suffix(text, ", interrupted)"));
+	printf("# %s\n", text);
+	g_free(text);
+	CHECK(strstr(says_sum("Slow"), "2 runs, interrupted ") != NULL);
+	/* Far too slow: the watchdog, which has no place in the program. */
+	g_signal_connect(sim, "told", G_CALLBACK(told), NULL);
+	ladder_sim_set_board_speed(sim, 1);
+	ladder_sim_reset(sim, false);
+	CHECK_SOON(ladder_sim_twin(sim)->resource.scans == 0);
+	ladder_sim_scan(sim, 200);
+	CHECK_SOON(ladder_sim_twin(sim)->resource.state == STATE_FAULT);
+	CHECK(ladder_sim_twin(sim)->resource.fault == FAULT_WATCHDOG);
+	CHECK_SOON(last_told && strstr(last_told, "task Fast: watchdog") != NULL);
+	printf("# %s\n", last_told ? last_told : "nothing");
+	ladder_sim_set_board_speed(sim, 0);
+}
+
 int main(void)
 {
 	document = ladder_document_new();
@@ -213,6 +278,7 @@ int main(void)
 	test_cold();
 	test_fault();
 	test_plain();
+	test_paced();
 	task_runs_free(runs);
 	g_object_unref(sim);
 	g_object_unref(document);
