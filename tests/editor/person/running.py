@@ -288,6 +288,8 @@ def paces(screen):
     editor.type('20')
     editor.keys('Tab')
     editor.says('Simulating · 20 ms')
+    editor.focus_on('Speed of the board, words/ms')
+    editor.keys('Tab')
     switch = editor.focus_on('Slow motion')
     editor.keys('space')
     until(lambda: switch.has(4), 'the switch to be on')
