@@ -4,11 +4,23 @@
  */
 #include "editor-gtk/kit/gtk48/popover.h"
 
+/* GTK waits half a second before it looks for a tooltip. Then it asks the surface that the
+ * pointer was in last, which may be the popover's. It removes this timer itself at the next
+ * event. */
+static void forget_tooltip(GdkDisplay *display)
+{
+	GSource *timer = g_main_context_find_source_by_user_data(NULL, display);
+
+	if (timer && g_strcmp0(g_source_get_name(timer), "[gtk] tooltip_popup_timeout") == 0)
+		g_source_set_ready_time(timer, -1);
+}
+
 void popover_drop(GtkWidget *popover)
 {
 	/* An event may have brought the pointer back since it was hidden. GTK does not look
 	 * for a surface below the pointer in an insensitive widget. */
 	gtk_widget_set_sensitive(popover, FALSE);
+	forget_tooltip(gtk_widget_get_display(popover));
 	if (gtk_widget_get_parent(popover))
 		gtk_widget_unparent(popover);
 }
@@ -131,8 +143,10 @@ static gboolean give_up_surface(gpointer data)
 {
 	GtkWidget *popover = data;
 
-	if (!gtk_widget_get_mapped(popover) && gtk_widget_get_realized(popover))
+	if (!gtk_widget_get_mapped(popover) && gtk_widget_get_realized(popover)) {
+		forget_tooltip(gtk_widget_get_display(popover));
 		gtk_widget_unrealize(popover);
+	}
 	return G_SOURCE_REMOVE;
 }
 

@@ -8,6 +8,9 @@
  *   maybe_request_motion_event()). The window then believes the pointer is there until it
  *   moves, and a press is lost. To see it: open and close a menu, change the layout by a key,
  *   click without moving the pointer. Test: tests/editor/kit/gtk48/test_popover.c.
+ * - Critical, popover_init(): half a second after the pointer moved in a popover, GTK asks its
+ *   surface where a tooltip is due. A popover that closed in between has none. To see it: storm
+ *   12 of tests/editor/person/storm.py, which tests it.
  * - Crash, popover_drop(): a popover that is unparented while the pointer is in it is asked
  *   for its surface in the next layout and has none.
  * - Crash, popover_point(): a popover that points outside its parent, such as to a cell that
