@@ -17,6 +17,7 @@
 #include "ladderd/options.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,6 +112,22 @@ static void make_real_time(int priority)
 			strerror(errno));
 }
 
+/* Asks the kernel for no idle state of the processor that it is slow to leave, as long as the
+ * file is open (Linux, "PM Quality Of Service Interface"). Returns the file, -1: not granted. */
+static int hold_wake_up(void)
+{
+	static const char path[] = "/dev/cpu_dma_latency";
+	const int32_t most_us = 0;
+	const int file = open(path, O_WRONLY | O_CLOEXEC);
+
+	if (file >= 0 && write(file, &most_us, sizeof(most_us)) == (ssize_t)sizeof(most_us))
+		return file;
+	fprintf(stderr, "ladderd: %s: %s; scans may begin later\n", path, strerror(errno));
+	if (file >= 0)
+		close(file);
+	return -1;
+}
+
 static int run_lines(struct daemon *daemon, int64_t limit_ns)
 {
 	struct cycle *cycle = &daemon->cycle;
@@ -186,7 +203,7 @@ static int run(struct daemon *daemon)
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
 	int64_t limit_ns;
-	int status, error;
+	int status, error, latency = -1;
 
 	if (!settled || !memory || !stack) {
 		fprintf(stderr, "ladderd: out of memory\n");
@@ -236,7 +253,11 @@ static int run(struct daemon *daemon)
 	safe_on_crash(&cycle->hal, stack);
 	if (options->priority || daemon->again) /* the start before may have had one */
 		make_real_time((int)options->priority);
+	if (options->priority && !options->no_pm_qos)
+		latency = hold_wake_up();
 	status = run_lines(daemon, limit_ns);
+	if (latency >= 0)
+		close(latency);
 	safe_on_crash(NULL, NULL);
 	hal_close(&cycle->hal);
 	notify_close(&cycle->notify);

@@ -66,7 +66,9 @@ const char *options_help(void)
 "                   the tasks of the program, or 10ms\n"
 "  --watchdog N     FAULT after N late scans in a row, or one scan of N periods;\n"
 "                   also for each task; 1 to 1000, default 10\n"
-"  --rt PRIO        real-time priority 0 to 49, and memory locked; 0: none\n"
+"  --rt PRIO        real-time priority 0 to 49, memory locked, and no idle state of\n"
+"                   the processor that is slow to leave; 0: none of them\n"
+"  --no-pm-qos      with --rt: leave the idle states as they are\n"
 "  --retain FILE    keep VAR RETAIN in FILE when power fails (docs/boards.md)\n"
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
@@ -98,6 +100,7 @@ static const struct option_row {
 	{ "--period",        TIME,   AT(period_ns), PERIOD_LEAST, PERIOD_MOST },
 	{ "--watchdog",      NUMBER, AT(watchdog),  1, 1000 },
 	{ "--rt",            NUMBER, AT(priority),  0, 49 },
+	{ "--no-pm-qos",     FLAG,   AT(no_pm_qos), 0, 0 },
 	{ "--retain",        TEXT,   AT(retain.path), 0, 0 },
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },

@@ -232,6 +232,21 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
 	unlike(get('err'), qr/^%Q/m, "$what: no pin is touched");
 	is(get('out'), '', "$what: nothing on stdout");
 }
+# ---- --rt keeps the processor from idle states that are slow to leave ----
+my $latency = '/dev/cpu_dma_latency';
+sub has_latency { return grep { (readlink $_ // '') eq $latency } glob "/proc/$_[0]/fd/*" }
+for (['with --rt it is held, or what refused it is told', 1, '--rt', 1],
+     ['with --no-pm-qos it is left alone', 0, '--rt', 1, '--no-pm-qos'],
+     ['without --rt it is left alone', 0], ['with --rt 0 it is left alone', 0, '--rt', 0]) {
+	my ($what, $wanted, @rt) = @$_;
+	my $pid = start($ladderd, $rung, '--io', $map, @traced, @rt);
+	until_has('err', qr/^%Q/m);
+	my $held = has_latency($pid);
+	my $told = get('err') =~ m{^ladderd: \Q$latency\E: \w.*; scans may begin later$}m;
+	is($held + $told, $wanted, "$latency: $what");
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'ends');
+}
 # Errors and other warnings are those of `ladder check`; advice is printed only at the desk.
 my $near = put('near.rung', "RUNGBOARD 1\n\nVAR_GLOBAL\n  Valve : BOOL;\nEND_VAR\n\n".
 	       "PROGRAM M LD\nRUNG\n  | NO Valv | COIL Valve |\nEND_PROGRAM\n");
