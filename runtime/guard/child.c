@@ -8,6 +8,7 @@
 #include "guard/say.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -73,21 +74,25 @@ void child_page(struct child *child)
 }
 
 /* After vfork(): system calls only. */
-static void become(char **argv, const sigset_t *signals, int socket, int page, pid_t guard)
+static void become(char **argv, int socket, int page, pid_t guard)
 {
+	sigset_t own;
+
 	prctl(PR_SET_PDEATHSIG, SIGTERM);
 	if (getppid() != guard)
 		_exit(0);
 	fcntl(socket, F_SETFD, 0);
 	if (page >= 0)
 		fcntl(page, F_SETFD, 0);
-	sigprocmask(SIG_UNBLOCK, signals, NULL);
+	sigemptyset(&own);
+	sigaddset(&own, SIGCHLD);
+	sigprocmask(SIG_UNBLOCK, &own, NULL);
 	execvp(argv[0], argv);
 	_exit(CHILD_NO_PROGRAM);
 }
 
-bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
-		 bool stopped, unsigned count, int how)
+bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stopped,
+		 unsigned count, int how)
 {
 	static char *table[VARIABLES];
 	static char ours[96];
@@ -114,7 +119,7 @@ bool child_start(struct child *child, char **argv, const sigset_t *signals, int 
 	environ = table;
 	pid = vfork();
 	if (pid == 0)
-		become(argv, signals, pair[1], child->page_fd, guard);
+		become(argv, pair[1], child->page_fd, guard);
 	environ = before;
 	close(pair[1]);
 	if (pid < 0) {

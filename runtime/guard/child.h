@@ -5,7 +5,6 @@
 #ifndef GUARD_CHILD_H
 #define GUARD_CHILD_H
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <sys/types.h>
@@ -26,15 +25,15 @@ struct child {
 void child_page(struct child *child);
 /**
  * child_start - runs @argv with LADDER_GUARD and without the variables of a service manager
- * @signals: those that the guard has blocked; the child blocks none
  * @stopped: begin in STOP
  * @count, @how: the abnormal ends so far, and the last one, as in guard/say.h
  *
- * The kernel sends the child SIGTERM if the guard dies. Allocates nothing; vfork() does without
- * an MMU. Fails: false, told.
+ * The signals that the guard hands on stay blocked, so one that comes before ladderd listens waits
+ * for it. The kernel sends the child SIGTERM if the guard dies. Allocates nothing; vfork() does
+ * without an MMU. Fails: false, told.
  */
-bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
-		 bool stopped, unsigned count, int how);
+bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stopped,
+		 unsigned count, int how);
 /** child_ended - whether it has ended: then status is set, and pidfd and socket are closed. */
 bool child_ended(struct child *child);
 #endif

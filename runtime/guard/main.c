@@ -187,7 +187,7 @@ static bool start(int64_t now)
 	if (stopped)
 		dprintf(STDERR_FILENO, "ladder-guard: ladderd has ended abnormally %d times within "
 			"%d s: it begins in STOP\n", ENDS, WITHIN_MS / 1000);
-	return child_start(&guard.child, guard.argv, &guard.signals, guard.heartbeat_ms, stopped,
+	return child_start(&guard.child, guard.argv, guard.heartbeat_ms, stopped,
 			   guard.ends, guard.how);
 }
 

@@ -7,6 +7,7 @@
 #include "guard/say.h"
 #include "hal/request.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <stddef.h>
@@ -226,11 +227,15 @@ void guarded_take(struct hal *hal)
 	struct guard_levels levels = { .head = { .magic = GUARD_MAGIC, .kind = GUARD_TAKE } };
 	struct pollfd answer = { .fd = to.fd - 1, .events = POLLIN };
 	struct guard_place at = first_place(hal);
+	int ready;
 
 	if (!to.fd)
 		return;
 	say(&levels.head, sizeof(levels.head));
-	if (poll(&answer, 1, TAKE_MS) != 1 ||
+	do
+		ready = poll(&answer, 1, TAKE_MS);
+	while (ready < 0 && errno == EINTR);
+	if (ready != 1 ||
 	    recv(to.fd - 1, &levels, sizeof(levels), MSG_DONTWAIT) != sizeof(levels))
 		return;
 	for (uint32_t i = 0; i < GUARD_LINES && next_place(&at); i++) {

@@ -255,6 +255,7 @@ static int run(struct daemon *daemon)
 		make_real_time((int)options->priority);
 	if (options->priority && !options->no_pm_qos)
 		latency = hold_wake_up();
+	requests_heed();
 	status = run_lines(daemon, limit_ns);
 	if (latency >= 0)
 		close(latency);
@@ -293,9 +294,11 @@ enum again { ONCE, ONCE_STOPPED, AGAIN, AGAIN_STOPPED };
  * begins; gets whether a desk wants another start. */
 static int run_once(int argc, char **argv, enum again *again)
 {
-	struct daemon *daemon = calloc(1, sizeof(*daemon));
+	struct daemon *daemon;
 	int status;
 
+	requests_hold();
+	daemon = calloc(1, sizeof(*daemon));
 	if (daemon) {
 		daemon->again = *again >= AGAIN;
 		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED || *again == ONCE_STOPPED;

@@ -45,6 +45,28 @@ static void listen_to(int signal_number, void (*handler)(int))
 	sigaction(signal_number, &action, NULL);
 }
 
+static void mask_requests(int how)
+{
+	sigset_t set;
+
+	sigemptyset(&set);
+	sigaddset(&set, SIGINT);
+	sigaddset(&set, SIGTERM);
+	sigaddset(&set, SIGUSR1);
+	sigaddset(&set, SIGHUP);
+	sigprocmask(how, &set, NULL);
+}
+
+void requests_hold(void)
+{
+	mask_requests(SIG_BLOCK);
+}
+
+void requests_heed(void)
+{
+	mask_requests(SIG_UNBLOCK);
+}
+
 struct requests *requests_listen(void)
 {
 	listen_to(SIGINT, on_request);

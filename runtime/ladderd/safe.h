@@ -21,6 +21,11 @@ struct requests {
 	volatile sig_atomic_t reset;  /* SIGHUP                               */
 	bool attended;                /* --attended                           */
 };
+/** requests_hold - signals wait until requests_listen() and requests_heed(): the first thing that
+ * ladderd does, and each other start of it. */
+void requests_hold(void);
+/** requests_heed - those that waited come now. */
+void requests_heed(void);
 /** requests_listen - installs the handlers. The struct is static. */
 struct requests *requests_listen(void);
 /**

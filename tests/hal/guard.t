@@ -88,6 +88,14 @@ sub until_it {
 	}
 	return 0;
 }
+# The same for a moment that is soon over.
+sub until_quick {
+	my ($what) = @_;
+	for (1 .. 200000) {
+		return 1 if $what->();
+	}
+	return 0;
+}
 my $names = 0;
 sub start {
 	my (@args) = @_;
@@ -415,6 +423,40 @@ END
 	until_it(\&runs);
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'it ends');
+}
+
+# ---- signals that come before ladderd listens ----
+# Alone: as soon as it holds them, or else when it listens. Under a guard: as soon as the guard does.
+{
+	my $mask = sub {
+		my ($pid, $name, $program) = @_;
+		return 0 if (readlink("/proc/$pid/exe") // '') !~ /\Q$program\E$/;
+		return (slurp("/proc/$pid/status") // '') =~ /^$name:\s*([0-9a-f]+)/m ? hex(substr $1, -4) & 1 << 14 : 0;
+	};
+	my ($held, $good, $all) = (0, 0, 200);
+	for (1 .. $all) {
+		fresh();
+		my $alone = $guard;
+		$guard = $ladderd;
+		my $pid = start(@ladderd[1 .. $#ladderd]);
+		$guard = $alone;
+		my $early = 0;
+		until_quick(sub { ($early = $mask->($pid, 'SigBlk', 'guarded_ladderd')) || $mask->($pid, 'SigCgt', 'guarded_ladderd') });
+		$held++ if $early;
+		kill $_, $pid for 'USR1', 'HUP', 'TERM';
+		$good++ if finish($pid) eq '0' && (slurp("$dir/out") // '') =~ /^state: /m;
+	}
+	is($good, $all, "SIGUSR1, SIGHUP and SIGTERM at once: the status is printed, and ladderd ends in order, $all times");
+	cmp_ok($held, '>', 0, "$held times they came before it listened");
+	($good, $all) = (0, 50);
+	for (1 .. $all) {
+		fresh();
+		my $pid = start(named(), '--', @ladderd);
+		until_quick(sub { $mask->($pid, 'SigBlk', 'guarded_guard') });
+		kill $_, $pid for 'USR1', 'HUP', 'TERM';
+		$good++ if finish($pid) eq '0' && err() !~ /died/;
+	}
+	is($good, $all, "the same through the guard, $all times");
 }
 
 # ---- refused ----
