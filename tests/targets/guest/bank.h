@@ -24,7 +24,7 @@ struct bank {
 /** bank_can - whether the kernel has gpio-sim. */
 bool bank_can(void);
 /** bank_up - creates a chip with @count lines; all or some names may be NULL. @hog: line
- * that "other" holds at 1; -1: none. */
+ * that "other" holds at 1; -1: none. A chip of this name that is still there ends the suite. */
 void bank_up(struct bank *bank, const char *word, const char *const *name,
 	     unsigned count, int hog);
 void bank_unplug(struct bank *bank);

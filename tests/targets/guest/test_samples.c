@@ -127,8 +127,9 @@ static void look(struct plan *plan, unsigned long scan, uint32_t want,
 static void play(struct plan *plan, char *name, bool skipped)
 {
 	uint32_t inputs = 0;
-	bool started = false;
+	bool begun = false, started = false;
 	char *text;
+	int code;
 
 	while (next_line(plan) && strcmp(plan->line, "end") != 0) {
 		if (skipped)
@@ -137,11 +138,12 @@ static void play(struct plan *plan, char *name, bool skipped)
 			unsigned long scan = strtoul(text, &text, 10);
 			uint32_t next = (uint32_t)strtoul(text, NULL, 16);
 
-			if (!started)
+			if (!begun)
 				started = start(plan, next);
-			else
+			else if (started)
 				sleep_until(time_of(plan, scan) -
 					    plan->period_ns / 2);
+			begun = true;
 			press(plan, next, inputs ^ next);
 			inputs = next;
 		} else if ((text = behind(plan, "see")) != NULL && started) {
@@ -156,9 +158,13 @@ static void play(struct plan *plan, char *name, bool skipped)
 		return;
 	if (!check(started && plan->looks > 0 && plan->wrong == 0,
 		   "%s: %s (%lu looks)", plan->name, name, plan->looks))
-		note("%lu wrong; %s", plan->wrong, plan->why);
-	if (child_stop(&plan->child) != 0)
-		check(false, "%s: %s: ends well", plan->name, name);
+		note("%s%lu wrong; %s", begun && !started ? "ladderd reported no scan; " : "",
+		     plan->wrong, plan->why);
+	if (!begun)
+		return;
+	code = child_stop(&plan->child);
+	if (code != 0)
+		check(false, "%s: %s: ends well, not with %d", plan->name, name, code);
 	bank_down(&plan->bank);
 }
 
