@@ -1,2 +1,2 @@
 BOARD "cut"
-%QX0.0 sim
+%QX0.0 sim safe=0

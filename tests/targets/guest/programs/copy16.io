@@ -15,19 +15,19 @@ BOARD "16 inputs, 16 outputs"
 %IX1.5 gpio chip=wide offset=13
 %IX1.6 gpio chip=wide offset=14
 %IX1.7 gpio chip=wide offset=15
-%QX0.0 gpio chip=wide offset=16
-%QX0.1 gpio chip=wide offset=17
-%QX0.2 gpio chip=wide offset=18
-%QX0.3 gpio chip=wide offset=19
-%QX0.4 gpio chip=wide offset=20
-%QX0.5 gpio chip=wide offset=21
-%QX0.6 gpio chip=wide offset=22
-%QX0.7 gpio chip=wide offset=23
-%QX1.0 gpio chip=wide offset=24
-%QX1.1 gpio chip=wide offset=25
-%QX1.2 gpio chip=wide offset=26
-%QX1.3 gpio chip=wide offset=27
-%QX1.4 gpio chip=wide offset=28
-%QX1.5 gpio chip=wide offset=29
-%QX1.6 gpio chip=wide offset=30
-%QX1.7 gpio chip=wide offset=31
+%QX0.0 gpio chip=wide offset=16 safe=0
+%QX0.1 gpio chip=wide offset=17 safe=0
+%QX0.2 gpio chip=wide offset=18 safe=0
+%QX0.3 gpio chip=wide offset=19 safe=0
+%QX0.4 gpio chip=wide offset=20 safe=0
+%QX0.5 gpio chip=wide offset=21 safe=0
+%QX0.6 gpio chip=wide offset=22 safe=0
+%QX0.7 gpio chip=wide offset=23 safe=0
+%QX1.0 gpio chip=wide offset=24 safe=0
+%QX1.1 gpio chip=wide offset=25 safe=0
+%QX1.2 gpio chip=wide offset=26 safe=0
+%QX1.3 gpio chip=wide offset=27 safe=0
+%QX1.4 gpio chip=wide offset=28 safe=0
+%QX1.5 gpio chip=wide offset=29 safe=0
+%QX1.6 gpio chip=wide offset=30 safe=0
+%QX1.7 gpio chip=wide offset=31 safe=0
