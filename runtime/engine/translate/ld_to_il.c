@@ -243,55 +243,114 @@ static bool is_single(const struct ld *ld, int element)
 	       (state->powered || ld->network.element[element].in == NET_RAIL);
 }
 
-static void load_element(struct ld *ld, int element)
+/* A contact that may share the power before it: that is no operand yet. */
+static bool is_factor(const struct ld *ld, int element)
+{
+	return ld->element[element].leaf && !is_single(ld, element);
+}
+
+/* Is it a contact between the same two nets as the contact @first? */
+static bool is_beside(const struct ld *ld, int first, int element)
+{
+	return is_factor(ld, first) && is_factor(ld, element) &&
+	       ld->network.element[element].in == ld->network.element[first].in;
+}
+
+/* Whether the contact beside which @feeder[at] lies has been loaded already. */
+static bool is_loaded(const struct ld *ld, const int *feeder, int at)
+{
+	for (int i = 0; i < at; i++)
+		if (is_beside(ld, feeder[i], feeder[at]))
+			return true;
+	return false;
+}
+
+/* @feeder[0], and those of the @count - 1 elements after it that lie beside it. */
+static int count_beside(const struct ld *ld, const int *feeder, int count)
+{
+	int beside = 1;
+
+	for (int i = 1; i < count; i++)
+		beside += is_beside(ld, feeder[0], feeder[i]);
+	return beside;
+}
+
+static void emit_leaf(struct ld *ld, enum op op, int element)
 {
 	const struct element_state *state = &ld->element[element];
 	const struct network_element *at = &ld->network.element[element];
 
 	ld_place(ld, at->row, at->col);
-	if (is_single(ld, element)) {
-		ld_emit(ld, OP_LD, negation(state), state->leaf);
-		return;
-	}
-	ld_load(ld, at->in);
-	ld_place(ld, at->row, at->col);
-	if (state->leaf)
-		ld_emit(ld, OP_AND, negation(state), state->leaf);
-	else
-		ld_emit(ld, OP_NOT, 0, 0);
+	ld_emit(ld, op, negation(state), state->leaf);
 }
 
-static void or_element(struct ld *ld, int element)
+static void open_parenthesis(struct ld *ld, enum op op)
 {
-	const struct element_state *state = &ld->element[element];
-	struct il_line close = { .kind = IL_CLOSE };
+	ld->open = true;
+	ld->open_op = (uint8_t)op;
+}
 
-	if (is_single(ld, element)) {
-		const struct network_element *at = &ld->network.element[element];
+static void close_parenthesis(struct ld *ld)
+{
+	ld_emit_line(ld, (struct il_line){ .kind = IL_CLOSE });
+}
 
-		ld_place(ld, at->row, at->col);
-		ld_emit(ld, OP_OR, negation(state), state->leaf);
+/* The power of @feeder[0] and of those of the @count - 1 elements after it that lie beside it:
+ * `power AND (a OR b OR c)`, which needs fewer tables than `power AND a OR power AND b …`. */
+static void load_elements(struct ld *ld, const int *feeder, int count)
+{
+	const int first = feeder[0];
+	const struct network_element *at = &ld->network.element[first];
+	bool open = false;
+
+	if (is_single(ld, first)) {
+		emit_leaf(ld, OP_LD, first);
 		return;
 	}
-	ld->open = true;
-	ld->open_op = OP_OR;
-	load_element(ld, element);
-	ld_emit_line(ld, close);
+	ld_place(ld, at->row, at->col);
+	ld_load(ld, at->in);
+	for (int i = 1; i < count; i++) {
+		if (!is_beside(ld, first, feeder[i]))
+			continue;
+		if (!open) {
+			open_parenthesis(ld, OP_AND);
+			emit_leaf(ld, OP_LD, first);
+		}
+		open = true;
+		emit_leaf(ld, OP_OR, feeder[i]);
+	}
+	if (open) {
+		close_parenthesis(ld);
+		return;
+	}
+	ld_place(ld, at->row, at->col);
+	if (ld->element[first].leaf)
+		emit_leaf(ld, OP_AND, first);
+	else
+		ld_emit(ld, OP_NOT, 0, 0);
 }
 
 void ld_load(struct ld *ld, int net)
 {
 	const struct network *n = &ld->network;
-	int first = n->first_feeder[net], end = n->first_feeder[net + 1];
+	const int *feeder = n->feeder + n->first_feeder[net];
+	int count = n->first_feeder[net + 1] - n->first_feeder[net];
 
-	if (net == NET_RAIL || ld->net[net].temp || first == end) {
+	if (net == NET_RAIL || ld->net[net].temp || count == 0) {
 		ld_emit(ld, OP_LD, 0, net != NET_RAIL && ld->net[net].temp ?
 			ld->net[net].temp : ld->true_id);
 		return;
 	}
-	load_element(ld, n->feeder[first]);
-	for (int i = first + 1; i < end; i++)
-		or_element(ld, n->feeder[i]);
+	load_elements(ld, feeder, count);
+	for (int i = 1; i < count; i++) {
+		if (is_single(ld, feeder[i])) {
+			emit_leaf(ld, OP_OR, feeder[i]);
+		} else if (!is_loaded(ld, feeder, i)) {
+			open_parenthesis(ld, OP_OR);
+			load_elements(ld, feeder + i, count - i);
+			close_parenthesis(ld);
+		}
+	}
 }
 
 /* The one operand that a net's power is, or 0. */
@@ -315,13 +374,16 @@ static uint32_t single_operand(const struct ld *ld, int net)
 void ld_prepare(struct ld *ld, int net, int readers)
 {
 	const struct network *n = &ld->network;
+	const int *feeder = n->feeder + n->first_feeder[net];
+	const int count = n->first_feeder[net + 1] - n->first_feeder[net];
 
 	if (net == NET_RAIL || ld->net[net].prepared)
 		return;
 	ld->net[net].prepared = true;
-	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
-		if (!ld->element[n->feeder[i]].powered)
-			ld_prepare(ld, n->element[n->feeder[i]].in, 1);
+	for (int i = 0; i < count; i++)
+		if (!ld->element[feeder[i]].powered && !is_loaded(ld, feeder, i))
+			ld_prepare(ld, n->element[feeder[i]].in,
+				   count_beside(ld, feeder + i, count - i));
 	if (n->reader_count[net] > readers && !single_operand(ld, net)) {
 		ld_load(ld, net);
 		ld->net[net].temp = ld_store_new(ld);
@@ -455,7 +517,7 @@ static void ld_settle_element(struct ld *ld, int element)
 		return;
 	if (!state->leaf && row->operand == OPND_ASSIGN)
 		return;
-	load_element(ld, element);
+	load_elements(ld, &element, 1);
 	*state = (struct element_state){
 		.seen = true, .powered = true, .leaf = store_power(ld),
 		.next = state->next,

@@ -72,6 +72,87 @@ static const char *lines(const char *rungs)
 	return out;
 }
 
+/* Tables of three inputs in the code. */
+static int tables(const struct program *program)
+{
+	int count = 0;
+
+	for (uint32_t i = 0; i < program->text_words; i++)
+		if ((program->text[i] & 0xff) == VM_LUT) {
+			count += (int)(program->text[i] >> 8);
+			i += 4 * (program->text[i] >> 8);
+		}
+	return count;
+}
+
+/* @columns of @rows contacts beside each other, in series; B in every second row. */
+static void put_dense(char *out, size_t size, int rows, int columns)
+{
+	size_t len = (size_t)snprintf(out, size, "RUNG\n");
+
+	for (int row = 0; row < rows; row++) {
+		len += (size_t)snprintf(out + len, size - len, " |");
+		for (int col = 0; col < columns; col++)
+			len += (size_t)snprintf(out + len, size - len, " %s %%IX%d.%d %s|",
+						(row + col) & 1 ? "NC" : "NO", 1 + row, col,
+						row ? "^" : "");
+		len += (size_t)snprintf(out + len, size - len, row ? "\n" : " COIL X |\n");
+	}
+}
+
+/* The power before contacts beside each other is read once. A table has three inputs and one
+ * result, so n inputs need n / 2 of them. */
+static void shares_power(void)
+{
+	char rung[4000];
+
+	CHECK_TEXT(lines("RUNG\n | NO A | NO B | COIL X |\n | ^| NC C ^|\n"),
+		   "LD A|AND( B|ORN C|)|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | NC B | COIL X |\n | NO D ^| NC C ^|\n"),
+		   "LD A|OR D|AND(|LDN B|ORN C|)|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | NO B | COIL X |\n | ^| NC C ^|\n | NO D | --- ^|\n"),
+		   "LD A|AND( B|ORN C|)|OR D|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | NO B | COIL X |\n | NO D | NO Y ^|\n | ^| NO Z ^|\n | ^| NC C ^|\n"),
+		   "LD A|AND B|OR( D|AND( Y|OR Z|ORN C|)|)|ST X");
+	for (int rows = 1; rows <= 7; rows++)
+		for (int columns = 1; columns <= 7; columns++) {
+			const int most = rows == 1 ? columns / 2 + (columns == 1) :
+					 rows / 2 + (columns - 1) * ((rows + 1) / 2);
+			struct rig rig;
+
+			put_dense(rung, sizeof(rung), rows, columns);
+			CHECK(ladder(&rig, rung, false));
+			CHECK(tables(rig.resource.image.program) <= most);
+			rig_close(&rig);
+		}
+}
+
+/* One parenthesis in another for each column, as deep as a rung allows: contacts beside each
+ * other in each column, and in each column one that leads there from the rail. */
+static void nests_as_deep_as_columns(void)
+{
+	enum { LAST = LIMIT_COLS - 2 };
+	static char rung[100000];
+	size_t len = (size_t)snprintf(rung, sizeof(rung), "RUNG\n");
+	struct rig rig;
+
+	for (int row = 0; row <= LAST + 1; row++) {
+		const int own = LAST - row; /* column of the contact; below 1: the rows beside */
+
+		len += (size_t)snprintf(rung + len, sizeof(rung) - len, " |");
+		for (int col = 0; col <= LAST; col++)
+			len += (size_t)snprintf(rung + len, sizeof(rung) - len, " %s %s|",
+				own == 0 ? "NO A" : own < 0 ? (col ? "NC C" : "") :
+				col < own ? "---" : col == own ? "NO B" : "",
+				col > own || own < 0 ? "^" : "");
+		len += (size_t)snprintf(rung + len, sizeof(rung) - len,
+					row ? "\n" : " COIL X |\n");
+	}
+	CHECK(ladder(&rig, rung, false));
+	CHECK(strstr(rung, "NC C") && ladder_il(rig.ladder, 0)->count > 3 * LAST);
+	rig_close(&rig);
+}
+
 static void writes_contacts_and_coils(void)
 {
 	CHECK_TEXT(lines("RUNG\n | NO A | NC B | COIL X |\n | NO X ^|\n"),
@@ -536,6 +617,8 @@ static void prints_the_same_program(const char *folder, int least)
 int main(void)
 {
 	writes_contacts_and_coils();
+	shares_power();
+	nests_as_deep_as_columns();
 	writes_flow_and_boxes();
 	keeps_old_values();
 	writes_packed_bits();
