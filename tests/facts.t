@@ -492,6 +492,10 @@ for my $line (@run) {
 		or diag("not there: " . ($test // 'no text'));
 }
 
+# Each kind of event is made by a test, and the board is killed after it.
+list_is('tests/online/link.py, KINDS: the rows of events.def', [(slurp('tests/online/link.py') =~ /^KINDS = \{\n(.*?)^\}/ms)[0] =~ /'([A-Z_]+)': \(/g],
+	[slurp('runtime/online/events.def') =~ /^EVENT\((\w+),/mg]);
+
 my @vehicles = grep { $_ ne 'sizes' } map { basename($_) } grep { -f && -x } glob 'tests/targets/*';
 list_is('Makefile: the vehicles', [split ' ', (slurp('Makefile') =~ /^VEHICLES +\?= (.*)$/m)[0]], \@vehicles);
 list_is('./run help: the vehicles', [split ' ', ($run =~ /in emulators:\n\s+(.*?);/)[0]], \@vehicles);

@@ -347,12 +347,6 @@ static void amend_status(void *context, struct board_status *status)
 
 /* ---- the log ---- */
 
-static void log_add(void *context, enum event_id id, uint8_t role, const char *user,
-		    const char *one, const char *two)
-{
-	journal_add(((struct link *)context)->journal, id, role, user, one, two);
-}
-
 static bool log_next(void *context, uint32_t seq, struct event *out)
 {
 	return journal_next(((struct link *)context)->journal, seq, out);
@@ -374,6 +368,17 @@ static void log_state(struct link *link)
 	}
 	journal_add(link->journal, state == STATE_FAULT ? EVENT_FAULT :
 		    state == STATE_RUN ? EVENT_RUN : EVENT_STOP, 0, "", link->status.fault, "");
+}
+
+/* A desk that orders STOP and RUN without a pause: the state between them is in the log, too. */
+static void log_add(void *context, enum event_id id, uint8_t role, const char *user,
+		    const char *one, const char *two)
+{
+	struct link *link = context;
+
+	journal_add(link->journal, id, role, user, one, two);
+	if (id == EVENT_MODE)
+		log_state(link);
 }
 
 /* At most once a minute: a board that is too slow must not fill its log. */

@@ -219,6 +219,14 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	return REFUSAL_NONE;
 }
 
+static void show_state(struct exchange *exchange)
+{
+	const struct exchange_host *host = exchange->host;
+
+	atomic_store_explicit(&exchange->state, (int)host->resource(host->context)->state,
+			      memory_order_relaxed);
+}
+
 void exchange_serve(struct exchange *exchange)
 {
 	struct order *order;
@@ -230,6 +238,7 @@ void exchange_serve(struct exchange *exchange)
 		return;
 	exchange->done++;
 	order->refusal = do_order(exchange, order);
+	show_state(exchange);
 	atomic_store_explicit(&exchange->order, NULL, memory_order_release);
 }
 
@@ -239,8 +248,7 @@ void exchange_show(struct exchange *exchange, int64_t now_ns)
 	struct view *view = &exchange->view[exchange->back];
 
 	exchange->done = 0;
-	atomic_store_explicit(&exchange->state, (int)host->resource(host->context)->state,
-			      memory_order_relaxed);
+	show_state(exchange);
 	if (!exchange->watch.count)
 		return;
 	copy_ranges(&exchange->watch, view, host->resource(host->context));
