@@ -178,13 +178,13 @@ static bool is_awaited(const struct list *list, uint32_t slot)
 	return found;
 }
 
-/* A comparison whose result only @value reads becomes @value. */
+/* A bit that only @value reads is stored by the instruction that makes it. */
 static void store_at(struct list *list, const struct bits *value, uint32_t offset)
 {
-	uint32_t slot = bits_compared(list->as);
+	uint32_t slot = bits_made(list->as);
 
 	if (!slot || is_awaited(list, slot) ||
-	    !bits_store_compared(list->as, value, offset))
+	    !bits_store_made(list->as, value, offset))
 		bits_store(list->as, value, offset);
 }
 

@@ -68,6 +68,8 @@ struct assembler {
 	struct words code, watch;
 	int open_lut;              /* word index of a LUT that may be extended; -1 */
 	int open_cmp;              /* of a comparison that ends the code; -1  */
+	int open_bit;              /* word with the slot of the bit that the last
+				      instruction makes; -1: it makes none    */
 	struct code_place *place;
 	int place_count;
 	struct code_program *entry;
@@ -195,11 +197,12 @@ void bits_end(struct assembler *as);
 /** bits_compare - a comparison, which is @table of its order, in a scratch slot. */
 struct bits bits_compare(struct assembler *as, uint32_t table, uint32_t left,
 			 uint32_t right);
-/** bits_compared - the slot of a comparison that ends the code; 0: the code ends otherwise. */
-uint32_t bits_compared(const struct assembler *as);
-/** bits_store_compared - as bits_store(), from the comparison that ends the code; its slot is
- * not written. False: @a does not consist of it and at most one other bit. */
-bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t offset);
+/** bits_made - the scratch slot of the bit that the instruction at the end of the code makes: a
+ * comparison, or ENO of a function. 0: it makes none. */
+uint32_t bits_made(const struct assembler *as);
+/** bits_store_made - as bits_store(): that instruction stores @a itself, and not its slot.
+ * False: @a is another value. A comparison may take one other bit with it. */
+bool bits_store_made(struct assembler *as, const struct bits *a, uint32_t offset);
 /** bits_keep - @a stored in a scratch slot, as a leaf. */
 struct bits bits_keep(struct assembler *as, const struct bits *a);
 /** emit - one word of code. */

@@ -334,16 +334,23 @@ static bool is_plain_move(const struct word_row *row, enum word word,
 	       type != IEC_STRING && CODE_TYPE(call->input[0]) == type;
 }
 
+/* @fn: its ENO is told by bits_made() if only a temporary has it. */
 static void emit_call(struct list *list, const struct word_row *row, enum word word,
 		      const struct call *call, struct fn_code fn)
 {
+	struct assembler *as = list->as;
+	int at;
+
 	fn.fn = function_of(row, word);
 	fn.type = list->types[list->at];
 	fn.en = call->en;
 	fn.count = (uint32_t)call->count;
 	for (uint32_t i = 0; i < fn.count; i++)
 		fn.input[i] = input_word(row, i, call->input[i]);
+	at = as->text->count;
 	list_emit_fn(list, &fn);
+	if (call->eno && list_temp(list, call->eno) >= 0)
+		as->open_bit = at + ((as->text->word[at] & 0xff) == VM_FN ? 3 : 2);
 }
 
 void list_call(struct list *list)

@@ -16,6 +16,7 @@ void bits_end(struct assembler *as)
 {
 	as->open_lut = -1;
 	as->open_cmp = -1;
+	as->open_bit = -1;
 }
 
 void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
@@ -177,17 +178,19 @@ struct bits bits_compare(struct assembler *as, uint32_t table, uint32_t left,
 	emit(as, CODE_FALSE_AT(as->areas));
 	emit(as, slot);
 	as->open_cmp = at;
+	as->open_bit = at + 4;
 	return bits_leaf(as, slot);
 }
 
-uint32_t bits_compared(const struct assembler *as)
+uint32_t bits_made(const struct assembler *as)
 {
-	return as->open_cmp < 0 ? 0 : as->text->word[as->open_cmp + 4];
+	return as->open_bit < 0 ? 0 : as->text->word[as->open_bit];
 }
 
-bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t offset)
+/* @a: the comparison, and at most one other bit. */
+static bool store_compared(struct assembler *as, const struct bits *a, uint32_t offset)
 {
-	uint32_t slot = bits_compared(as), *code, table = 0;
+	uint32_t slot = bits_made(as), *code, table = 0;
 	int own = 0;
 
 	while (own < a->count && a->leaf[own] != slot)
@@ -204,6 +207,19 @@ bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t of
 		code[3] = a->leaf[!own];
 	code[4] = offset;
 	*code = (*code & 0xff) | table << 8;
+	return true;
+}
+
+bool bits_store_made(struct assembler *as, const struct bits *a, uint32_t offset)
+{
+	if (as->open_cmp >= 0) {
+		if (!store_compared(as, a, offset))
+			return false;
+	} else if (bits_is_leaf(a) && a->leaf[0] == bits_made(as)) {
+		as->text->word[as->open_bit] = offset;
+	} else {
+		return false;
+	}
 	bits_end(as);
 	return true;
 }

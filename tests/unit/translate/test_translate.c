@@ -127,6 +127,27 @@ static void shares_power(void)
 		}
 }
 
+/* ENO goes straight to the coil, and to nothing else that reads it. */
+static void stores_eno_at_once(void)
+{
+	static const char *const rung[] = {
+		"RUNG\n | NO A | ADD IN1:=N IN2:=M OUT=>N | COIL X |\n",
+		"RUNG\n | NO A | DIV IN1:=N IN2:=M OUT=>N | COIL X |\n",
+		"RUNG\n | NO A | ADD IN1:=N IN2:=M OUT=>N | COIL X |\n | ^| COIL Y |\n",
+		"RUNG\n | NO A | ADD IN1:=N IN2:=M OUT=>N | COILNOT X |\n",
+		"RUNG\n | NO A | ADD IN1:=N IN2:=M OUT=>N | NO B | COIL X |\n",
+	};
+	static const int most[] = { 0, 0, 1, 1, 1 };
+
+	for (size_t i = 0; i < sizeof(rung) / sizeof(*rung); i++) {
+		struct rig rig;
+
+		CHECK(ladder(&rig, rung[i], false));
+		CHECK_AS(tables(rig.resource.image.program) == most[i], rung[i]);
+		rig_close(&rig);
+	}
+}
+
 /* One parenthesis in another for each column, as deep as a rung allows: contacts beside each
  * other in each column, and in each column one that leads there from the rail. */
 static void nests_as_deep_as_columns(void)
@@ -618,6 +639,7 @@ int main(void)
 {
 	writes_contacts_and_coils();
 	shares_power();
+	stores_eno_at_once();
 	nests_as_deep_as_columns();
 	writes_flow_and_boxes();
 	keeps_old_values();
