@@ -470,7 +470,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -492,6 +492,8 @@ $(BIN)/wear: $(call obj,tests/wear.c $(addprefix runtime/ladderd/,store_thread.c
 $(BIN)/wear: WRAP := -pthread $(patsubst %,-Wl$(comma)--wrap=%,clock_gettime poll fdatasync pwrite pwrite64)
 $(BIN)/overruns: $(call obj,tests/overruns.c $(addprefix runtime/ladderd/,cycle.c conf_none.c guarded_none.c store_none.c stats.c wall.c) $(HAL_CORE) hal/gpiod_none.c)
 $(BIN)/overruns: WRAP := $(patsubst %,-Wl$(comma)--wrap=%,clock_gettime clock_nanosleep)
+$(BIN)/trials: $(call obj,tests/trials.c $(addprefix runtime/ladderd/,cycle.c download.c guarded_none.c store_none.c stats.c wall.c) $(addprefix runtime/online/,event.c wire.c stored.c) $(HAL_CORE) hal/gpiod_none.c)
+$(BIN)/trials: WRAP := -Wl,--gc-sections $(patsubst %,-Wl$(comma)--wrap=%,clock_gettime clock_nanosleep)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 # A second evaluator for ClassicLadder projects, to compare with the import.
 CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/own_read.c tests/classic/run.c)
