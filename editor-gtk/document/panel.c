@@ -162,7 +162,8 @@ static int by_tone(gconstpointer left, gconstpointer right, gpointer unused)
 	       a->tone < b->tone ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
 }
 
-#define HEADING_ROOM 24 /* padding of a heading, and the arrow of sorting */
+#define HEADING_ROOM 14 /* padding of a heading                               */
+#define ARROW_ROOM 17   /* of the arrow of sorting                            */
 
 int panel_heading_width(GtkWidget *view, const char *name)
 {
@@ -190,7 +191,8 @@ struct panel_column {
 	int text;     /* which of a row's; -1: none, an icon or a check box     */
 	int room;     /* beside the text                                        */
 	int width;    /* wished by the panel; 0: natural                        */
-	int least;    /* px for its heading                                     */
+	int least;    /* px for its heading as it is now                        */
+	int line, low; /* the same in one line, and in two                      */
 	int need;     /* px for the longest text so far: widths settle          */
 	int whole;    /* the same, of a text that is wider than COLUMN_MOST, too */
 	int set;      /* given last; another one is a person's                  */
@@ -235,20 +237,36 @@ static void measure(struct panel_list *list)
 	g_object_unref(layout);
 }
 
-/* Px that a column may be narrower: its wish less what its texts need. 0: it is a person's. */
+/* Is the width ours to choose? Otherwise it is natural, or a person's. */
+static bool is_ours(const struct panel_column *column)
+{
+	return column->width &&
+	       gtk_column_view_column_get_fixed_width(column->column) == column->set;
+}
+
+/* Px that a column may be narrower: its wish less what its texts need. */
 static int slack_of(const struct panel_column *column)
 {
-	const bool ours = column->width &&
-		gtk_column_view_column_get_fixed_width(column->column) == column->set;
+	return is_ours(column) ? MAX(column->width - MAX(column->need, column->least), 0) : 0;
+}
 
-	return ours ? MAX(column->width - MAX(column->need, column->least), 0) : 0;
+/* Px that its texts need beyond its heading. */
+static int spare_of(const struct panel_column *column)
+{
+	return is_ours(column) ? MAX(column->need - column->least, 0) : 0;
+}
+
+/* The part of @px that falls to @own of @all, rounded up. */
+static int share(int own, int px, int all)
+{
+	return all > 0 ? (own * px + all - 1) / all : 0;
 }
 
 static int wish_of(const struct panel_column *column)
 {
 	const int now = gtk_column_view_column_get_fixed_width(column->column);
 
-	if (column->width && now != column->set)
+	if (column->width && !is_ours(column))
 		return now;
 	return MAX(MAX(column->width, column->need), column->least);
 }
@@ -286,28 +304,100 @@ static int width_of_others(struct panel_list *list)
 	return width;
 }
 
-/* Each column has the width that it wishes, or more for its texts. Where that is more than the
- * list has, or the texts of one that expands lack room, all give up what their texts do not need. */
-static void fit(struct panel_list *list)
-{
-	int all = width_of_others(list), slack = 0, lack = 0, page;
+/* What the columns of a list need, px: see fit(). */
+struct widths {
+	int all;    /* all wishes                                             */
+	int lack;   /* of the texts of one that expands                       */
+	int slack;  /* all wishes less what texts and headings need           */
+	int spare;  /* what texts need beyond their headings                   */
+};
 
-	measure(list);
+static struct widths widths_of(struct panel_list *list)
+{
+	struct widths of = { .all = width_of_others(list) };
+
 	for (guint i = 0; i < list->columns->len; i++) {
 		const struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
 
 		if (!gtk_column_view_column_get_visible(each->column))
 			continue;
-		all += wish_of(each);
-		slack += slack_of(each);
-		lack += lack_of(each);
+		of.all += wish_of(each);
+		of.lack += lack_of(each);
+		of.slack += slack_of(each);
+		of.spare += spare_of(each);
 	}
-	page = list->page > 0 ? list->page : all + lack;
+	return of;
+}
+
+/* A copy of @name, in two lines if it has a blank: broken at the one nearest to the middle. Caller
+ * frees. */
+static char *two_lines(const char *name)
+{
+	char *copy = g_strdup(name), *best = NULL;
+	const char *middle = copy + strlen(copy) / 2;
+
+	for (char *blank = strchr(copy, ' '); blank; blank = strchr(blank + 1, ' '))
+		if (!best || labs(blank - middle) < labs(best - middle))
+			best = blank;
+	if (best)
+		*best = '\n';
+	return copy;
+}
+
+static void set_low(struct panel_list *list, bool low)
+{
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		each->least = low ? each->low : each->line;
+	}
+	list->low = low;
+}
+
+/* Writes the headings in one line, or in two. */
+static void show_headings(struct panel_list *list)
+{
+	for (guint i = 0; i < list->columns->len; i++) {
+		GtkColumnViewColumn *column = g_array_index(list->columns, struct panel_column, i).column;
+		const char *title = gtk_column_view_column_get_title(column);
+		char *line = g_strdelimit(g_strdup(title ? title : ""), "\n", ' ');
+		char *next = list->low ? two_lines(line) : g_strdup(line);
+
+		if (g_strcmp0(title ? title : "", next) != 0)
+			gtk_column_view_column_set_title(column, next);
+		g_free(line);
+		g_free(next);
+	}
+}
+
+/* Each column has the width that it wishes, or more for its texts. Where that is more than the
+ * list has, or the texts of one that expands lack room, all give up what their texts do not need,
+ * then headings have two lines. If then all headings can be seen where long texts end in an
+ * ellipsis, they do. */
+static void fit(struct panel_list *list)
+{
+	struct widths of;
+	int over = 0, cut = 0;
+
+	measure(list);
+	set_low(list, false);
+	of = widths_of(list);
+	if (list->page > 0 && of.all - of.slack > list->page) {
+		set_low(list, true);
+		of = widths_of(list);
+	}
+	if (list->page > 0) {
+		over = CLAMP(of.all + of.lack - list->page, 0, of.slack);
+		cut = MAX(of.all - of.slack - list->page, 0);
+		if (cut > of.spare)
+			cut = 0;
+	}
+	show_headings(list);
 	for (guint i = 0; i < list->columns->len; i++) {
 		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
 		const int now = gtk_column_view_column_get_fixed_width(each->column);
-		const int over = all + lack - page;
-		const int less = over > 0 && slack ? slack_of(each) * MIN(over, slack) / slack : 0;
+		const int less = share(slack_of(each), over, of.slack) +
+				 share(spare_of(each), cut, of.spare);
 
 		if (!each->width || now != each->set)
 			continue;
@@ -350,6 +440,11 @@ static void across_changed(struct panel_list *list)
 		g_signal_connect(across, "changed", G_CALLBACK(page_changed), list);
 }
 
+static int heading_room(struct panel_list *list, const char *name)
+{
+	return panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM + ARROW_ROOM;
+}
+
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
 				    unsigned int flags, int width,
 				    GtkListItemFactory *factory)
@@ -357,14 +452,16 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
 	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
 		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
-	const int least = flags & PANEL_ICON ? ICON_ROOM :
-		panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM;
+	const int button = flags & PANEL_BUTTON ? BUTTON_ROOM : 0;
+	const int least = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, name), button);
+	char *broken = two_lines(name);
+	const int low = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, broken), button);
 	const struct panel_column of = { .column = column,
 		.text = width || flags & PANEL_EXPAND ? text : -1,
 		.room = flags & PANEL_LABEL ? LABEL_ROOM : flags & PANEL_BUTTON ? BUTTON_ROOM :
 			CELL_ROOM,
-		.width = width ? MAX(width, least) : 0, .least = least,
-		.set = MAX(width, least) };
+		.width = width ? MAX(width, least) : 0, .least = least, .line = least,
+		.low = low, .set = MAX(width, least) };
 
 	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));
 	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
@@ -374,6 +471,7 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	gtk_column_view_append_column(list->view, column);
 	if (list->columns)
 		g_array_append_val(list->columns, of);
+	g_free(broken);
 	g_object_unref(sorter);
 	g_object_unref(column);
 	return column;
@@ -458,6 +556,15 @@ void panel_list_unsort(struct panel_list *list)
 
 		gtk_column_view_column_set_sorter(column, NULL);
 		g_object_unref(column);
+	}
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+		const char *title = gtk_column_view_column_get_title(each->column);
+		const int arrow = title && *title ? ARROW_ROOM : 0;
+
+		each->least -= arrow;
+		each->line -= arrow;
+		each->low -= arrow;
 	}
 }
 

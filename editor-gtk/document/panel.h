@@ -24,6 +24,7 @@ struct panel_list {
 	GtkColumnView *fitted; /* @view, weak                                  */
 	GtkAdjustment *across; /* of it                                        */
 	int page;              /* px that it shows; 0: unknown                 */
+	bool low;              /* headings have two lines                      */
 	guint fit;             /* sets the widths when it elapses              */
 	gulong followed;       /* panel_list_follow(); 0: not                  */
 };

@@ -21,9 +21,57 @@
 
 #define NARROW 1200 /* px of a window that has no room for both sides             */
 #define PANEL 280   /* px of the panel; both for letters of the usual size        */
+#define TITLE_PADDING 12 /* px beside the texts of the title                     */
 #define WHEN_US 200000 /* us between updates of the title                        */
 
 /* ---- what it says ---- */
+
+static GtkWidget *label_of(GtkWidget *widget, const char *class)
+{
+	GtkWidget *found = GTK_IS_LABEL(widget) && gtk_widget_has_css_class(widget, class) ? widget : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = label_of(child, class);
+	return found;
+}
+
+/* Px between the buttons of the header bar; -1: unknown as yet. */
+static int room_of(AdwWindowTitle *title)
+{
+	GtkWidget *bar = gtk_widget_get_ancestor(GTK_WIDGET(title), GTK_TYPE_CENTER_BOX);
+	GtkWidget *start = bar ? gtk_center_box_get_start_widget(GTK_CENTER_BOX(bar)) : NULL;
+	GtkWidget *end = bar ? gtk_center_box_get_end_widget(GTK_CENTER_BOX(bar)) : NULL;
+
+	if (!bar || gtk_widget_get_width(bar) == 0)
+		return -1;
+	return gtk_widget_get_width(bar) - (start ? gtk_widget_get_width(start) : 0) -
+	       (end ? gtk_widget_get_width(end) : 0) - TITLE_PADDING;
+}
+
+/* Leaves out the second of the parts that dots separate, and again, until the title has room. */
+static void shorten(AdwWindowTitle *title, char *text)
+{
+	static const char dot[] = " · ";
+	GtkWidget *label = label_of(GTK_WIDGET(title), "subtitle");
+	const int room = room_of(title);
+	char *second, *third;
+	int width = 0;
+
+	if (!label || room < 0)
+		return;
+	for (;;) {
+		PangoLayout *layout = gtk_widget_create_pango_layout(label, text);
+
+		pango_layout_get_pixel_size(layout, &width, NULL);
+		g_object_unref(layout);
+		second = width > room ? strstr(text, dot) : NULL;
+		if (!second)
+			return;
+		third = strstr(second + strlen(dot), dot);
+		memmove(second, third ? third : "", third ? strlen(third) + 1 : 1);
+	}
+}
 
 static void show_when(struct sim_bar *bar)
 {
@@ -43,6 +91,7 @@ static void show_when(struct sim_bar *bar)
 	else
 		text = g_strdup_printf(_("Simulating · %s · scan %llu · %s"), period,
 				       (unsigned long long)twin->scan, now);
+	shorten(bar->title, text);
 	adw_window_title_set_subtitle(bar->title, text);
 	g_free(text);
 }

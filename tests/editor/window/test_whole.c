@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_whole - a window of 1024 px in each language, with each page and each panel, at rest and
+ * while simulating: the text of each button, of each heading and of the title is whole; at rest
+ * also each text in a list, and no list is wider than its place.
+ */
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/window/window.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+
+#include <gtksourceview/gtksource.h>
+#include <libintl.h>
+#include <locale.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\nPROJECT \"Pump\"\n\nTYPE\n  Recipe : STRUCT\n    Steps : ARRAY[1..12] OF DINT;\n"
+	"  END_STRUCT;\nEND_TYPE\n\n"
+	"CONFIGURATION Plant\nVAR_GLOBAL\n  Start AT %IX0.0 : BOOL; (* push button *)\n"
+	"  Motor AT %QX0.0 : BOOL;\n  Count : INT;\n  Mix : Recipe;\nEND_VAR\n"
+	"  RESOURCE Cpu ON LINUX\n    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1);\n"
+	"    TASK Slow (INTERVAL := T#20ms, PRIORITY := 2, WATCHDOG := T#50ms);\n"
+	"    PROGRAM A WITH Fast : Main;\n    PROGRAM B WITH Slow : Way;\n    PROGRAM C : Sums;\n"
+	"  END_RESOURCE\nEND_CONFIGURATION\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Parts : CTU;\n  Hot : ALARM;\nEND_VAR\n"
+	"RUNG \"Motor\"\n  | NO Start | TON Delay PT:=T#5s | COIL Motor |\n"
+	"RUNG\n  | NO Start | CTU Parts PV:=10 | COIL %QX0.1 |\n"
+	"RUNG\n  | NC Start | ALARM Hot MSG:='The motor does not run: look at it' | COIL %QX0.2 |\nEND_PROGRAM\n\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Rest:\n  END_STEP\n  STEP Run:\n  END_STEP\n"
+	"  TRANSITION FROM Rest TO Run := Start; END_TRANSITION\n"
+	"  TRANSITION FROM Run TO Rest := NOT Start; END_TRANSITION\nEND_PROGRAM\n\n"
+	"PROGRAM Sums IL\n  LD Count\n  ADD 1\n  ST Count\nEND_PROGRAM\n";
+
+static const char *const pages[] = { "tasks", "types", "address_map", "print_preview",
+				     "online_device" };
+static const char *const panels[] = { "problems", "uses", "watch", "timing", "scenarios", "list",
+				      "alarms", "log", "board" };
+
+#define LONG 210 /* px: a longer text may be cut */
+
+static GtkWidget *window;
+
+/* ---- what is cut ---- */
+
+static bool is_named(GtkWidget *widget, const char *type)
+{
+	return !strcmp(G_OBJECT_TYPE_NAME(widget), type);
+}
+
+/* Is @widget in a button, a heading or the title, or, if @cells, in a list? */
+static bool counts(GtkWidget *widget, bool cells)
+{
+	for (; widget; widget = gtk_widget_get_parent(widget))
+		if (GTK_IS_BUTTON(widget) || GTK_IS_MENU_BUTTON(widget) ||
+		    is_named(widget, "GtkColumnViewTitle") || ADW_IS_WINDOW_TITLE(widget) ||
+		    gtk_widget_has_css_class(widget, "heading") ||
+		    (cells && (GTK_IS_LIST_VIEW(widget) || is_named(widget, "GtkColumnListView"))))
+			return true;
+	return false;
+}
+
+static bool is_cut(GtkWidget *label)
+{
+	PangoLayout *whole;
+	int width;
+
+	if (!pango_layout_is_ellipsized(gtk_label_get_layout(GTK_LABEL(label))))
+		return false;
+	whole = gtk_widget_create_pango_layout(label, gtk_label_get_text(GTK_LABEL(label)));
+	pango_layout_get_pixel_size(whole, &width, NULL);
+	g_object_unref(whole);
+	return width < LONG;
+}
+
+/* Px beyond the right edge of the lists below @widget. */
+static int beyond(GtkWidget *widget)
+{
+	int by = 0;
+
+	if (!gtk_widget_get_mapped(widget))
+		return 0;
+	if (GTK_IS_COLUMN_VIEW(widget)) {
+		GtkAdjustment *across = gtk_scrollable_get_hadjustment(GTK_SCROLLABLE(widget));
+
+		return MAX((int)(gtk_adjustment_get_upper(across) -
+				 gtk_adjustment_get_page_size(across)), 0);
+	}
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
+	     child = gtk_widget_get_next_sibling(child))
+		by += beyond(child);
+	return by;
+}
+
+/* Counts the texts below @widget that are cut, and tells them as @where unless it is NULL. */
+static int count_cut(GtkWidget *widget, const char *where, bool cells, int *seen)
+{
+	int cut = 0;
+
+	if (!gtk_widget_get_mapped(widget))
+		return 0;
+	if (GTK_IS_LABEL(widget) && gtk_label_get_text(GTK_LABEL(widget))[0] && counts(widget, cells)) {
+		(*seen)++;
+		cut = is_cut(widget);
+		if (cut && where)
+			printf("# %s: %s\n", where, gtk_label_get_text(GTK_LABEL(widget)));
+	}
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
+	     child = gtk_widget_get_next_sibling(child))
+		cut += count_cut(child, where, cells, seen);
+	return cut;
+}
+
+/* ---- the window ---- */
+
+static void speak(const char *language)
+{
+	const char *build = g_getenv("BUILD");
+	char *locale = g_build_filename(build ? build : "build", "locale", NULL);
+
+	g_setenv("LANGUAGE", language, TRUE);
+	setlocale(LC_ALL, "");
+	bindtextdomain(GETTEXT_PACKAGE, locale);
+	bind_textdomain_codeset(GETTEXT_PACKAGE, "UTF-8");
+	textdomain(GETTEXT_PACKAGE);
+	g_free(locale);
+}
+
+static void open_window(int width)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	ladder_document_check_now(document);
+	CHECK(ladder_document_project(document) != NULL);
+	window = GTK_WIDGET(ladder_window_new(NULL, document));
+	g_object_unref(document);
+	gtk_window_set_default_size(GTK_WINDOW(window), width, 700);
+	ladder_window_opened(LADDER_WINDOW(window));
+	screen_show(window);
+}
+
+static void close_window(void)
+{
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn(0);
+}
+
+static void painted(GdkFrameClock *clock, int *frames)
+{
+	(void)clock;
+	--*frames;
+}
+
+/* Columns share the width one frame after the page is there. */
+static void wait_for_frames(void)
+{
+	GdkFrameClock *clock = gtk_widget_get_frame_clock(window);
+	int frames = 4;
+	gulong handler = g_signal_connect(clock, "after-paint", G_CALLBACK(painted), &frames);
+
+	gdk_frame_clock_begin_updating(clock);
+	WAIT(frames <= 0);
+	gdk_frame_clock_end_updating(clock);
+	g_signal_handler_disconnect(clock, handler);
+}
+
+/* @lists: no list scrolls sideways, and the texts in them are whole. */
+static void check(const char *language, const char *where, bool lists, const char *mode)
+{
+	char *name = g_strdup_printf("%s: %s%s", language, where, mode);
+	int seen = 0;
+
+	wait_for_frames();
+	WAIT((seen = 0, count_cut(window, NULL, lists, &seen)) == 0 && seen > 10 &&
+	     (!lists || beyond(window) == 0));
+	CHECK_AS(count_cut(window, name, lists, &seen) == 0 && seen > 10, name);
+	if (lists && beyond(window) > 0)
+		printf("# %s: %d px\n", name, beyond(window));
+	CHECK_AS(!lists || beyond(window) == 0, name);
+	g_free(name);
+}
+
+static void do_action(const char *name)
+{
+	char *action = g_strconcat("win.", name, NULL);
+
+	gtk_widget_activate_action(window, action, NULL);
+	g_free(action);
+}
+
+/* While simulating a panel takes room: lists may scroll then. */
+static void check_all(const char *language, bool lists, const char *mode)
+{
+	for (int pou = 0; pou < 3; pou++) {
+		gtk_widget_activate_action(window, "win.go-to", "(iiii)", pou, 0, 0, 0);
+		check(language, (const char *[]){ "ladder", "chart", "list" }[pou], lists, mode);
+	}
+	for (gsize i = 0; i < G_N_ELEMENTS(panels); i++) {
+		gtk_widget_activate_action(window, "win.show-panel", "s", panels[i]);
+		check(language, panels[i], lists, mode);
+	}
+	for (gsize i = 0; i < G_N_ELEMENTS(pages); i++) {
+		do_action(pages[i]);
+		check(language, pages[i], lists, mode);
+	}
+}
+
+/* The symbols have ten columns: only a wider window has room for their headings. */
+static void check_symbols(const char *language, const char *mode)
+{
+	do_action("symbols");
+	check(language, "symbols", !*mode, mode);
+}
+
+int main(void)
+{
+	static const char *const languages[] = { "en", "de", "fr", "zh_CN" };
+
+	if (!screen_start() || !gtk_init_check()) {
+		tap_skip("the window needs Xvfb");
+		return tap_done();
+	}
+	adw_init();
+	gtk_source_init();
+	app_style();
+	for (gsize i = 0; i < G_N_ELEMENTS(languages); i++) {
+		speak(languages[i]);
+		open_window(1340);
+		check_symbols(languages[i], "");
+		close_window();
+		open_window(1024);
+		check_all(languages[i], true, "");
+		do_action("sim_mode");
+		check_all(languages[i], false, ", simulating");
+		check_symbols(languages[i], ", simulating");
+		close_window();
+	}
+	return tap_done();
+}
