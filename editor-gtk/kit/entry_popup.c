@@ -180,6 +180,8 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 				    &good);
 	make_first(popup);
 	popover_tell(GTK_LABEL(popup->told), told ? told : "");
+	gtk_accessible_update_property(GTK_ACCESSIBLE(popup->line),
+				       GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, told ? told : "", -1);
 	if (good)
 		gtk_widget_remove_css_class(popup->told, "error");
 	else
