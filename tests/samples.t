@@ -110,6 +110,8 @@ for my $program (@programs) {
 		or diag($text);
 	($status, $text) = answer('.', $ladder, 'fmt', '--check', $program);
 	is($status, 0, "$name: canonical") or diag($text);
+	# The welcome page shows its first sentence.
+	like(slurp($program) =~ s/\n\(\*.*//sr, qr/^[^;]*$/, "$name: a comment says what it is, before any declaration");
 	($status, $text) = answer('.', $ladder, 'test', $scenarios);
 	is($status, 0, "$name: does what its scenarios say") or diag($text);
 	my $count = () = $text =~ /^ok /mg;

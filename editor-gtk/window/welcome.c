@@ -178,8 +178,8 @@ static GtkWidget *sample_new(const char *path)
 	return GTK_WIDGET(sample);
 }
 
-/* Title and description of a file: the text after PROJECT, and the first sentence of its first
- * comment. NULL: nothing. */
+/* Title and description of a file: the text after PROJECT, and the first sentence of the first
+ * comment that begins a line; others are of variables. NULL: nothing. */
 struct about {
 	char *title, *line;
 };
@@ -201,7 +201,7 @@ static char *up_to(const char *text, const char *ends)
 
 static struct about about_of(const char *path)
 {
-	static const char head[] = "\nPROJECT \"", comment[] = "(*";
+	static const char head[] = "\nPROJECT \"", comment[] = "\n(*";
 	struct about about = { NULL, NULL };
 	gsize len;
 	char *text = disk_read(path, LIMIT_TEXT, &len, NULL), *at;
