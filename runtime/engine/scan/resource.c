@@ -731,11 +731,12 @@ void resource_halt_print(const struct resource *resource, char *out, size_t size
 	append_place(&resource->halt_at, true, out, at, size);
 }
 
-/* Orders places. Row and column are small; POUs and rungs have limits. */
+/* Orders places. Row and column are small; POUs and rungs have limits. CODE_LINE, with row 0, lies
+ * before the cells of its rung. */
 static uint64_t place_key(uint64_t pou, uint64_t rung, uint32_t row,
 			  uint32_t col)
 {
-	return pou << 48 | (rung & 0x3fffff) << 26 | row << 13 | col;
+	return pou << 48 | (rung & 0x3fffff) << 26 | row << 13 | (col & 0x1fff);
 }
 
 static const struct code_power *find_power(const struct program *program,
