@@ -349,11 +349,11 @@ for my $name (qw(check fmt show il code build run trace test bench words diff io
 
 # ---- bench, io ----
 ($out) = is_run(0, 'bench', ['bench', 'good.rung', '--scans', '60']);
-like($out, qr/^rungs +1\n.*^body, steady +\d/ms, 'bench prints a table');
+like($out, qr/^rungs +1\n.*^body, zero +\d/ms, 'bench prints a table');
 ($out) = is_run(0, 'bench --json', ['bench', 'good.rung', '--scans', '60', '--json']);
 $json = decode_json($out);
 ok($json->{$_}{min} <= $json->{$_}{median} && $json->{$_}{median} <= $json->{$_}{max}, "bench --json: $_")
-	for qw(body_steady_ns body_random_ns scan_steady_ns scan_random_ns);
+	for map { ("body_${_}_ns", "scan_${_}_ns") } qw(zero fixed random paced);
 is_run(2, "bench --scans $_", ['bench', 'good.rung', '--scans', $_]) for '0', '-1', 'x', '5x', '99999999999999999999';
 ($out) = is_run(0, 'io of a map', ['io', 'map.io']);
 like($out, qr/^%IX0\.0 .*good\n%QX0\.0 .*good\n\z/m, 'io of a map: its lines');

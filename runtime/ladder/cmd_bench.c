@@ -8,22 +8,43 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define PERIOD_NS 10000000
-#define BATCH_NS  20000   /* least duration of a steady sample               */
+#define BATCH_NS  20000   /* least duration of a sample without changes      */
 #define LOADS     5       /* the fastest one is reported                     */
+#define LEAST     51      /* samples without changes                         */
+#define PACED     1000    /* scans that are a millisecond apart              */
+#define PACE_NS   1000000
 
 struct figure {
 	double least, median, longest; /* ns a scan                           */
 };
 
-enum measure { BODY_STEADY, BODY_RANDOM, SCAN_STEADY, SCAN_RANDOM, MEASURES };
-static const char *const measure_name[MEASURES] = {
-	"body, steady", "body, random", "scan, steady", "scan, random",
+/* What the inputs do. */
+enum inputs {
+	INPUTS_ZERO,     /* all are FALSE                                     */
+	INPUTS_FIXED,    /* random ones, which stay                           */
+	INPUTS_RANDOM,   /* others in each scan                               */
+	INPUTS_PACED,    /* others in each scan, a millisecond after the last one: other
+			    programs have used the caches                    */
 };
-static const char *const measure_key[MEASURES] = {
-	"body_steady", "body_random", "scan_steady", "scan_random",
+
+static const struct measure {
+	const char *name, *key;
+	bool body;             /* the program alone                           */
+	enum inputs inputs;
+} measures[] = {
+	{ "body, zero",   "body_zero",   true,  INPUTS_ZERO },
+	{ "body, fixed",  "body_fixed",  true,  INPUTS_FIXED },
+	{ "body, random", "body_random", true,  INPUTS_RANDOM },
+	{ "body, 1 ms",   "body_paced",  true,  INPUTS_PACED },
+	{ "scan, zero",   "scan_zero",   false, INPUTS_ZERO },
+	{ "scan, fixed",  "scan_fixed",  false, INPUTS_FIXED },
+	{ "scan, random", "scan_random", false, INPUTS_RANDOM },
+	{ "scan, 1 ms",   "scan_paced",  false, INPUTS_PACED },
 };
+enum { MEASURES = sizeof(measures) / sizeof(*measures) };
 
 struct bench {
 	struct call *call;
@@ -48,16 +69,25 @@ static uint64_t next_random(struct bench *bench)
 	return bench->random = x;
 }
 
+static void set_area(struct bench *bench, enum iec_area area)
+{
+	uint8_t *memory = image_area(&bench->resource->image, area);
+	const uint32_t size = bench->resource->image.program->areas.bytes[area];
+
+	for (uint32_t at = 0; at < size; at += sizeof(uint64_t)) {
+		const uint64_t bits = next_random(bench);
+
+		memcpy(memory + at, &bits, size - at < sizeof(bits) ? size - at : sizeof(bits));
+	}
+}
+
+/* Random values in all inputs. */
 static void set_inputs(struct bench *bench)
 {
-	uint8_t *area = image_area(&bench->resource->image, AREA_I);
-	uint32_t size = bench->resource->image.program->areas.bytes[AREA_I];
-
-	for (uint32_t at = 0; at + 8 <= size; at += 8) {
-		uint64_t bits = next_random(bench);
-
-		memcpy(area + at, &bits, sizeof(bits));
-	}
+	set_area(bench, AREA_I);
+	set_area(bench, AREA_AI);
+	set_area(bench, AREA_XI);
+	set_area(bench, AREA_XAI);
 }
 
 static bool run_body(struct bench *bench)
@@ -109,37 +139,52 @@ static int order(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/* Random inputs change before every scan. With steady inputs a sample has many scans,
- * because reading the clock takes longer than a small program. */
-static bool measure(struct bench *bench, enum measure which)
+/* Scans of a sample whose inputs stay: many, because reading the clock takes longer than a
+ * small program. */
+static int64_t batch_of(struct bench *bench, bool body)
 {
-	bool body = which == BODY_STEADY || which == BODY_RANDOM;
-	bool random = which == BODY_RANDOM || which == SCAN_RANDOM;
-	int64_t batch = 1, count = bench->scans;
+	const double once = take_sample(bench, body, 16);
+
+	return once < 1 ? BATCH_NS : 1 + (int64_t)(BATCH_NS / once);
+}
+
+static int64_t count_samples(const struct bench *bench, enum inputs inputs, int64_t batch)
+{
+	int64_t count = 1 + bench->scans / batch;
+
+	if (inputs == INPUTS_RANDOM)
+		return bench->scans;
+	if (count < LEAST || inputs == INPUTS_PACED)
+		count = inputs == INPUTS_PACED ? PACED : LEAST;
+	return count < bench->scans ? count : bench->scans;
+}
+
+static bool measure(struct bench *bench, const struct measure *measure, struct figure *out)
+{
+	const bool change = measure->inputs >= INPUTS_RANDOM;
+	int64_t batch = 1, count;
 
 	resource_start(bench->resource);
 	resource_scan(bench->resource, bench->now_ns += PERIOD_NS);
+	if (measure->inputs != INPUTS_ZERO)
+		set_inputs(bench);
 	for (int i = 0; i < 100; i++)
-		take_sample(bench, body, 1);
-	if (!random) {
-		double once = take_sample(bench, body, 16);
-
-		batch = once < 1 ? BATCH_NS : 1 + (int64_t)(BATCH_NS / once);
-		count = 1 + bench->scans / batch;
-		count = count < 51 ? 51 : count;
-		count = count > bench->scans ? bench->scans : count;
-	}
+		take_sample(bench, measure->body, 1);
+	if (!change)
+		batch = batch_of(bench, measure->body);
+	count = count_samples(bench, measure->inputs, batch);
 	for (int64_t i = 0; i < count; i++) {
-		if (random)
+		if (change)
 			set_inputs(bench);
-		bench->sample[i] = take_sample(bench, body, batch);
+		if (measure->inputs == INPUTS_PACED)
+			nanosleep(&(struct timespec){ .tv_nsec = PACE_NS }, NULL);
+		bench->sample[i] = take_sample(bench, measure->body, batch);
 		if (bench->sample[i] < 0)
 			return false;
 	}
 	qsort(bench->sample, (size_t)count, sizeof(double), order);
-	bench->figure[which] = (struct figure){
-		bench->sample[0], bench->sample[count / 2],
-		bench->sample[count - 1],
+	*out = (struct figure){
+		bench->sample[0], bench->sample[count / 2], bench->sample[count - 1],
 	};
 	return true;
 }
@@ -213,7 +258,7 @@ static void print_text(const struct bench *bench)
 		const struct figure *f = &bench->figure[i];
 		double n = bench->rungs ? bench->rungs : 1;
 
-		sink_printf(out, "%-14s%11.1f%11.1f%11.1f", measure_name[i],
+		sink_printf(out, "%-14s%11.1f%11.1f%11.1f", measures[i].name,
 			    f->least, f->median, f->longest);
 		if (bench->rungs)
 			sink_printf(out, "%14.2f%11.2f%11.2f", f->least / n,
@@ -243,7 +288,7 @@ static void print_json(const struct bench *bench)
 
 		sink_printf(out, ",\n \"%s_ns\": {\"min\": %.1f, "
 			    "\"median\": %.1f, \"max\": %.1f}",
-			    measure_key[i], f->least, f->median, f->longest);
+			    measures[i].key, f->least, f->median, f->longest);
 	}
 	sink_text(out, "}\n");
 }
@@ -261,7 +306,7 @@ static enum status run(struct bench *bench)
 	measure_clock(bench);
 	measure_load(bench, path);
 	for (int i = 0; i < MEASURES; i++)
-		if (!measure(bench, (enum measure)i)) {
+		if (!measure(bench, &measures[i], &bench->figure[i])) {
 			report_diag((struct diag){ .id = DIAG_FAULT,
 						   .file = path }, "%s",
 				    fault_text(FAULT_BUDGET));

@@ -15,28 +15,31 @@ trap 'rm -rf "$tmp"' EXIT
 # field FILE NAME: prints a number from the JSON of `ladder bench --json`.
 field() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": \([0-9.]*\).*/\1/p"; }
 median() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": {[^}]*\"median\": \([0-9.]*\).*/\1/p"; }
+least() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": {\"min\": \([0-9.]*\).*/\1/p"; }
+# both INPUTS N: median and least time of a rung in p.json.
+both() {
+	echo "$(per "$(median "$tmp/p.json" "body_$1_ns")" "$2" %.2f) ($(per "$(least "$tmp/p.json" "body_$1_ns")" "$2" %.2f))"
+}
 per() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { printf f, a / b }'; }
 
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo 'no commit')
 git diff --quiet HEAD 2>/dev/null || commit="$commit with changes"
 cpu=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
 echo "Commit $commit, $("$cc" --version | head -n 1), ${cpu:-$(uname -m)}."
-echo 'Medians. body: the program alone; scan: with the edges of the scan.'
+echo 'Medians, in brackets the least. body: the program alone; scan: with the edges of the scan. Inputs: zero: all are FALSE;'
+echo 'fixed: random ones that stay; random: all change in each scan; 1 ms: the same, and the scans are a millisecond apart.'
 echo
-echo '| program | rungs | body, steady ns/rung | body, random ns/rung | scan, steady ns/rung | read ms | check and translate ms | memory to load MB | code bytes/rung | with maps bytes/rung |'
-echo '|---|---|---|---|---|---|---|---|---|---|'
+echo '| program | rungs | body, zero ns/rung | fixed | random | 1 ms | scan, fixed ns/rung | read ms | check and translate ms | memory to load MB | code bytes/rung | with maps bytes/rung |'
+echo '|---|---|---|---|---|---|---|---|---|---|---|---|'
 for kind in seal mixed dense; do
 	for n in 1000 10000; do
 		[ "$kind$n" = dense10000 ] && continue
 		perl "$(dirname "$0")/programs.pl" $kind $n >"$tmp/p.rung"
 		"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
-		body=$(median "$tmp/p.json" body_steady_ns)
-		random=$(median "$tmp/p.json" body_random_ns)
-		scan=$(median "$tmp/p.json" scan_steady_ns)
 		code=$(field "$tmp/p.json" code_bytes)
 		image=$(field "$tmp/p.json" image_bytes)
-		echo "| $kind | $n | $(per "$body" $n %.2f) | $(per "$random" $n %.2f)" \
-			"| $(per "$scan" $n %.2f)" \
+		echo "| $kind | $n | $(both zero $n) | $(both fixed $n) | $(both random $n) | $(both paced $n)" \
+			"| $(per "$(median "$tmp/p.json" scan_fixed_ns)" $n %.2f)" \
 			"| $(per "$(field "$tmp/p.json" read_ns)" 1000000 %.2f)" \
 			"| $(per "$(field "$tmp/p.json" build_ns)" 1000000 %.2f)" \
 			"| $(per "$(field "$tmp/p.json" load_bytes)" 1000000 %.1f)" \
@@ -44,31 +47,41 @@ for kind in seal mixed dense; do
 	done
 done
 echo
-echo '| 1,000 rungs of one family | body, steady ns/rung | code bytes/rung |'
-echo '|---|---|---|'
+echo 'Whole processes, from their start to their end:'
+echo
+echo '| program | rungs | `ladder check` ms | `ladderd`, one scan, ms | `ladderd` while it scans, KB in memory |'
+echo '|---|---|---|---|---|'
+for n in 1000 10000; do
+	perl "$(dirname "$0")/programs.pl" seal $n >"$tmp/p.rung"
+	echo "| seal | $n | $(perl "$(dirname "$0")/starts.pl" "$build" "$tmp/p.rung") |"
+done
+echo
+echo '| 1,000 rungs of one family | body, zero ns/rung | fixed | random | code bytes/rung |'
+echo '|---|---|---|---|---|'
 for kind in $(perl "$(dirname "$0")/programs.pl" families); do
 	perl "$(dirname "$0")/programs.pl" "$kind" 1000 >"$tmp/p.rung"
-	"$ladder" bench --json "$tmp/p.rung" >"$tmp/$kind.json" 2>/dev/null
-	echo "| $kind | $(per "$(median "$tmp/$kind.json" body_steady_ns)" 1000 %.2f)" \
-		"| $(per "$(field "$tmp/$kind.json" code_bytes)" 1000 %.0f) |"
+	"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
+	cp "$tmp/p.json" "$tmp/$kind.json"
+	echo "| $kind | $(both zero 1000) | $(both fixed 1000) | $(both random 1000)" \
+		"| $(per "$(field "$tmp/p.json" code_bytes)" 1000 %.0f) |"
 done
 if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tmp/real" -lm; then
 	c=$("$tmp/real")
-	vm=$(per "$(median "$tmp/real.json" body_steady_ns)" 1000 %.2f)
+	vm=$(per "$(median "$tmp/real.json" body_fixed_ns)" 1000 %.2f)
 	echo
 	echo "1,000 REAL additions and comparisons: $vm ns each; the same C with -O2: $c ns; ratio $(per "$vm" "$c" %.1f)."
 fi
 # chart NAME FILE: prints a row of the table of charts.
 chart() {
 	"$ladder" bench --json "$2" >"$tmp/chart.json" 2>/dev/null
-	echo "| $1 | $(median "$tmp/chart.json" body_steady_ns) | $(median "$tmp/chart.json" body_random_ns)" \
-		"| $(median "$tmp/chart.json" scan_steady_ns)" \
+	echo "| $1 | $(median "$tmp/chart.json" body_fixed_ns) | $(median "$tmp/chart.json" body_random_ns)" \
+		"| $(median "$tmp/chart.json" scan_fixed_ns)" \
 		"| $(per "$(field "$tmp/chart.json" read_ns)" 1000000 %.2f)" \
 		"| $(per "$(field "$tmp/chart.json" build_ns)" 1000000 %.2f) |"
 }
 nine=$(dirname "$0")/../../ladders/sequence-s0-s8.rung
 echo
-echo '| chart | body, steady ns a scan | body, random ns a scan | scan, steady ns | read ms | check and translate ms |'
+echo '| chart | body, at rest ns a scan | moving: random inputs | scan, at rest ns | read ms | check and translate ms |'
 echo '|---|---|---|---|---|---|'
 chart 'chart of nine steps (ladders/sequence-s0-s8)' "$nine"
 for n in 200 1000; do
@@ -98,13 +111,13 @@ for of in 'noise 1000 100000' 'mixed 1000 100000' 'mixed 5000 30000' 'seal 5000 
 	"$build/tests/bench/record" "$1, $2 rungs" "$tmp/p.rung" "$3"
 done
 echo
-echo "One whole scan of a program of one rung: $(median "$tmp/p.json" scan_steady_ns) ns."
+echo "One whole scan of a program of one rung: $(median "$tmp/p.json" scan_fixed_ns) ns."
 if [ -x "$build/ladderd" ]; then
 	cp "$build/ladderd" "$tmp/ladderd"
 	${STRIP:-strip} "$tmp/ladderd"
 	echo "ladderd, stripped: $(wc -c <"$tmp/ladderd") bytes."
 fi
 echo
-echo 'Seal-in rungs elsewhere, one 2-core x86 machine, steady / random inputs, ns a rung'
+echo 'Seal-in rungs elsewhere, one 2-core x86 machine, fixed / random inputs, ns a rung'
 echo '(public sources of each project, built with their own tools): matiec and gcc -O2 0.83 / 5.7;'
 echo 'ClassicLadder 104.'

@@ -53,11 +53,17 @@ if ($family{$kind}) {
 	exit;
 }
 
-# Bits: inputs first, then markers, then variables without an address.
-sub input { my ($i) = @_; return $i < 4096 ? sprintf("AT %%IX%d.%d ", $i >> 3, $i & 7) : "" }
+# Bits: inputs and outputs, then variables without an address. `ladder bench` changes all inputs.
+sub input { my ($i) = @_; return sprintf("AT %%IX%d.%d ", $i >> 3, $i & 7) }
 sub output { my ($i) = @_; return $i < 4096 ? sprintf("AT %%QX%d.%d ", $i >> 3, $i & 7) : "" }
 
-print "RUNGBOARD 1\n\nVAR\n";
+print "RUNGBOARD 1\n\n";
+my $inputs = $kind eq 'seal' ? 2 * $n : $kind eq 'mixed' ? $n : 0;
+if ($inputs > 4096) {
+	die "at most 65536 inputs\n" if $inputs > 65536;
+	print "CONFIGURATION Large\n  AREA I ", ($inputs + 7) >> 3, ";\nEND_CONFIGURATION\n\n";
+}
+print "VAR\n";
 if ($kind eq 'seal') {
 	for my $i (0 .. $n - 1) {
 		printf "  Start%d %s: BOOL;\n  Stop%d %s: BOOL;\n  Motor%d %s: BOOL;\n",
