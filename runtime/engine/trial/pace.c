@@ -9,6 +9,19 @@
 #define MS_NS     1000000
 #define MINUTE_NS INT64_C(60000000000)
 
+uint64_t pace_read(const char *text, size_t len)
+{
+	uint64_t speed = 0;
+
+	for (size_t i = 0; i < len; i++) {
+		if (text[i] < '0' || text[i] > '9')
+			return PACE_NO_NUMBER;
+		if (speed <= PACE_SPEED_MOST)
+			speed = speed * 10 + (uint64_t)(text[i] - '0');
+	}
+	return len ? speed : PACE_NO_NUMBER;
+}
+
 int64_t pace_at(const struct resource *resource, uint64_t words)
 {
 	return resource->pace.begin_ns + (int64_t)(words * MS_NS / resource->pace.speed);

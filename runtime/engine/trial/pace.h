@@ -14,8 +14,12 @@
 #include "engine/scan/resource.h"
 
 #define PACE_SPEED_MOST UINT64_C(100000000)
+#define PACE_NO_NUMBER  UINT64_MAX
 #define PACE_PATIENCE   10 /* as `ladderd --watchdog`, if that is not given */
 
+/** pace_read - a speed as it is written, in digits; 0, too. Scan-safe: yes. Fails: PACE_NO_NUMBER; any
+ * other result above PACE_SPEED_MOST: the number is too large. */
+uint64_t pace_read(const char *text, size_t len);
 /** pace_set - @speed: words a millisecond, PACE_SPEED_MOST at most; 0: scans take no time. Between
  * two calls of pace_scan(). What is left of a scan then takes no time. Scan-safe: yes. */
 void pace_set(struct resource *resource, uint64_t speed);

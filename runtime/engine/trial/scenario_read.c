@@ -372,18 +372,14 @@ static bool take_speed(struct reader *reader)
 {
 	const struct token *token = &reader->lex.token;
 	struct scenario *scenario = reader->scenario;
-	uint64_t speed = 0;
+	const uint64_t speed = pace_read(token->text, token->len);
 
 	if (scenario->speed)
 		return complain(reader, DIAG_SPEED_TWICE, "");
-	for (size_t i = 0; i < token->len && speed <= PACE_SPEED_MOST; i++) {
-		if (token->text[i] < '0' || token->text[i] > '9')
-			return complain(reader, DIAG_EXPECTED, "words a millisecond, such as 500");
-		speed = speed * 10 + (uint64_t)(token->text[i] - '0');
-	}
+	if (speed == PACE_NO_NUMBER)
+		return complain(reader, DIAG_EXPECTED, "words a millisecond, such as 500");
 	if (!speed || speed > PACE_SPEED_MOST)
-		return token->kind == TOKEN_NUMBER ? complain_here(reader, DIAG_LITERAL_RANGE) :
-		       complain(reader, DIAG_EXPECTED, "words a millisecond, such as 500");
+		return complain_here(reader, DIAG_LITERAL_RANGE);
 	scenario->speed = speed;
 	step_over(reader);
 	return true;

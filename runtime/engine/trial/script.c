@@ -318,16 +318,14 @@ static bool set_speed(struct script *script, struct script_word head)
 {
 	struct diag place = place_of(script, head.text);
 	struct script_word word;
-	uint64_t speed = 0;
+	uint64_t speed;
 
 	place.id = DIAG_EXPECTED;
 	if (!next_word(script, &word))
 		return diag_add(script->diags, place, "words a millisecond after @speed");
-	for (size_t i = 0; i < word.len && speed <= PACE_SPEED_MOST; i++) {
-		if (word.text[i] < '0' || word.text[i] > '9')
-			return complain(script, DIAG_BAD_LITERAL, word);
-		speed = speed * 10 + (uint64_t)(word.text[i] - '0');
-	}
+	speed = pace_read(word.text, word.len);
+	if (speed == PACE_NO_NUMBER)
+		return complain(script, DIAG_BAD_LITERAL, word);
 	if (speed > PACE_SPEED_MOST)
 		return complain(script, DIAG_LITERAL_RANGE, word);
 	if (!script->dry)

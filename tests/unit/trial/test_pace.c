@@ -291,8 +291,26 @@ static void sessions(void)
 	close_twin();
 }
 
+static void reads(void)
+{
+	static const struct { const char *text; uint64_t speed; } given[] = {
+		{ "0", 0 }, { "007", 7 }, { "100000000", PACE_SPEED_MOST }, { "", PACE_NO_NUMBER },
+		{ "-1", PACE_NO_NUMBER }, { "5k", PACE_NO_NUMBER }, { "99999999999999999999999x", PACE_NO_NUMBER },
+	};
+	uint64_t large;
+
+	for (size_t i = 0; i < sizeof(given) / sizeof(given[0]); i++)
+		CHECK_AS(pace_read(given[i].text, strlen(given[i].text)) == given[i].speed, given[i].text);
+	for (const char *text = "18446744073709551615000000"; strlen(text) > 9; text++) {
+		large = pace_read(text, strlen(text));
+		CHECK_AS(large > PACE_SPEED_MOST && large != PACE_NO_NUMBER, text);
+		text += *text == '0';
+	}
+}
+
 int main(void)
 {
+	reads();
 	sees();
 	shares();
 	acts();
