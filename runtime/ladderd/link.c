@@ -1103,6 +1103,7 @@ int link_begin(struct link *link)
 		journal_add(link->journal, EVENT_ENDS, 0, "", "", "");
 	}
 	link->state = -1;
+	atomic_store(&link->exchange.state, -1); /* unknown until a scan has told it */
 	watch_blocks(link); /* before retained values come */
 	link->scans = pthread_self();
 	link->turned_ns = link->began_ns = clock_now();

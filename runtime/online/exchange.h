@@ -126,7 +126,7 @@ struct exchange {
 	const struct exchange_host *host;
 	struct recorder *recorder;     /* of changes; set after exchange_init(); NULL: none */
 	_Atomic(struct order *) order; /* NULL: none is waiting                 */
-	_Atomic int state;             /* enum resource_state, now   */
+	_Atomic int state;             /* enum resource_state, now; -1: not known yet */
 	_Atomic unsigned middle;       /* the buffer between both sides, and FRESH */
 	struct view view[3];
 	/* Used by the scan thread. */
