@@ -156,6 +156,8 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Missed scans"), g_strdup_printf("%" G_GUINT64_FORMAT, status->late));
 	fact(device, _("A scan takes"), three_times(status->scan_mean_ns, status->scan_max_ns,
 						    status->scan_p999_ns));
+	fact(device, _("Speed of the board, words/ms"), status->speed ?
+	     g_strdup_printf("%u", status->speed) : NULL);
 	fact(device, _("A scan begins late by"), three_times(status->wake_mean_ns,
 		status->wake_max_ns, status->wake_p999_ns));
 	fact(device, _("Operations that failed"), *status->error ?

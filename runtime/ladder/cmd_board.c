@@ -214,6 +214,8 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 	print_us(out, "\nscan: mean ", status->scan_mean_ns);
 	print_us(out, ", longest ", status->scan_max_ns);
 	print_us(out, ", p99.9 ", status->scan_p999_ns);
+	if (status->speed)
+		sink_printf(out, "\nspeed: %u words/ms", (unsigned)status->speed);
 	print_us(out, "\nlateness: mean ", status->wake_mean_ns);
 	print_us(out, ", longest ", status->wake_max_ns);
 	print_us(out, ", p99.9 ", status->wake_p999_ns);
@@ -280,7 +282,8 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	sink_printf(out, ", \"lines\": %u, \"sessions\": %u, \"up_ms\": %llu, \"memory\": %llu",
 		    (unsigned)status->lines, (unsigned)status->sessions,
 		    (unsigned long long)status->up_ms, (unsigned long long)status->memory_bytes);
-	sink_printf(out, ", \"cpu_permille\": %u, \"tasks\": [", (unsigned)status->cpu_permille);
+	sink_printf(out, ", \"cpu_permille\": %u, \"speed\": %u, \"tasks\": [",
+		    (unsigned)status->cpu_permille, (unsigned)status->speed);
 	for (int i = 0; i < status->task_count; i++) {
 		const struct task_status *task = &status->task[i];
 

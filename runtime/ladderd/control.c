@@ -246,6 +246,15 @@ static void fill_tasks(const struct resource *resource, struct board_status *sta
 	}
 }
 
+static uint32_t speed_of(const struct cycle *cycle)
+{
+	const uint64_t ns = (uint64_t)cycle->body.sum_ns, ms = ns / 1000000;
+	/* In a second no board runs so many words that the product is too large. */
+	const uint64_t speed = ms > 1000 ? cycle->words / ms : ns ? cycle->words * 1000000 / ns : 0;
+
+	return speed < UINT32_MAX ? (uint32_t)speed : UINT32_MAX;
+}
+
 void control_fill_status(const struct cycle *cycle, struct board_status *status)
 {
 	const struct resource *resource = &cycle->resource;
@@ -264,6 +273,7 @@ void control_fill_status(const struct cycle *cycle, struct board_status *status)
 	status->wake_mean_ns = stats_mean(&cycle->wake);
 	status->wake_max_ns = cycle->wake.max_ns;
 	status->wake_p999_ns = stats_share(&cycle->wake, 999);
+	status->speed = speed_of(cycle);
 	status->errors = resource->vm.errors;
 	status->lines = (uint32_t)cycle->hal.map->count;
 	status->io_failed = cycle->hal.failed;

@@ -255,6 +255,7 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 	begin_ns = clock_now();
 	good = resource_scan(resource, now_ns);
 	stats_add(&cycle->body, clock_now() - begin_ns);
+	cycle->words += resource->words;
 	note(cycle, NOTE_SCANNED, 0);
 	if (!good && !resource->halted)
 		return false;

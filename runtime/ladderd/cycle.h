@@ -55,6 +55,7 @@ struct cycle {
 	bool failed;           /* a failed operation was reported             */
 	struct stats scan, wake;
 	struct stats body;     /* the program alone, no lines                 */
+	uint64_t words;        /* of the instructions that ran in this time   */
 	int64_t tended_ns;     /* last tend_lines()                           */
 	int clock_error;       /* errno of clock_nanosleep()                  */
 };

@@ -52,6 +52,7 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 		wire_put_u64(out, status->task[i].interrupted);
 		wire_put_i64(out, status->task[i].wait_ns);
 	}
+	wire_put_u32(out, status->speed);
 }
 
 bool status_has_program(const struct board_status *status)
@@ -121,4 +122,6 @@ void status_take(struct wire_reader *in, struct board_status *status)
 		status->task[i].interrupted = wire_u64(in);
 		status->task[i].wait_ns = wire_i64(in);
 	}
+	if (wire_left(in))
+		status->speed = wire_u32(in);
 }

@@ -47,6 +47,7 @@ struct board_status {
 					* program than this one; 0: it does not */
 	char next_why[STATUS_TEXT];    /* its argument                         */
 	char disk[STATUS_TEXT];        /* what the disk does not take, and why; "" */
+	uint32_t speed;                /* words of instructions a ms; 0: not known yet */
 	uint8_t task_count;
 	struct task_status task[LIMIT_TASKS];
 };

@@ -281,6 +281,7 @@ class Client:
         found['next'], found['next_why'], found['disk'] = it.number('B'), it.text(), it.text()
         for task in found['tasks']:
             task['interrupted'], task['waited'] = it.number('Q'), it.number('q')
+        found['speed'] = it.number('I')
         assert not it.rest()
         return found
 

@@ -227,6 +227,9 @@ def test_status_has_what_runs():
         assert first['mode'] == client.RUN and first['fault'] == 'none' and first['board'] == 'on a table'
         assert first['period'] == 10000000 and first['points'] == 3 and first['sessions'] == 1
         until(lambda: desk.status()['scans'] > first['scans'])
+        speed = desk.status()['speed']
+        assert 0 < speed < 10**8 and re.search(r'^speed: \d+ words/ms$', board.command('status')[1], re.M), speed
+        assert json.loads(board.command('status', '--json')[1])['speed'] > 0
         image = board.folder + '/image.rungc'
         subprocess.run([BUILD + '/ladder', 'build', board.folder + '/program.rung', '-o', image], check=True,
                        capture_output=True)

@@ -132,6 +132,7 @@ def state(screen):
     board.ask('force', 'Motor=1')
     editor.command('State of the board')
     says(editor, 'Missed scans')
+    says(editor, 'Speed of the board, words/ms')
     until(lambda: 'Held at, Without the force, Motor, TRUE, FALSE' in ', '.join(node.name for node in editor.all(role='label')),
           'the force of Motor')
     # The clock of the board is that of this computer; the test only looks at the question.
