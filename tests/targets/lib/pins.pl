@@ -16,7 +16,7 @@ use JSON::PP;
 use POSIX ();
 use Time::HiRes qw(sleep time);
 
-my $HANGS = 120;    # seconds: then the guest is dead
+my $HANGS = 600;    # seconds for one step: then the guest is dead, also on a slow machine
 my $PERIOD = 10;    # ms, of a scan
 my @steps = (       # keys I0 I1 I2, ms that they stay, what it is
 	['000', 300, 'all is off, keys at rest'],
