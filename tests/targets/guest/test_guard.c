@@ -167,6 +167,8 @@ static void ends(const char *what, int count, const int *signals, int kinds, int
 		again += runs() && child_of(guard.pid) != pid;
 		if (i % 2 || i + 1 == count)
 			orderly += child_stop(&guard) == 0;
+		if ((i + 1) % 10 == 0)
+			note("%d of %d %s", i + 1, count, what);
 	}
 	check(safe == count, "%d %s: the outputs are safe %d times", count, what, safe);
 	check(figures(what, bound_ms), "%s: within %ld ms", what, (long)bound_ms);

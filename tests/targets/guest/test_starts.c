@@ -96,6 +96,8 @@ static void safe_until_scanned(void)
 	for (int i = 0; i < guest.starts && one >= 0; i++) {
 		one = one_start(&looks);
 		good += one > 0;
+		if ((i + 1) % 50 == 0)
+			note("%d of %d starts", i + 1, guest.starts);
 	}
 	panel_down();
 	if (one < 0) {
