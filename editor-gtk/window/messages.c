@@ -96,6 +96,12 @@ void messages_keys(struct messages *messages, char *text)
 		messages_tell(messages, "");
 }
 
+void messages_over(struct messages *messages)
+{
+	if (g_get_monotonic_time() - messages->told_at > TOLD_BY_STEP)
+		messages_tell(messages, "");
+}
+
 /* Clears a message about an older version of the program, except one just given for the
  * step that made this version. */
 static void checked(struct messages *messages)
@@ -104,8 +110,7 @@ static void checked(struct messages *messages)
 
 	if (messages->told_of == version)
 		return;
-	if (g_get_monotonic_time() - messages->told_at > TOLD_BY_STEP)
-		messages_tell(messages, "");
+	messages_over(messages);
 	messages->told_of = version;
 }
 

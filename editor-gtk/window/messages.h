@@ -29,6 +29,9 @@ void messages_clear(struct messages *messages);
 void messages_tell(struct messages *messages, const char *text);
 /** messages_untell - clears the status bar if it still says @text. */
 void messages_untell(struct messages *messages, const char *text);
+/** messages_over - clears the status bar: what it says is over. A message that was just given stays; it is about what
+ * happens now. */
+void messages_over(struct messages *messages);
 /** messages_can_add - can a declaration be added now? If not, it tells why. */
 bool messages_can_add(struct messages *messages);
 /** messages_keys - what the next key would do (taken over), shown while there is no

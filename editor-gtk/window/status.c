@@ -165,15 +165,17 @@ static void show_place(struct status *status)
 		     front_list(front) ? keys_in_list() : g_strdup(""));
 }
 
-/* The hint says what is forced at the cursor. */
+/* The hint says what is forced at the cursor. A message of a force that has ended is not true any more. */
 static void shown(struct status *status)
 {
 	const int forces = ladder_sim_forces(status->core->sim);
 
 	if (forces == status->forces)
 		return;
-	status->forces = forces;
 	show_place(status);
+	if (forces < status->forces)
+		messages_over(status->core->messages);
+	status->forces = forces;
 }
 
 /* ---- the checks ---- */
