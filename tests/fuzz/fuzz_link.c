@@ -23,7 +23,6 @@ static const char source[] =
 	"RUNG\n  | NO In | TON T PT:=T#1s | COIL B |\nEND_PROGRAM\n";
 
 struct rig {
-	struct ladder *ladder;
 	struct resource resource;
 	void *memory;
 	uint8_t *views;
@@ -204,6 +203,21 @@ static enum refusal set_clock(void *context, int64_t time_ns)
 	return REFUSAL_NONE;
 }
 
+/* Built once: a rig only reads it. */
+static const struct program *its_program(void)
+{
+	static struct ladder *ladder;
+
+	if (ladder)
+		return ladder_program(ladder);
+	ladder = ladder_new();
+	fuzz_expect(ladder != NULL, "there is memory");
+	ladder_watch(ladder, true);
+	fuzz_expect(ladder_load_text(ladder, "r", source, sizeof(source) - 1) && ladder_build(ladder),
+		    "the program builds");
+	return ladder_program(ladder);
+}
+
 static void rig_open(struct rig *rig)
 {
 	static const struct server_log log = { log_nothing, no_event };
@@ -221,12 +235,7 @@ static void rig_open(struct rig *rig)
 	memset(rig, 0, sizeof(*rig));
 	rig->alarms.clock_ns = no_clock;
 	alarm_list_raise(&rig->alarms.list, ALARM_IO, true, 1);
-	rig->ladder = ladder_new();
-	fuzz_expect(rig->ladder != NULL, "there is memory");
-	ladder_watch(rig->ladder, true);
-	fuzz_expect(ladder_load_text(rig->ladder, "r", source, sizeof(source) - 1) &&
-		    ladder_build(rig->ladder), "the program builds");
-	setup.program = ladder_program(rig->ladder);
+	setup.program = its_program();
 	size = image_memory_size(setup.program);
 	rig->memory = calloc(1, size);
 	rig->views = calloc(3, size);
@@ -246,7 +255,6 @@ static void rig_close(struct rig *rig)
 	server_free(rig->server);
 	free(rig->memory);
 	free(rig->views);
-	ladder_free(rig->ladder);
 }
 
 /* What the board sends is whole frames. */

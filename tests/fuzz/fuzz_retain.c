@@ -18,7 +18,6 @@ static const char source[] =
 	"RUNG\n  | NO I0 | TON T PT:=T#1s | COIL B |\nEND_PROGRAM\n";
 
 struct rig {
-	struct ladder *ladder;
 	struct image image;
 	struct arena arena;
 	struct retain retain;
@@ -26,16 +25,24 @@ struct rig {
 	uint8_t *copy;
 };
 
+/* Built once: a rig only reads it. */
+static const struct program *its_program(void)
+{
+	static struct ladder *ladder;
+
+	if (ladder)
+		return ladder_program(ladder);
+	ladder = ladder_new();
+	fuzz_expect(ladder && ladder_load_text(ladder, "r", source, sizeof(source) - 1) && ladder_build(ladder),
+		    "the program builds");
+	return ladder_program(ladder);
+}
+
 static void rig_open(struct rig *rig)
 {
-	const struct program *program;
+	const struct program *program = its_program();
 
 	memset(rig, 0, sizeof(*rig));
-	rig->ladder = ladder_new();
-	fuzz_expect(rig->ladder && ladder_load_text(rig->ladder, "r", source,
-		    sizeof(source) - 1) && ladder_build(rig->ladder),
-		    "the program builds");
-	program = ladder_program(rig->ladder);
 	rig->memory = calloc(1, image_memory_size(program));
 	image_init(&rig->image, program, rig->memory);
 	arena_init(&rig->arena);
@@ -48,7 +55,6 @@ static void rig_close(struct rig *rig)
 {
 	arena_free(&rig->arena);
 	free(rig->memory);
-	ladder_free(rig->ladder);
 }
 
 uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)

@@ -26,19 +26,19 @@ static void add(struct buffer *b, const char *form, int number)
 	b->len += (size_t)snprintf(b->text + b->len, 200, form, number);
 }
 
-/* @tons instances and a chain of @sums operations on variables of @type. */
-static void make(struct buffer *b, int tons, int sums, const char *type)
+/* @tons declarations of instances, each of @form, and a chain of @sums operations on variables of @type. */
+static void make(struct buffer *b, int tons, const char *form[2], int sums, const char *type)
 {
 	b->len = 0;
 	add(b, "RUNGBOARD 1\nVAR\n  N : ", 0);
 	add(b, type, 0);
 	add(b, ";\n", 0);
 	for (int i = 0; i < tons; i++)
-		add(b, "  D%d : TON;\n", i);
+		add(b, form[0], i);
 	add(b, "END_VAR\nPROGRAM Main IL\n", 0);
 	/* Open pins would give warnings, and the list is full at 100. */
 	for (int i = 0; i < tons; i++)
-		add(b, "CAL D%d(IN := 1, PT := T#1s)\n", i);
+		add(b, form[1], i);
 	add(b, "  LD N\n", 0);
 	for (int i = 0; i < sums; i++)
 		add(b, "ADD N\n", 0);
@@ -68,13 +68,15 @@ static enum diag_id builds(const struct buffer *b)
 
 int main(void)
 {
+	static const char *one[] = { "  D%d : TON;\n", "CAL D%d(IN := 1, PT := T#1s)\n" };
+	static const char *hundred[] = { "  D%d : ARRAY[0..99] OF TON;\n", "CAL D%d[99](IN := 1, PT := T#1s)\n" };
 	struct buffer b = { NULL, 0, 0 };
 
-	make(&b, 100000, 1000, "TIME");
+	make(&b, 100000, one, 1000, "TIME");
 	CHECK(builds(&b) == DIAG_COUNT);
-	make(&b, 199999, 60000, "TIME");
+	make(&b, 2200, hundred, 60000, "TIME");
 	CHECK(builds(&b) == DIAG_DATA_TOO_LARGE);
-	make(&b, 0, 1600000, "SINT");
+	make(&b, 0, one, 1600000, "SINT");
 	CHECK(builds(&b) == DIAG_CODE_TOO_LARGE);
 	free(b.text);
 	return tap_done();
