@@ -439,7 +439,12 @@ EDITOR_FAKE := $(HAL_TEST)/editor_v2
 $(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) \
 	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
+# The scripts that use the editor as a person does load it into the editor. With sanitizers they do without.
+EDITOR_WALK := $(BUILD)/tests/editor/person/walk.so
+$(EDITOR_WALK): tests/editor/person/walk.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CFLAGS) $(shell pkg-config --cflags gio-2.0) -fPIC -shared -o $@ $< $(shell pkg-config --libs gio-2.0) -ldl
+editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(EDITOR_WALK) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 BENCH_EDITOR := $(addprefix $(BUILD)/tests/bench/,editor.o editor_ground.o editor_start.o)
 $(BENCH_EDITOR): CPPFLAGS += $(EDITOR_CPP)
@@ -656,7 +661,7 @@ ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
-tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
+tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
@@ -705,7 +710,7 @@ with_test = $(if $(EDITOR),$(shell grep -lE "\.quick = '($(subst $() ,|,$(strip 
 JOURNEYS := $(or $(call with_test,$(QUICK)),$(call with_test,editor-gtk/window))
 QUICK_ENV = BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' QUICK='$(or $(QUICK),editor-gtk/window)'
 endif
-quick: all $(QUICK_TESTS) ## test a change of one room in a minute: ROOM=editor-gtk/live, or the rooms with changes in git
+quick: all $(QUICK_TESTS) $(EDITOR_WALK) ## test a change of one room in a minute: ROOM=editor-gtk/live, or the rooms with changes in git
 	@echo "quick: $(or $(QUICK),no room)"
 	$(QUICK_ENV) prove -j$(JOBS) -e '' $(JOURNEYS) tests/golden.t tests/floors.sh tests/quiet.sh tests/banned.pl $(QUICK_TESTS)
 $(BUILD)/tests/bench/record $(BUILD)/tests/bench/carry: %: %.o $(BUILD)/libladder.a

@@ -194,6 +194,7 @@ def by_pointer(screen):
         twice(editor, shape(editor, 'from ' + ways), condition)
         shape(editor, 'from %s, condition %s' % (ways, condition))
     chosen(editor, shape(editor, 'Step Fill'), 'Add action to step', 'Q0.0')
+    shape(editor, 'Fill does: ')  # it moves what is beside it
     chosen(editor, shape(editor, 'Step Drain'), 'Add action to step', 'L T#5s Q0.1')
     shape(editor, 'Drain does: L T#5s Q0.1')
     editor.shot('chart-pointer')

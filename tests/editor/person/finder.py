@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: MIT
 """finder - finds the widgets of the editor by their accessible names, and their places on the screen.
 
-One call (org.a11y.atspi.Cache) returns all widgets; a call for each would take most of a test's time. The
-palette holds most of the widgets and never changes: the search enters it only for its tiles.
+One call returns all visible widgets: walk.c is loaded into the editor for it; a call for each would take most of a
+test's time. Without walk.c (with sanitizers, under valgrind) one call of org.a11y.atspi.Cache returns all widgets, and
+more calls tell which are visible. The palette holds most of the widgets and never changes: the search enters it only
+for its tiles.
 """
 import os
 import re
 
-from node import A11Y, EXTENTS, ROLES, WHOLE, Node
+from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node
 from screen import PATIENCE, dbus, sh, until
 
 
 class Finder:
-    """The widgets of an editor. Editor in desk.py sets: screen, pid, name, root, window, scale, palette."""
+    """The widgets of an editor. Editor in desk.py sets: screen, pid, name, root, window, scale,
+    palette, quick (walk.c is there)."""
 
     # ---- asking ----
 
@@ -38,14 +41,25 @@ class Finder:
 
     # ---- seeing ----
 
+    def below(self, path):
+        """The widget and all visible ones in it, each level after the one above: path -> node. The walk of walk.c."""
+        try:
+            rows = self.bus.call_blocking(self.name, '/rungboard/walk', 'rungboard.Walk', 'Walk', 'osu', (path, 'Elements', 49))
+        except dbus.exceptions.DBusException:
+            self.alive()
+            raise
+        return {str(row[0]): Node(self, str(row[0]), str(row[1]), *row[2:4], str(row[4]), *row[5:]) for row in rows}
+
     def known(self):
-        """All widgets that the toolkit knows, visible or not: path -> node."""
+        """The visible widgets: path -> node. Without walk.c all that the toolkit knows, visible or not."""
+        if self.quick:
+            return self.below(self.root)
         try:
             items = self.bus.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
         except dbus.exceptions.DBusException:
             self.alive()
             raise
-        nodes = [Node(self, item) for item in items]
+        nodes = [Node.of_cache(self, item) for item in items]
         return {node.path: node for node in nodes}
 
     def seen(self, nodes, top=None):
@@ -118,6 +132,11 @@ class Finder:
 
     def walk(self, path=None, nodes=None):
         """@nodes: what known() has just returned."""
+        if self.quick:
+            nodes = nodes if nodes and not path else self.below(path or self.root)
+            self.palette = next((each.path for each in nodes.values() if each.name == 'Elements' and each.role == 49), self.palette)
+            yield from (node for node in nodes.values() if node.widget and (path or node.path != self.root))
+            return
         unknown, before = {self.root}, set()
         while unknown - before:
             nodes, before = nodes if nodes and not before else self.known(), unknown
@@ -145,7 +164,7 @@ class Finder:
     def find(self, name=None, role=None, seconds=PATIENCE):
         def look():
             nodes = self.known()
-            return self.sole(name, role, nodes) or next(iter(self.all(name, role, nodes=nodes)), None)
+            return not self.quick and self.sole(name, role, nodes) or next(iter(self.all(name, role, nodes=nodes)), None)
         return until(look, '%s "%s"' % (role or 'widget', name), seconds)
 
     def tile(self, name):
@@ -189,13 +208,17 @@ class Finder:
         left, top, width, height = (each * self.scale for each in (self.at_rest(node) if node else (0, 0, width, height)))
         return x + left, y + top, width, height
 
-    @staticmethod
-    def at_rest(node):
-        """The same once it has stopped moving: new widgets still move."""
+    def at_rest(self, node):
+        """The same once it has stopped moving: new widgets still move. A list that is made anew has another widget of
+        that name; a person takes that one."""
         seen = []
 
         def look():
-            seen.append(node.box())
+            try:
+                seen.append(node.box())
+            except Gone:
+                node.path = next((each.path for each in self.all(node.name) if (each.name, each.role) == (node.name, node.role)), node.path)
+                return None
             return len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
         return until(look, '"%s" to be at rest' % node.name)
 

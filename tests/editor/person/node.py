@@ -18,13 +18,18 @@ class Gone(AssertionError):
 class Node:
     """A widget on the accessibility bus."""
 
-    def __init__(self, editor, item):
-        """@item: as org.a11y.atspi.Cache.GetItems returns it."""
+    def __init__(self, editor, *row):
+        """@row: as walk.c returns it."""
         self.editor = editor
-        self.path, self.parent = str(item[0][1]), str(item[2][1])
-        self.place, self.children = int(item[3]), int(item[4])  # among the visible ones
-        self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
-        self.widget = A11Y + 'Component' in item[5]  # a page of a stack is not visible itself: only its content is
+        # The place and number of children are among the visible ones.
+        self.path, self.parent, self.place, self.children, self.name, self.role, self.states, self.widget = row
+
+    @staticmethod
+    def of_cache(editor, item):
+        """@item: as org.a11y.atspi.Cache.GetItems returns it."""
+        widget = A11Y + 'Component' in item[5]  # a page of a stack is not visible itself: only its content is
+        return Node(editor, str(item[0][1]), str(item[2][1]), int(item[3]), int(item[4]), str(item[6]), int(item[7]),
+                    int(item[9][0]), widget)
 
     def ask(self, *question):
         answer = self.editor.ask([(self.path, *question)])[0]
