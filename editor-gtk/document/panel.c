@@ -183,6 +183,7 @@ int panel_heading_width(GtkWidget *view, const char *name)
 #define LABEL_ROOM 24   /* padding of a cell with a label                       */
 #define CELL_ROOM 36    /* of one that is edited                                */
 #define BUTTON_ROOM 54  /* of one with an arrow                                 */
+#define ARROW_LEAST 70  /* with an arrow and no text                           */
 #define ICON_ROOM 34    /* a column of icons                                    */
 #define COLUMN_MOST 260 /* for a longer text a column gets no wider             */
 
@@ -190,6 +191,7 @@ struct panel_column {
 	GtkColumnViewColumn *column; /* borrowed                                  */
 	int text;     /* which of a row's; -1: none, an icon or a check box     */
 	int room;     /* beside the text                                        */
+	bool bold;    /* PANEL_BOLD                                             */
 	int width;    /* wished by the panel; 0: natural                        */
 	int least;    /* px for its heading as it is now                        */
 	int line, low; /* the same in one line, and in two                      */
@@ -231,6 +233,8 @@ static void measure(struct panel_list *list)
 			continue;
 		pango_layout_set_text(layout, longest(list, each->text), -1);
 		pango_layout_get_pixel_size(layout, &width, NULL);
+		if (each->bold)
+			width = panel_heading_width(GTK_WIDGET(list->view), longest(list, each->text));
 		each->need = MAX(each->need, MIN(width + each->room, COLUMN_MOST));
 		each->whole = MAX(each->whole, width + each->room);
 	}
@@ -452,7 +456,7 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
 	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
 		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
-	const int button = flags & PANEL_BUTTON ? BUTTON_ROOM : 0;
+	const int button = flags & PANEL_BUTTON ? ARROW_LEAST : 0;
 	const int least = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, name), button);
 	char *broken = two_lines(name);
 	const int low = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, broken), button);
@@ -460,7 +464,7 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 		.text = width || flags & PANEL_EXPAND ? text : -1,
 		.room = flags & PANEL_LABEL ? LABEL_ROOM : flags & PANEL_BUTTON ? BUTTON_ROOM :
 			CELL_ROOM,
-		.width = width ? MAX(width, least) : 0, .least = least, .line = least,
+		.bold = flags & PANEL_BOLD, .width = width ? MAX(width, least) : 0, .least = least, .line = least,
 		.low = low, .set = MAX(width, least) };
 
 	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));

@@ -624,7 +624,8 @@ static void add_columns(LadderTasksView *view)
 	panel_list_column(&view->list, "", TASKS_NAME, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
-				column[i].field == TASKS_COMMENT ? PANEL_EXPAND : 0,
+				column[i].field == TASKS_COMMENT ? PANEL_EXPAND :
+				column[i].field == TASKS_NAME ? PANEL_BOLD : 0,
 				column[i].width);
 	panel_list_unsort(&view->list);
 	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
