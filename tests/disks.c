@@ -403,12 +403,12 @@ static void ends_good(void)
 
 static bool ends_bad(void)
 {
-	bool many = ends_begin(folder);
+	bool many = ends_begin(folder) == EVENT_ENDS;
 
-	many |= ends_begin(folder);
+	many |= ends_begin(folder) == EVENT_ENDS;
 	if (many) /* two ends, not three */
 		return false;
-	many = ends_begin(folder);
+	many = ends_begin(folder) == EVENT_ENDS;
 	fail_at = 0;
 	return many || (times > 1 && (has_said("abnormal ends are not counted") ||
 				      has_said("are forgotten") || kind == BROKEN));

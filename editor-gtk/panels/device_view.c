@@ -133,6 +133,18 @@ static char *next_text(const struct board_status *status)
 	return g_strdup(next);
 }
 
+/* How this start came about; NULL: the board does not know. */
+static char *began_text(const struct board_status *status)
+{
+	const char *text = event_text(status->began);
+	char began[512];
+
+	if (!status->began)
+		return NULL;
+	status_began(status, text ? said(text) : NULL, began, sizeof(began));
+	return g_strdup(began);
+}
+
 static void show_facts(struct device *device, const struct board_status *status)
 {
 	char program[65];
@@ -148,6 +160,7 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Fault"), status->mode == STATE_FAULT ? g_strdup(status->fault) : NULL);
 	fact(device, _("STOP of the program"), g_strdup(status->stop));
 	fact(device, _("Next start"), next_text(status));
+	fact(device, _("Before this start"), began_text(status));
 	fact(device, _("Disk"), g_strdup(status->disk));
 	fact(device, _("Program"), g_strdup(program));
 	fact(device, _("Runs for"), time_text((int64_t)status->up_ms * 1000000));

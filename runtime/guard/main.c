@@ -259,10 +259,14 @@ static void hear(int64_t now)
 	}
 }
 
+/* A ladderd that ends by itself before it scans, such as one whose lines another process holds, has
+ * driven no output: it is no reason to begin in STOP. */
 static void count_end(int64_t now)
 {
-	memmove(guard.end_ms + 1, guard.end_ms, sizeof(guard.end_ms) - sizeof(guard.end_ms[0]));
-	guard.end_ms[0] = now ? now : 1;
+	if (guard.killed || WIFSIGNALED(guard.child.status)) {
+		memmove(guard.end_ms + 1, guard.end_ms, sizeof(guard.end_ms) - sizeof(guard.end_ms[0]));
+		guard.end_ms[0] = now ? now : 1;
+	}
 	guard.ends++;
 	guard.how = guard.hung ? GUARD_HUNG : guard.killed ? GUARD_FROZEN : WIFSIGNALED(guard.child.status) ?
 		    WTERMSIG(guard.child.status) : GUARD_STATUS + WEXITSTATUS(guard.child.status);

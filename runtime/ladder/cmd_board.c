@@ -179,6 +179,22 @@ static void print_us(const struct sink *out, const char *word, int64_t ns)
 		    (long long)(ns % 1000 / 100));
 }
 
+static void print_starts(const struct sink *out, const struct board_status *status)
+{
+	char text[300];
+
+	if (status->began) {
+		status_began(status, event_text(status->began), text, sizeof(text));
+		sink_text(out, "\nbefore this start: ");
+		foreign_text(out, text);
+	}
+	if (status->next) {
+		status_next(status, event_text(status->next), text, sizeof(text));
+		sink_text(out, "\nnext start: ");
+		foreign_text(out, text);
+	}
+}
+
 void remote_print_status(const struct remote *remote, const struct board_status *status)
 {
 	const struct sink *out = &remote->call->out;
@@ -195,13 +211,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 		sink_text(out, "\nstop: ");
 		foreign_text(out, status->stop);
 	}
-	if (status->next) {
-		char next[300];
-
-		status_next(status, event_text(status->next), next, sizeof(next));
-		sink_text(out, "\nnext start: ");
-		foreign_text(out, next);
-	}
+	print_starts(out, status);
 	if (*status->disk) {
 		sink_text(out, "\ndisk: ");
 		foreign_text(out, status->disk);
@@ -265,6 +275,8 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	report_json_field("stop", *status->stop ? status->stop : NULL, out);
 	status_next(status, event_text(status->next), next, sizeof(next));
 	report_json_field("next_start", status->next ? next : NULL, out);
+	status_began(status, event_text(status->began), next, sizeof(next));
+	report_json_field("before_this_start", status->began ? next : NULL, out);
 	report_json_field("disk", *status->disk ? status->disk : NULL, out);
 	report_json_field("program", status_has_program(status) ? program : NULL, out);
 	report_json_field("version", status->version, out);

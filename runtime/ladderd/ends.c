@@ -8,10 +8,12 @@
 #include "ladderd/disk.h"
 
 #include "engine/base/digest.h"
+#include "online/event.h"
 #include "online/wire.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -62,7 +64,8 @@ static void ask_boot(uint8_t boot[BOOT])
 		memset(boot, 0, BOOT);
 }
 
-static void load(int fd, struct ends *ends)
+/* false: there is none, or it is damaged. */
+static bool load(int fd, struct ends *ends)
 {
 	uint8_t bytes[RECORD] = { 0 };
 	struct wire_reader in = wire_read(bytes, RECORD - 4);
@@ -80,12 +83,13 @@ static void load(int fd, struct ends *ends)
 		if (got) /* 0: a new file */
 			fputs("ladderd: the file `ends` is damaged: earlier abnormal ends are "
 			      "forgotten\n", stderr);
-		return;
+		return false;
 	}
 	ends->runs = wire_u8(&in);
 	memcpy(ends->boot, wire_bytes(&in, BOOT), BOOT);
 	for (int i = 0; i < ENDS_MOST; i++)
 		ends->time_s[i] = wire_i64(&in);
+	return true;
 }
 
 static void save(int fd, const struct ends *ends)
@@ -127,40 +131,42 @@ static bool are_many(const struct ends *ends, int64_t now_s)
 	return true;
 }
 
-/* Whoever switches the machine off ends ladderd, too: that is no fault of a program. */
-static void forget_other_boot(struct ends *ends)
+/* Whoever switches the machine off ends ladderd, too: that is no fault of a program. Returns whether
+ * the record is of another start of the machine. */
+static bool forget_other_boot(struct ends *ends)
 {
 	uint8_t boot[BOOT];
 
 	ask_boot(boot);
 	if (memcmp(boot, ends->boot, BOOT) == 0)
-		return;
+		return false;
 	memcpy(ends->boot, boot, BOOT);
-	ends->runs = false;
 	for (int i = 0; i < ENDS_MOST; i++)
 		ends->time_s[i] = -1;
+	return true;
 }
 
-bool ends_begin(const char *folder)
+uint8_t ends_begin(const char *folder)
 {
 	const int fd = folder ? open_file(folder) : -1;
 	const int64_t now_s = seconds_up();
 	struct ends ends;
-	bool many = false;
+	uint8_t last;
 
 	if (fd < 0)
-		return false;
-	load(fd, &ends);
-	forget_other_boot(&ends);
-	if (ends.runs) {
+		return 0;
+	last = load(fd, &ends) ? EVENT_END : 0;
+	if (forget_other_boot(&ends)) {
+		last = ends.runs ? EVENT_POWER : last;
+	} else if (ends.runs) {
 		memmove(ends.time_s + 1, ends.time_s, sizeof(ends.time_s) - sizeof(ends.time_s[0]));
 		ends.time_s[0] = now_s;
-		many = are_many(&ends, now_s);
+		last = are_many(&ends, now_s) ? EVENT_ENDS : EVENT_AFTER;
 	}
 	ends.runs = true;
 	save(fd, &ends);
 	close(fd);
-	return many;
+	return last;
 }
 
 void ends_orderly(const char *folder)

@@ -10,14 +10,18 @@
 #ifndef LADDERD_ENDS_H
 #define LADDERD_ENDS_H
 
-#include <stdbool.h>
+#include <stdint.h>
 
 #define ENDS_MOST      3  /* abnormal ends … */
 #define ENDS_WITHIN_S 60  /* … within so many seconds: the next start is in STOP */
 
-/** ends_begin - ladderd begins to scan; @folder: NULL: nothing is counted. Returns whether it
- * has ended abnormally ENDS_MOST times within ENDS_WITHIN_S. Scan-safe: no. */
-bool ends_begin(const char *folder);
+/**
+ * ends_begin - ladderd begins to scan; @folder: NULL: nothing is counted
+ *
+ * Returns how its last end was: EVENT_END: an orderly one, EVENT_POWER, EVENT_AFTER: an abnormal one,
+ * EVENT_ENDS: ENDS_MOST of these within ENDS_WITHIN_S; 0: there is no record. Scan-safe: no.
+ */
+uint8_t ends_begin(const char *folder);
 /** ends_orderly - ladderd ends as it was told to. Scan-safe: no. */
 void ends_orderly(const char *folder);
 #endif

@@ -46,14 +46,14 @@ static void open_page(int fd)
 	close(fd);
 }
 
-bool guarded_begin(void)
+const char *guarded_begin(void)
 {
 	const char *text = getenv(GUARD_VARIABLE);
 	char *end;
 	long fd, ms, stopped, ends, how, page;
 
 	if (!text)
-		return false;
+		return NULL;
 	fd = strtol(text, &end, 10);
 	ms = strtol(end, &end, 10);
 	stopped = strtol(end, &end, 10);
@@ -63,14 +63,14 @@ bool guarded_begin(void)
 	unsetenv(GUARD_VARIABLE);
 	if (*end || fd <= STDERR_FILENO || fd > 65535 || ms < 1 || ms > GUARD_LONGEST / 2 ||
 	    fcntl((int)fd, F_SETFD, FD_CLOEXEC) != 0)
-		return false;
+		return NULL;
 	if (page > STDERR_FILENO)
 		open_page((int)page);
 	to.heartbeat_ms = ms;
 	to.ends = (unsigned)ends;
 	to.how = (int)how;
 	to.fd = (int)fd + 1;
-	return stopped == 1;
+	return stopped == 1 ? GUARDED_MANY : NULL;
 }
 
 int guarded_again(unsigned *count)

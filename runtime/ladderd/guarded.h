@@ -12,8 +12,10 @@
 
 #define GUARDED_PAUSE_MS 60000 /* while no monitor runs: an end, another start */
 
-/** guarded_begin - reads LADDER_GUARD. Returns whether ladderd shall begin in STOP. */
-bool guarded_begin(void);
+#define GUARDED_MANY "ladderd has ended abnormally three times within a minute"
+/** guarded_begin - reads LADDER_GUARD. Returns why ladderd shall begin in STOP: GUARDED_MANY; NULL:
+ * it need not. */
+const char *guarded_begin(void);
 struct guard_page;
 /** guarded_page - what the guard sees of each scan (guard/say.h); without a guard nobody sees it. Static. */
 struct guard_page *guarded_page(void);

@@ -102,6 +102,9 @@ struct link {
 	int fd[SERVER_SESSIONS];       /* -1: no session, or that of the port  */
 	struct port port;
 	int64_t began_ns;
+	uint8_t began;                 /* how the start came about, as in struct board_status */
+	uint16_t began_how;
+	uint32_t began_ends;
 	pthread_t thread, scans;
 	bool runs;
 	_Atomic bool stop, dozes;
@@ -343,6 +346,9 @@ static void amend_status(void *context, struct board_status *status)
 	status->next = slots->unlike;
 	snprintf(status->next_why, sizeof(status->next_why), "%s", slots->why);
 	say_disk(link, status->disk, sizeof(status->disk));
+	status->began = link->began;
+	status->began_how = link->began_how;
+	status->began_ends = link->began_ends;
 }
 
 /* ---- the log ---- */
@@ -1064,19 +1070,37 @@ static int start_thread(struct link *link)
 	return error;
 }
 
-/* Why ladder-guard has started ladderd again. */
-static void note_again(struct link *link)
+/* Why ladderd has started: what ladder-guard says, or else the record of ends. Orderly ends are not
+ * logged. */
+static void note_began(struct link *link)
 {
-	char number[12], times[12];
-	unsigned count;
+	const uint8_t last = ends_begin(link->with.slots->folder);
+	char number[12] = "", times[12] = "";
+	unsigned count = 0;
 	const int how = guarded_again(&count);
 
-	if (!how)
+	link->began = how >= GUARD_STATUS ? EVENT_FAILED : how == GUARD_HUNG ? EVENT_HUNG :
+		      how == GUARD_FROZEN ? EVENT_FROZE : how ? EVENT_DIED : last;
+	link->began_how = (uint16_t)(how >= GUARD_STATUS ? how - GUARD_STATUS : how);
+	link->began_ends = how ? count : 0;
+	if (how) {
+		snprintf(number, sizeof(number), "%u", (unsigned)link->began_how);
+		snprintf(times, sizeof(times), "%u", count);
+	}
+	if (link->began == EVENT_FROZE || link->began == EVENT_HUNG)
+		*number = '\0';
+	if (how || last == EVENT_POWER || last == EVENT_AFTER)
+		journal_add(link->journal, (enum event_id)link->began, 0, "", number, times);
+	if (last == EVENT_ENDS) {
+		link->cycle->begin_stopped = true;
+		link->cycle->stopped = GUARDED_MANY;
+		control_tell("ended abnormally three times within a minute: STOP");
+	}
+	if (!link->cycle->stopped)
 		return;
-	snprintf(number, sizeof(number), "%d", how >= GUARD_STATUS ? how - GUARD_STATUS : how);
-	snprintf(times, sizeof(times), "%u", count);
-	journal_add(link->journal, how >= GUARD_STATUS ? EVENT_FAILED : how == GUARD_HUNG ? EVENT_HUNG :
-		    how == GUARD_FROZEN ? EVENT_FROZE : EVENT_DIED, 0, "", number, times);
+	link->began = EVENT_ENDS;
+	link->began_ends = 0;
+	journal_add(link->journal, EVENT_ENDS, 0, "", "", "");
 }
 
 int link_begin(struct link *link)
@@ -1089,19 +1113,13 @@ int link_begin(struct link *link)
 	action.sa_flags = SA_RESTART;
 	sigemptyset(&action.sa_mask);
 	sigaction(SIGURG, &action, NULL);
-	note_again(link);
+	note_began(link);
 	journal_add(link->journal, EVENT_START, 0, "", link->cycle->identity, "");
 	if (link->with.conf->damaged)
 		journal_add(link->journal, EVENT_CONF_BAD, 0, "", "", "");
 	for (int i = 0; i < 2; i++)
 		if (link->with.slots->bad[i])
 			journal_add(link->journal, EVENT_SLOT_BAD, 0, "", i ? "prog.B" : "prog.A", "");
-	if (ends_begin(link->with.slots->folder)) {
-		link->cycle->begin_stopped = true;
-		link->cycle->stopped = "ladderd has ended abnormally three times within a minute";
-		control_tell("ended abnormally three times within a minute: STOP");
-		journal_add(link->journal, EVENT_ENDS, 0, "", "", "");
-	}
 	link->state = -1;
 	atomic_store(&link->exchange.state, -1); /* unknown until a scan has told it */
 	watch_blocks(link); /* before retained values come */

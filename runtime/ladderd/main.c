@@ -288,11 +288,11 @@ static int load_and_run(struct daemon *daemon)
 	return fflush(stdout) == 0 ? 0 : 1;
 }
 
-enum again { ONCE, ONCE_STOPPED, AGAIN, AGAIN_STOPPED };
+enum again { ONCE, AGAIN, AGAIN_STOPPED };
 
 /* Once, from reading the options to the last safe output. @again: why it
- * begins; gets whether a desk wants another start. */
-static int run_once(int argc, char **argv, enum again *again)
+ * begins; gets whether a desk wants another start. @stopped: why it does so in STOP; NULL. */
+static int run_once(int argc, char **argv, enum again *again, const char *stopped)
 {
 	struct daemon *daemon;
 	int status;
@@ -301,7 +301,8 @@ static int run_once(int argc, char **argv, enum again *again)
 	daemon = calloc(1, sizeof(*daemon));
 	if (daemon) {
 		daemon->again = *again >= AGAIN;
-		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED || *again == ONCE_STOPPED;
+		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED || stopped;
+		daemon->cycle.stopped = stopped;
 	}
 	*again = ONCE;
 	if (!daemon) {
@@ -332,11 +333,13 @@ static int run_once(int argc, char **argv, enum again *again)
 
 int main(int argc, char **argv)
 {
-	enum again again = guarded_begin() ? ONCE_STOPPED : ONCE;
+	const char *stopped = guarded_begin();
+	enum again again = ONCE;
 	int status;
 
-	do
-		status = run_once(argc, argv, &again);
-	while (again != ONCE);
+	do {
+		status = run_once(argc, argv, &again, stopped);
+		stopped = NULL;
+	} while (again != ONCE);
 	return status;
 }

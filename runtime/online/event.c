@@ -81,6 +81,17 @@ int status_next(const struct board_status *status, const char *text, char *out, 
 	return event_fill(&event, text, out, size);
 }
 
+int status_began(const struct board_status *status, const char *text, char *out, size_t size)
+{
+	struct event event = { .id = status->began };
+
+	if (status->began == EVENT_DIED || status->began == EVENT_FAILED)
+		snprintf(event.arg[0], sizeof(event.arg[0]), "%u", (unsigned)status->began_how);
+	if (status->began_ends)
+		snprintf(event.arg[1], sizeof(event.arg[1]), "%u", (unsigned)status->began_ends);
+	return event_fill(&event, text, out, size);
+}
+
 int event_print(const struct event *event, char *out, size_t size)
 {
 	return event_fill(event, event_text(event->id), out, size);

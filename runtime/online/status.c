@@ -53,6 +53,9 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 		wire_put_i64(out, status->task[i].wait_ns);
 	}
 	wire_put_u32(out, status->speed);
+	wire_put_u8(out, status->began);
+	wire_put_u16(out, status->began_how);
+	wire_put_u32(out, status->began_ends);
 }
 
 bool status_has_program(const struct board_status *status)
@@ -124,4 +127,9 @@ void status_take(struct wire_reader *in, struct board_status *status)
 	}
 	if (wire_left(in))
 		status->speed = wire_u32(in);
+	if (!wire_left(in))
+		return;
+	status->began = wire_u8(in);
+	status->began_how = wire_u16(in);
+	status->began_ends = wire_u32(in);
 }

@@ -48,6 +48,10 @@ struct board_status {
 	char next_why[STATUS_TEXT];    /* its argument                         */
 	char disk[STATUS_TEXT];        /* what the disk does not take, and why; "" */
 	uint32_t speed;                /* words of instructions a ms; 0: not known yet */
+	uint8_t began;                 /* the event before this start, which says how it came about; 0:
+					* the board does not know */
+	uint16_t began_how;            /* its arguments: a signal or status; 0: none */
+	uint32_t began_ends;           /* abnormal ends since ladder-guard began */
 	uint8_t task_count;
 	struct task_status task[LIMIT_TASKS];
 };
@@ -62,4 +66,7 @@ bool status_has_program(const struct board_status *status);
 /** status_next - @text: that of the event status->next, or its translation; gets why the next
  * start runs another program than this one. As snprintf. */
 int status_next(const struct board_status *status, const char *text, char *out, size_t size);
+/** status_began - @text: that of the event status->began, or its translation; gets what
+ * was before this start. As snprintf. */
+int status_began(const struct board_status *status, const char *text, char *out, size_t size);
 #endif

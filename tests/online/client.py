@@ -282,6 +282,7 @@ class Client:
         for task in found['tasks']:
             task['interrupted'], task['waited'] = it.number('Q'), it.number('q')
         found['speed'] = it.number('I')
+        found['began'] = it.number('B'), it.number('H'), it.number('I')
         assert not it.rest()
         return found
 

@@ -1072,7 +1072,7 @@ def test_a_log_that_cannot_be_written_is_told_and_written_later():
         board.daemon.kill()
         board.daemon.wait()
         board.start()
-        assert [it['id'] for it in board.client().events() if it['id'] != 5] == [1, 44, 45, 1], 'none is lost, none is there twice'
+        assert [it['id'] for it in board.client().events() if it['id'] != 5] == [1, 44, 45, 36, 1], 'none is lost, none is there twice'
 
 
 TRIED = SEAL.replace('  Count : INT;', '  Count : INT;\n  Go : BOOL;\n  Old : DINT;')
@@ -1915,16 +1915,22 @@ def test_three_abnormal_ends_begin_in_stop():
             board.start()
             return board.client().status()
 
-        assert end_badly()['mode'] == client.RUN and end_badly()['mode'] == client.RUN
+        assert board.client().status()['began'] == (0, 0, 0) and 'before this start' not in board.command('status')[1]
+        assert end_badly()['mode'] == client.RUN
+        status = end_badly()
+        assert (status['mode'], status['began']) == (client.RUN, (36, 0, 0)), status
         # An orderly end between them does not count, and does not forget.
         board.stop()
         board.start()
-        assert board.client().status()['mode'] == client.RUN
+        status = board.client().status()
+        assert (status['mode'], status['began']) == (client.RUN, (2, 0, 0)), status
+        assert '\nbefore this start: ladderd ended\n' in board.command('status')[1]
         status = end_badly()
         assert status['mode'] == client.STOP and 'three times within a minute' in status['stop'], status
         assert 'QX0.0 1' not in board.read('err')
         desk = board.client()
-        assert [it['id'] for it in desk.events() if it['id'] == 23] == [23]
+        assert [it['id'] for it in desk.events() if it['id'] in (23, 35, 36)] == [36, 36, 23]
+        assert status['began'] == (23, 0, 0), status
         assert 'stop: ladderd has ended abnormally' in board.command('status')[1]
         desk.set_mode(1)
         assert desk.status()['mode'] == client.RUN and not desk.status()['stop']
@@ -1939,9 +1945,21 @@ def test_three_abnormal_ends_begin_in_stop():
             board.daemon.wait()
             board.start()
             assert board.client().status()['mode'] == client.RUN, age
+        # It ran when the machine went off.
+        board.stop()
+        write_ends(board, [], b'0' * 36, 1)
+        board.start()
+        desk = board.client()
+        status = desk.status()
+        assert (status['mode'], status['began']) == (client.RUN, (35, 0, 0)), status
+        assert 35 in [it['id'] for it in desk.events()]
+        shown = board.command('status')[1]
+        assert '\nbefore this start: the board went off or was reset while ladderd ran\n' in shown, shown
+        assert json.loads(board.command('status', '--json')[1])['before_this_start'].startswith('the board went off')
         with open(board.folder + '/ends', 'r+b') as file:
             file.write(b'damage')
-        assert end_badly()['mode'] == client.RUN
+        status = end_badly()
+        assert (status['mode'], status['began']) == (client.RUN, (0, 0, 0)), status
 
 
 def test_a_link_that_cannot_start_is_no_abnormal_end():
@@ -1963,8 +1981,8 @@ def this_boot():
         return file.read(36)
 
 
-def write_ends(board, times, boot):
-    data = b'RUNGENDS' + bytes([0]) + boot + struct.pack('<3q', *times, *[-1] * (3 - len(times)))
+def write_ends(board, times, boot, runs=0):
+    data = b'RUNGENDS' + bytes([runs]) + boot + struct.pack('<3q', *times, *[-1] * (3 - len(times)))
     with open(board.folder + '/ends', 'wb') as file:
         file.write(data + struct.pack('<I', crc32c(data)))
 
@@ -2728,6 +2746,19 @@ def cause_ends(board, _desk):
     return '', ''
 
 
+def cause_power(board, _desk):
+    board.stop()
+    write_ends(board, [], b'0' * 36, 1)
+    board.start()
+    return '', ''
+
+
+def cause_after(board, _desk):
+    kill(board)
+    board.start()
+    return '', ''
+
+
 def cause_back(board, desk):
     before = program_of(board)
     desk.download(build(board, 'bad.rung', faulty(2)), back=5)
@@ -2771,7 +2802,7 @@ def cause_ended(how, count):
     """The guard's ladderd ended in this way, and so many did."""
     def cause(board, _desk):
         start_again(board, ended=(how, count))
-        return str(how - 256 if how >= 256 else how), str(count)
+        return '' if how in (128, 129) else str(how - 256 if how >= 256 else how), str(count)
     return cause
 
 
@@ -2851,6 +2882,7 @@ KINDS = {
     'FROZE': (lambda: GuardedBoard(SEAL, '--slots', '.'), False, cause_ended(128, 2)),
     'HUNG': (lambda: GuardedBoard(SEAL, '--slots', '.'), False, cause_ended(129, 3)),
     'FAILED': (lambda: GuardedBoard(SEAL, '--slots', '.'), False, cause_ended(256 + 2, 4)),
+    'POWER': (slots, False, cause_power), 'AFTER': (slots, False, cause_after),
     'ALARM_ACK': (alarmed, True, cause_ack), 'DISK_BAD': (alarmed, False, cause_disk_bad), 'DISK_GOOD': (slots, False, cause_disk_good),
     'TIME_SET': (clocked, True, does(lambda desk: desk.clock(MONDAY, change=1), '.*', '2026-06-01 07:00:0.')),
     'TIME_MOVED': (clocked, False, cause_moved),
