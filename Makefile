@@ -639,7 +639,9 @@ bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with c
 	@BUILD=$(BUILD) tests/bench/rt.sh
 bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## measure the link to desks: reading, watching, downloads
 	@BUILD=$(BUILD) tests/bench/online.py
-.PHONY: install-board push-tests bench-rt bench-online
+bench-jitter: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## two minutes: how late scans begin while eight desks watch and all processors are busy; as root it fails beyond 1 ms
+	@BUILD=$(BUILD) JITTER=60 /usr/bin/python3 tests/online/stress.py test_desks_and_busy_processors_delay_no_scan
+.PHONY: install-board push-tests bench-rt bench-online bench-jitter
 # ---- end of board ----
 
 # ---- small ----

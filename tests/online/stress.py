@@ -3,7 +3,8 @@
 """stress - many desks at once, and desks and boards in trouble: the board goes on, and each loser is told why.
 
 Short in `make check`. LINK_STRESS=1 runs all of it: 3 sessions with 1,000 changes each, 500 random projects, 1,000
-connects beside 10,000 frames of junk a second.
+connects beside 10,000 frames of junk a second. JITTER=60 (seconds) measures how late scans begin while eight desks watch
+and all processors are busy (`make bench-jitter`); it fails only if this user may have real-time priority.
 """
 import os
 import random
@@ -22,6 +23,7 @@ from client import ANY, BOOL, INT, STRING, Client, Gone, Refused  # noqa: E402
 from link import OTHER, SEAL, Board, attempt, build, refused, slots, until  # noqa: E402
 
 LONG = 'LINK_STRESS' in os.environ
+JITTER = int(os.environ.get('JITTER', '0'))
 
 
 def tell(text):
@@ -222,6 +224,67 @@ def test_a_crowd_disturbs_neither_scans_nor_others():
 
 
 test_a_crowd_disturbs_neither_scans_nor_others.as_is = LONG
+
+
+def watch_for(desk, words, over):
+    """Watches so many words as fast as the board sends them. How many messages came."""
+    types = desk.publish([f'N{i}' for i in range(words)])[1]
+    count = 0
+    while not over.is_set():
+        desk.next_told()
+        count += 1
+    assert len(types) == words
+    return count
+
+
+def lateness(rt, desks, words, busy):
+    """How late scans of 10 ms began in a time of JITTER: the status, and the messages that desks got."""
+    over, counts = threading.Event(), []
+    program = link.SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + ''.join(f'  N{i} : INT;\n' for i in range(words)))
+    program = program.replace('END_PROGRAM', ''.join(f'RUNG\n  | [ N{i} := N{i} + 1 ] |\n' for i in range(words)) + 'END_PROGRAM')
+    with Board(program, '--period', '10ms', *rt) as board:
+        # One session is that of the last desk, which asks for the status at the end.
+        threads = [threading.Thread(target=lambda desk: counts.append(watch_for(desk, words, over)), args=(board.client(),))
+                   for _ in range(desks)]
+        last = board.client()
+        load = [subprocess.Popen(['sh', '-c', 'while :; do :; done']) for _ in range(busy)]
+        try:
+            for it in threads:
+                it.start()
+            if desks:
+                last.publish([f'N{i}' for i in range(words)])
+            end = time.monotonic() + JITTER
+            while time.monotonic() < end:
+                if desks:
+                    last.next_told()
+                else:
+                    time.sleep(1)
+            status = last.status()
+        finally:
+            over.set()
+            for it in load:
+                it.kill()
+                it.wait()
+            for it in threads:
+                it.join()
+        return status, sum(counts)
+
+
+def test_desks_and_busy_processors_delay_no_scan():
+    if not JITTER:
+        raise link.Skip('JITTER=60 measures it')
+    rt = link.in_real_time()
+    quiet, _none = lateness(rt, 0, 200, 0)
+    status, messages = lateness(rt, 7, 200, os.cpu_count())
+    for what, it in ('alone', quiet), ('8 desks, busy processors', status):
+        tell(f"{what}: {it['scans']} scans of 10 ms, {it['missed']} missed, late p99.9 {it['late_p999'] / 1000:.0f} us, "
+             f"at most {it['late_longest'] / 1000:.0f} us")
+    tell(f"{messages} messages of 200 words to 7 of them; {' '.join(rt) or 'no real-time priority: nothing is decided'}")
+    if rt:
+        assert status['missed'] == 0 and status['late_p999'] <= min(10**6, quiet['late_p999'] + 300000), (quiet, status)
+
+
+test_desks_and_busy_processors_delay_no_scan.as_is = True
 
 
 def test_ten_thousand_variables_are_watched():
