@@ -100,8 +100,8 @@ static void checks(void)
 		 says(checked, 4, DIAG_COUNT) && says(checked, 5, DIAG_IO_NO_SAFE),
 		 "each output without safe= has its warning");
 	text = iomap_first_doubt(checked);
-	CHECK_TEXT(text, "Line 2: \"%QX0.0\" has no safe=, so it is off while no program runs, as are "
-		   "other outputs: 1; write safe=0, safe=1 or safe=hold");
+	CHECK_TEXT(text ? text : "", "Line 2: \"%QX0.0\" has no safe=, so it is off while no "
+		   "program runs, as are other outputs: 1; write safe=0, safe=1 or safe=hold");
 	g_free(text);
 	io_check_free(checked);
 	checked = check("");
