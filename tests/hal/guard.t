@@ -409,12 +409,12 @@ say_it(head(2, 1) . $dev . $good);
 say_it(head(3));
 sysread $guard, my $answer, 100;
 say_it(head(6, 1) . $dev . line(0, 3, 1, 0, 0, 0)) for 1 .. 2;
-say_it(head(6, 1) . $dev . line(0, 2, 0, 0, 0, 0)) if $ENV{LIAR_LESS};
-say_it(head(6, 0) . $dev) if $ENV{LIAR_LESS};
+say_it(head(6, 1) . $dev . line(0, 2, 0, 0, 0, 0)) if $ENV{LIAR_LESS} == 1;
+say_it(head(6, 0) . $dev) if $ENV{LIAR_LESS} == 2;
 print length($answer), "\n"; STDOUT->flush;
 kill 'KILL', $$;
 END
-	for my $less (0, 1) {
+	for my $less (0, 1, 2) { # 1: one of the table instead; 2: none
 		local $ENV{LIAR_LESS} = $less;
 		fresh();
 		$pid = start(named(), '--', 'perl', $liar);
