@@ -211,16 +211,19 @@ class Finder:
     def at_rest(self, node):
         """The same once it has stopped moving: new widgets still move. A list that is made anew has another widget of
         that name; a person takes that one."""
-        seen = []
+        seen, misses = [], []
 
         def look():
             try:
                 seen.append(node.box())
             except Gone:
                 node.path = next((each.path for each in self.all(node.name) if (each.name, each.role) == (node.name, node.role)), node.path)
-                return None
-            return len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
-        return until(look, '"%s" to be at rest' % node.name)
+                misses.append(node.path)
+            return len(misses) > 20 or len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
+        box = until(look, '"%s" to be at rest' % node.name)
+        if box is True:
+            raise Gone('"%s" is gone' % node.name)
+        return box
 
     def centre(self, node):
         x, y, width, height = self.place(node)
