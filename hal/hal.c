@@ -106,7 +106,7 @@ static void read_request(struct hal *hal, struct hal_request *request,
 		return;
 	}
 	request_worked(request);
-	level ^= request->invert;
+	level = request_levels(request, level);
 	request->value = request->debounced ?
 			 debounce(request, level, now_ns) : level;
 }
@@ -146,7 +146,7 @@ static bool write_request(struct hal *hal, struct hal_request *request,
 	if (hal->holds && (value ^ request->value) & request->hold)
 		hal->holds(hal, request, value);
 	if (request->ask.driver->write(&request->ask,
-				       value ^ request->invert) < 0) {
+				       request_levels(request, value)) < 0) {
 		request_failed(hal, request);
 		return false;
 	}

@@ -264,7 +264,7 @@ static bool first_read(struct hal_request *request, struct trouble *why)
 	if (result < 0)
 		return trouble_set(why, DIAG_IO_SILENT, "%s",
 				   strerror(-result));
-	request->value = level ^ request->invert;
+	request->value = request_levels(request, level);
 	request->differs = 0;
 	return true;
 }
@@ -274,7 +274,7 @@ static bool open_request(const struct hal *hal, struct hal_request *request,
 {
 	struct trouble why;
 
-	request->ask.first = request_safe(request) ^ request->invert;
+	request->ask.first = request_levels(request, request_safe(request));
 	if (!request->ask.driver->open(&request->ask, &why))
 		return refuse(hal, request, &why, diags);
 	request->is_open = true;
@@ -591,7 +591,7 @@ void hal_close_rest(struct hal *other)
 
 		if (request->is_open && request->ask.output && request->dirty &&
 		    request->ask.driver->write(&request->ask,
-					       request_safe(request) ^ request->invert) == 0)
+					       request_levels(request, request_safe(request))) == 0)
 			request->dirty = false;
 		close_request(request);
 	}

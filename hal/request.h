@@ -35,4 +35,10 @@ struct hal_request {
 bool request_in_fault(const struct hal_request *request);
 /** request_safe - the values that make an output safe now, before inversion. Scan-safe: yes. */
 uint64_t request_safe(const struct hal_request *request);
+/** request_levels - @values as levels at the pins, and levels as values: lines that are active low are
+ * inverted. Scan-safe: yes. */
+static inline uint64_t request_levels(const struct hal_request *request, uint64_t values)
+{
+	return values ^ request->invert;
+}
 #endif

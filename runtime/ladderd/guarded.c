@@ -149,7 +149,7 @@ static void add_line(struct guard_line *out, const struct guard_place *at)
 
 	*out = (struct guard_line){
 		.chip = (uint16_t)line->at.chip, .offset = (uint16_t)line->at.offset,
-		.level = bit_of(request_safe(request) ^ request->invert, at),
+		.level = bit_of(request_levels(request, request_safe(request)), at),
 		.bias = bias[line->point->bias], .drive = drive[line->point->drive],
 		.hold = !bit_of(request->hold, at) ? GUARD_SAFE :
 			request->is_open ? GUARD_HOLD : GUARD_KNOWN,
@@ -196,7 +196,7 @@ static void tell_levels(const struct hal *hal, const struct hal_request *request
 	for (uint32_t i = 0; i < GUARD_LINES && next_place(&at); i++) {
 		const uint64_t of = at.request == request ? value : at.request->value;
 
-		levels.bit[i / 8] |= (uint8_t)(bit_of(of ^ at.request->invert, &at) << i % 8);
+		levels.bit[i / 8] |= (uint8_t)(bit_of(request_levels(at.request, of), &at) << i % 8);
 	}
 	say(&levels, sizeof(levels));
 }
