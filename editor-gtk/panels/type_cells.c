@@ -88,6 +88,7 @@ struct array_form {
 	GtkWidget *popover, *low, *high, *type, *why;
 	GtkWidget *cell;
 	LadderPanelRow *row;
+	char *written[2]; /* the bounds before: "0", "Limit - 1"               */
 };
 
 static void array_form_free(gpointer data)
@@ -96,29 +97,39 @@ static void array_form_free(gpointer data)
 
 	g_object_unref(form->cell);
 	g_object_unref(form->row);
+	g_free(form->written[0]);
+	g_free(form->written[1]);
 	g_free(form);
 }
 
-/* "ARRAY[0..9] OF INT"; false: it is no array. */
-static bool read_array(const char *text, long *low, long *high, const char **type)
+/* The bounds of "ARRAY[0..Limit - 1] OF INT" as they are written, and the type of its elements; of
+ * another type those of a new array. Caller frees the bounds. */
+static const char *read_array(const char *text, char *bounds[2])
 {
-	const char *of = strstr(text, " OF "), *dots = strstr(text, "..");
+	const char *of = strstr(text, "] OF "), *dots = strstr(text, "..");
+	const bool is_array = of && dots && dots < of && g_str_has_prefix(text, "ARRAY[");
+	const char *first = text + strlen("ARRAY["), *last = dots + strlen("..");
 
-	if (!of || !dots || !g_str_has_prefix(text, "ARRAY["))
-		return false;
-	*low = strtol(text + strlen("ARRAY["), NULL, 10);
-	*high = strtol(dots + strlen(".."), NULL, 10);
-	*type = of + strlen(" OF ");
-	return true;
+	bounds[0] = is_array ? g_strstrip(g_strndup(first, (gsize)(dots - first))) : g_strdup("0");
+	bounds[1] = is_array ? g_strstrip(g_strndup(last, (gsize)(of - last))) : g_strdup("9");
+	return is_array ? of + strlen("] OF ") : text;
 }
 
-/* A whole number; false: it is none. */
-static bool read_bound(GtkWidget *entry, long *out)
+static char *bound_text(GtkWidget *entry)
 {
-	char *text = g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry)))), *end;
+	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry))));
+}
+
+/* A whole number; or the expression that stands there already, which is not computed here. False:
+ * it is neither. */
+static bool read_bound(const struct array_form *form, GtkWidget *entry, long *out, bool *known)
+{
+	char *text = bound_text(entry), *end;
 
 	*out = strtol(text, &end, 10);
-	const bool good = *text && !*end && *out >= G_MININT32 && *out <= G_MAXINT32;
+	*known = *text && !*end;
+	const bool good = *known ? *out >= G_MININT32 && *out <= G_MAXINT32 :
+			  *text && strcmp(text, form->written[entry == form->high]) == 0;
 
 	g_free(text);
 	return good;
@@ -127,14 +138,17 @@ static bool read_bound(GtkWidget *entry, long *out)
 /* Why the bounds are refused, translated, static; NULL: they are right. @at: gets the wrong entry. */
 static const char *bounds_refusal(const struct array_form *form, GtkWidget **at)
 {
+	bool known_low, known_high;
 	long low, high;
 
 	*at = form->low;
-	if (!read_bound(form->low, &low))
+	if (!read_bound(form, form->low, &low, &known_low))
 		return _("A whole number is needed");
 	*at = form->high;
-	if (!read_bound(form->high, &high))
+	if (!read_bound(form, form->high, &high, &known_high))
 		return _("A whole number is needed");
+	if (!known_low || !known_high)
+		return NULL;
 	if (high < low)
 		return _("The last index is below the first");
 	return high - low >= LIMIT_ELEMENTS ? _("An array has at most 1000000 elements") : NULL;
@@ -160,15 +174,16 @@ static void make_array(struct array_form *form)
 {
 	GtkStringObject *type = gtk_drop_down_get_selected_item(GTK_DROP_DOWN(form->type));
 	GtkWidget *cell = form->cell;
-	long low, high;
-	char *text;
+	char *low, *high, *text;
 
 	if (show_refusal(form) || !type)
 		return;
-	read_bound(form->low, &low);
-	read_bound(form->high, &high);
-	text = g_strdup_printf("ARRAY[%ld..%ld] OF %s", low, high,
+	low = bound_text(form->low);
+	high = bound_text(form->high);
+	text = g_strdup_printf("ARRAY[%s..%s] OF %s", low, high,
 			       gtk_string_object_get_string(type));
+	g_free(low);
+	g_free(high);
 	g_object_ref(cell);
 	gtk_popover_popdown(GTK_POPOVER(form->popover));
 	gtk_widget_grab_focus(cell);
@@ -177,10 +192,9 @@ static void make_array(struct array_form *form)
 	g_free(text);
 }
 
-static GtkWidget *bound_new(struct array_form *form, long number, const char *name)
+static GtkWidget *bound_new(struct array_form *form, const char *text, const char *name)
 {
 	GtkWidget *entry = gtk_entry_new();
-	char *text = g_strdup_printf("%ld", number);
 
 	gtk_editable_set_text(GTK_EDITABLE(entry), text);
 	gtk_editable_set_width_chars(GTK_EDITABLE(entry), 8);
@@ -188,7 +202,6 @@ static GtkWidget *bound_new(struct array_form *form, long number, const char *na
 	spoken_name(entry, name);
 	g_signal_connect_swapped(entry, "changed", G_CALLBACK(bounds_changed), form);
 	g_signal_connect_swapped(entry, "activate", G_CALLBACK(make_array), form);
-	g_free(text);
 	return entry;
 }
 
@@ -252,14 +265,13 @@ static GtkWidget *array_parts(struct array_form *form)
 static void open_array(LadderDocument *document, LadderPanelRow *row, GtkWidget *cell)
 {
 	struct array_form *form = g_new0(struct array_form, 1);
-	const char *type = panel_row_text(row, FIELD_TYPE);
-	long low = 0, high = 9;
+	const char *type;
 
-	read_array(type, &low, &high, &type);
 	*form = (struct array_form){ .cell = g_object_ref(cell), .row = g_object_ref(row),
 				     .popover = gtk_popover_new() };
-	form->low = bound_new(form, low, _("First index"));
-	form->high = bound_new(form, high, _("Last index"));
+	type = read_array(panel_row_text(row, FIELD_TYPE), form->written);
+	form->low = bound_new(form, form->written[0], _("First index"));
+	form->high = bound_new(form, form->written[1], _("Last index"));
 	form->type = types_new(document, row->table >
 			       ladder_document_project(document)->pou_count, type);
 	gtk_popover_set_child(GTK_POPOVER(form->popover), array_parts(form));

@@ -179,6 +179,23 @@ def array(screen):
     editor.type('6')
     editor.keys('Return')
     assert '  Level : ARRAY[1..6] OF INT;\n' in editor.save(path)
+    # Bounds that are written as expressions stay what they are; Escape changes nothing.
+    editor.into('Level, Type')
+    editor.keys('ctrl+a')
+    editor.type('ARRAY[1..2 * 3] OF INT')
+    editor.keys('Return')
+    assert '  Level : ARRAY[1..2 * 3] OF INT;\n' in editor.save(path)
+    for key in 'Escape', 'Return':
+        editor.into('Level, Type')
+        editor.keys('ctrl+space')
+        until(lambda: editor.all('Array…', 'push button'), 'the button')[0].press()
+        last = until(lambda: editor.all('Last index', 'text'), 'the form of the array')[0]
+        assert last.text() == '2 * 3', last.text()
+        editor.shot('types-array-expression')
+        editor.keys(key)
+        until(lambda: not editor.all('Last index', 'text'), 'the end of the form')
+        assert editor.find('Level, Type', 'text').text() == 'ARRAY[1..2 * 3] OF INT'
+    editor.keys('ctrl+z')
     editor.into('Level, Initial value')
     window = editor.brought('ctrl+space', 'Initial values of Level')
     editor.focus_on('[1], Value', 'text')
