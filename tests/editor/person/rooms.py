@@ -36,6 +36,19 @@ def whole(editor, what, faults=warnings):
     until(lambda: colours(editor) >= COLOURS, 'a picture in the window after ' + ', '.join(what[-4:]), 3)
 
 
+def alone(editor):
+    """Escape closes each other window, also one that comes late. The manual stays open beside the window until it has the
+    keys."""
+    editor.keys('Escape', 'Escape', 'Escape', 'Escape')
+
+    def look():
+        others = [window for window in editor.windows() if window != editor.window]
+        if others:
+            sh('xdotool', 'windowactivate', others[-1], 'sleep', '0.1', 'key', 'Escape')
+        return not others
+    until(look, 'other windows to go')
+
+
 def sheets(editor, least=2):
     """The labels of the tabs of sheets; AdwTab has no role."""
     found = [node for node in editor.all(role='label') if node.name and node.states >> 30 & 1 and
@@ -82,23 +95,25 @@ class Hand:
         return key
 
     def page(self):
-        """Opens a page by its command; closes a chooser that asks for a file."""
+        """Opens a page by its command; closes a chooser that asks for a file. A menu that is open has the keys."""
         name = self.dice.choice(PAGES)
+        alone(self.editor)
         self.editor.command(name)
-        until(lambda: self.editor.windows() == [self.editor.window] or self.editor.keys('Escape'), 'other windows to go')
+        alone(self.editor)
         return 'the command ' + name
 
     def manual(self):
         """Opens the manual in some size, searches in all pages and in one, and closes it."""
         editor, word = self.editor, self.dice.choice(SEARCHED)
         size = self.dice.choice([*SIZES, '640 420'])
+        alone(editor)
         window = editor.brought(lambda: editor.command('Manual'))
         sh('xdotool', 'windowsize', '--sync', window, *size.split())
         for key in 'ctrl+shift+f', 'ctrl+f':
             editor.keys(key)
             editor.type(word)
             editor.keys('Return', self.dice.choice(['Return', 'Next', 'ctrl+a', 'ctrl+shift+c', 'F3']))
-        until(lambda: editor.windows() == [editor.window] or editor.keys('Escape'), 'the manual to close')
+        alone(editor)
         return 'the manual at %s, searched for %s' % (size, word)
 
     def search(self):

@@ -70,21 +70,9 @@ def faults(editor):
             not re.search(r'Trying to snapshot (?!GtkPaned|GtkBox|GtkOverlay|AdwTabView)\w+ \w+ without a current allocation', line)]
 
 
-def alone(editor):
-    """Escape closes each other window that has the keys. The manual stays open beside the window until it has them."""
-    editor.keys('Escape', 'Escape', 'Escape', 'Escape')
-
-    def look():
-        others = [window for window in editor.windows() if window != editor.window]
-        if others:
-            sh('xdotool', 'windowactivate', others[-1], 'sleep', '0.1', 'key', 'Escape')
-        return not others
-    until(look, 'other windows to go')
-
-
 def go_round(editor, place, acts):
     """Tabs, pages, panels, dividers and sizes of the window; it is never blank."""
-    alone(editor)
+    rooms.alone(editor)
     for _ in range(ROOMS):
         acts = [*acts, place.act()]
         rooms.whole(editor, acts, faults)
@@ -92,7 +80,7 @@ def go_round(editor, place, acts):
 
 def calm(editor):
     """Closes what is open and stops what runs."""
-    alone(editor)
+    rooms.alone(editor)
     editor.keys('ctrl+shift+r')
 
 
