@@ -144,7 +144,8 @@ char *report_lines_title(const char *name, const GPtrArray *rows)
 	const guint refused = count_of(rows, _("Refused"));
 
 	if (refused)
-		return g_strdup_printf(_("%s was not written: %u refused"), name, refused);
+		return g_strdup_printf(_("%s was not written. Refused: %u; the reasons are in the table"),
+				       name, refused);
 	return g_strdup_printf(_("%s: %u changed, %u left out"), name, changed, lost);
 }
 

@@ -167,7 +167,8 @@ static void show_summary(LadderAlarmView *view)
 	const guint waiting = count_waiting(view, &active);
 	const bool on = is_online(view) || ladder_sim_is_on(view->sim);
 	char *text = g_strdup_printf(view->lost && is_online(view) ?
-		_("%u active, %u to acknowledge; %u found no room in the list") :
+		_("%u active, %u to acknowledge. Left out because the list is full: %u. "
+		  "Acknowledge alarms to make room") :
 		_("%u active, %u to acknowledge"), active, waiting, (guint)view->lost);
 
 	gtk_label_set_text(view->summary, view->refused ? view->refused :

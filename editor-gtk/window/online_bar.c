@@ -193,6 +193,7 @@ static void tell_facts(struct online_bar *bar, int mode, enum role role)
 
 	core_with(core, WITH_OFFLINE, !is_on(bar));
 	core_with(core, WITH_LINK, is_on(bar));
+	core_with(core, WITH_ANSWER, ladder_board_link_state(link_of(bar)) == LINK_CONNECTED);
 	core_with(core, WITH_MAY_RUN, mode == STATE_STOP && role == ROLE_ENG &&
 		  status_has_program(ladder_board_link_status(link_of(bar))));
 	core_with(core, WITH_MAY_STOP, mode == STATE_RUN && role == ROLE_ENG);

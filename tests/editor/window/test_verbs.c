@@ -298,7 +298,7 @@ int main(void)
 	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_CANVAS | WITH_RUNGS | WITH_FREE |
 				WITH_ENTRY | WITH_LINES | WITH_ZOOM;
 
-	check_facts('o', "a board runs", ladder | WITH_SIM | WITH_STOP | WITH_LINK | WITH_MAY_STOP |
+	check_facts('o', "a board runs", ladder | WITH_SIM | WITH_STOP | WITH_LINK | WITH_ANSWER | WITH_MAY_STOP |
 		    WITH_MAY_DOWNLOAD | WITH_MAY_UPLOAD);
 	check_facts('r', "a recording", ladder | WITH_SIM | WITH_OFFLINE);
 	if (!screen_start() || !gtk_init_check()) {
