@@ -83,10 +83,9 @@ def pointer(screen):
     value = editor.find('/ 1:00 min', 'label')
 
     def field():
-        """Clicks again: GTK 4.8 under X11 loses some clicks where a popover was, while the window redraws in each
-        frame."""
-        editor.click(value)
-        return editor.asked() or editor.all('Delay, preset', 'text')
+        """Clicks again if there is none yet: GTK 4.8 under X11 loses some clicks where a popover was, while the window
+        redraws in each frame. The field covers the value that was clicked."""
+        return editor.asked() or editor.all('Delay, preset', 'text') or editor.click(value)
     until(field, 'the field of the preset')
     editor.focus_on(role='text')
     editor.keys('ctrl+a')
