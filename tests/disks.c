@@ -444,6 +444,8 @@ static bool conf_bad(void)
 	fail_at = 0;
 	options = (struct options){ .slots = folder };
 	conf_load(&conf, &options);
+	if (end != REFUSAL_NONE && times == 1)
+		return false; /* it could have asked again */
 	return !conf.damaged && (!damaged || times > 1) && (!damaged || has_said("damaged")) &&
 	       strcmp(options.name, end == REFUSAL_NONE ? "new" : "old") == 0;
 }
@@ -471,6 +473,8 @@ static bool password_bad(void)
 	const enum refusal end = set_password("old", "new");
 
 	fail_at = 0;
+	if (end != REFUSAL_NONE && times == 1)
+		return false; /* it could have asked again */
 	password_load(&password, folder);
 	return password_check(&password, 1, end == REFUSAL_NONE ? "new" : "old", 0, detail,
 			      sizeof(detail)) == REFUSAL_NONE;
@@ -530,7 +534,7 @@ static bool slots_bad(void)
 	const bool good = download(&began);
 
 	fail_at = 0;
-	if (began < 2 && times == 1)
+	if ((began < 2 || !good) && times == 1)
 		return false; /* it could have asked again */
 	if (began < 2 && !has_said("is damaged and is not used"))
 		return false; /* it ran an older one, and nobody heard of it */

@@ -38,6 +38,8 @@ void password_load(struct password *password, const char *folder)
 	password->set = true;
 	if (fd >= 0) {
 		len = read(fd, password->hash, sizeof(password->hash) - 1);
+		if (len < 0)
+			len = read(fd, password->hash, sizeof(password->hash) - 1);
 		close(fd);
 	}
 	password->hash[len > 0 ? len : 0] = '\0';
@@ -96,7 +98,7 @@ enum refusal password_check(struct password *password, uint32_t who, const char 
 }
 
 /* Readable by this user only, and whole or not at all. @hash "": no password. */
-static int store(const struct password *password, const char *hash)
+static int try_to_store(const struct password *password, const char *hash)
 {
 	char path[320], fresh[320];
 	const size_t len = strlen(hash);
@@ -130,6 +132,14 @@ static int store(const struct password *password, const char *hash)
 	if (disk_sync_folder(password->folder) != 0)
 		fprintf(stderr, "ladderd: the new program password may not survive a power cut\n");
 	return 0;
+}
+
+/* A disk may fail once. */
+static int store(const struct password *password, const char *hash)
+{
+	const int error = try_to_store(password, hash);
+
+	return error ? try_to_store(password, hash) : 0;
 }
 
 enum refusal password_change(struct password *password, uint32_t who, const char *old,

@@ -178,7 +178,7 @@ static int change_name(struct slots *slots, int number, const char *from, const 
 	path = path_of(slots, number, to);
 	if (!path)
 		return -ENAMETOOLONG;
-	if (rename(slots->old, path) != 0)
+	if (rename(slots->old, path) != 0 && rename(slots->old, path) != 0) /* a disk may fail once */
 		return -errno;
 	error = disk_sync_folder(slots->folder);
 	if (error)

@@ -144,13 +144,17 @@ static int sync_folder(const char *path)
 	return result;
 }
 
-static int replace(const char *path, const char *temporary, int fd,
-		   const void *bytes, size_t len)
+/* @temporary: its last six letters are X, and get others. */
+static int replace(const char *path, char *temporary, const void *bytes, size_t len)
 {
 	struct stat old;
 	mode_t mode = 0644;
-	int result;
+	int result, fd;
 
+	memset(temporary + strlen(temporary) - 6, 'X', 6);
+	fd = mkstemp(temporary);
+	if (fd < 0)
+		return -errno;
 	if (stat(path, &old) == 0)
 		mode = old.st_mode & 0777;
 	result = write_all(fd, bytes, len);
@@ -215,7 +219,7 @@ bool file_save(const char *path, const void *bytes, size_t len,
 	size_t size = strlen(target);
 	char *temporary = malloc(size + sizeof(suffix));
 	struct stat old;
-	int fd, result;
+	int result;
 
 	if (stat(target, &old) == 0 && !S_ISREG(old.st_mode)) {
 		free(real);
@@ -230,8 +234,9 @@ bool file_save(const char *path, const void *bytes, size_t len,
 	}
 	memcpy(temporary, target, size);
 	memcpy(temporary + size, suffix, sizeof(suffix));
-	fd = mkstemp(temporary);
-	result = fd < 0 ? -errno : replace(target, temporary, fd, bytes, len);
+	result = replace(target, temporary, bytes, len);
+	if (result < 0) /* a disk may fail once */
+		result = replace(target, temporary, bytes, len);
 	if (result < 0)
 		fail(diags, DIAG_CANNOT_WRITE, path, -result);
 	else if (sync_folder(target) < 0 && sync_folder(target) < 0) /* the file is saved by then */
