@@ -7,6 +7,7 @@ import re
 import subprocess
 
 from desk import sh, until
+from node import Gone
 
 TABS_END = 98  # px from the top of the window
 COLOURS = 4  # a sheet with one wire has five, a blank page two or three
@@ -49,10 +50,21 @@ def alone(editor):
     until(look, 'other windows to go')
 
 
+def standing(nodes, fits):
+    """Those that fit, without those that go while they are asked."""
+    found = []
+    for node in nodes:
+        try:
+            found += [node] if fits(node) else []
+        except Gone:
+            pass
+    return found
+
+
 def sheets(editor, least=2):
     """The labels of the tabs of sheets; AdwTab has no role."""
-    found = [node for node in editor.all(role='label') if node.name and node.states >> 30 & 1 and
-             50 < node.box()[1] < 85 and node.box()[0] > 220]
+    found = standing(editor.all(role='label'), lambda node: node.name and node.states >> 30 & 1 and
+                     50 < node.box()[1] < 85 and node.box()[0] > 220)
     assert len(found) >= least, 'no tabs'
     return found
 
@@ -70,11 +82,9 @@ class Hand:
         """Does something; returns what."""
         editor, chance = self.editor, self.dice.random()
         if chance < 0.35:
-            tabs = [node for node in editor.all(role='page tab') if node.states >> 30 & 1] + sheets(editor, 0)
+            tabs = standing(editor.all(role='page tab'), lambda node: node.states >> 30 & 1) + sheets(editor, 0)
             if tabs:
-                tab = self.dice.choice(tabs)
-                editor.click(tab)
-                return 'a click on the tab ' + tab.name
+                return self.tab(self.dice.choice(tabs))
         if chance < 0.45 and (report := editor.all('Show report', 'push button')):
             editor.click(report[0])
             return 'Show report'
@@ -93,6 +103,14 @@ class Hand:
         key = self.dice.choice(KEYS)
         editor.keys(key)
         return key
+
+    def tab(self, tab):
+        """The tab of a panel has another name when its number changes."""
+        try:
+            self.editor.click(tab)
+            return 'a click on the tab ' + tab.name
+        except Gone:
+            return 'no click on the tab ' + tab.name
 
     def page(self):
         """Opens a page by its command; closes a chooser that asks for a file. A menu that is open has the keys."""

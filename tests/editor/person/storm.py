@@ -66,8 +66,8 @@ def faults(editor):
     """Messages of the toolkit that are faults of the editor. GTK warns of a widget without allocation for its own
     scrollbars, and for a tab dragged while a menu closes; the next frame is right. Not so for the containers of the window
     (panes.py)."""
-    return [line for line in editor.logged().splitlines() if re.search('WARNING|CRITICAL|ERROR', line) and
-            not re.search(r'Trying to snapshot (?!GtkPaned|GtkBox|GtkOverlay|AdwTabView)\w+ \w+ without a current allocation', line)]
+    return [line for line in rooms.warnings(editor) if not
+            re.search(r'Trying to snapshot (?!GtkPaned|GtkBox|GtkOverlay|AdwTabView)\w+ \w+ without a current allocation', line)]
 
 
 def go_round(editor, place, acts):
