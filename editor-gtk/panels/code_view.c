@@ -14,9 +14,10 @@
 
 #include <string.h>
 
-/* The instruction of a line: of rung `rung`, 0-based, the number `number`, from 0. */
+/* The cell whose power is the result after a line. */
 struct spot {
-	int rung, number;   /* rung -1: no instruction                          */
+	int rung, row, col; /* 0-based; rung -1: none                             */
+	bool out;           /* the power that it lets through, not what comes to it */
 };
 
 struct code_view {
@@ -42,13 +43,68 @@ static void code_view_free(gpointer pointer)
 
 /* ---- results ---- */
 
+static bool is_contact(const struct cell *cell)
+{
+	return cell->word == ELEM_CONTACT_NO || cell->word == ELEM_CONTACT_NC;
+}
+
+static bool is_coil(const struct cell *cell)
+{
+	return cell->word == ELEM_COIL || cell->word == ELEM_COIL_NOT ||
+	       cell->word == ELEM_COIL_SET || cell->word == ELEM_COIL_RESET;
+}
+
+/* Does the line read the contact, or write the coil, of its own cell? NULL: no. */
+static const struct cell *cell_of(const struct pou *pou, const struct il_line *line)
+{
+	const struct cell *cell;
+
+	if (line->kind != IL_OP || !line->rung || !line->row || !line->col ||
+	    line->modifiers & ~MOD_N || (int)line->rung > pou->rung_count)
+		return NULL;
+	cell = rung_at(pou->rung[line->rung - 1], line->row - 1, line->col - 1);
+	if (cell->operand != line->operand)
+		return NULL;
+	if (line->op == OP_LD || line->op == OP_AND)
+		return is_contact(cell) ? cell : NULL;
+	return (line->op == OP_ST || line->op == OP_S || line->op == OP_R) && is_coil(cell) ?
+	       cell : NULL;
+}
+
+static struct spot spot_at(const struct il_line *line, bool out)
+{
+	return (struct spot){ (int)line->rung - 1, line->row - 1, line->col - 1, out };
+}
+
+/* @next: the instruction behind it, NULL: none. Neither stands in parentheses. */
+static struct spot spot_of(const struct pou *pou, const struct il_line *line,
+			   const struct il_line *next)
+{
+	const struct cell *cell = cell_of(pou, line);
+
+	if (cell)
+		return spot_at(line, is_contact(cell));
+	if (next && next->rung == line->rung && next->op != OP_LD && cell_of(pou, next))
+		return spot_at(next, false); /* which takes the result */
+	return (struct spot){ .rung = -1 };
+}
+
+static bool has_jumps(const struct il *il)
+{
+	for (int i = 0; i < il->count; i++)
+		if (il->line[i].kind == IL_LABEL ||
+		    (il->line[i].kind == IL_OP && (il->line[i].op == OP_JMP ||
+						   il->line[i].op == OP_RET)))
+			return true;
+	return false;
+}
+
 static bool is_arg(const struct il *il, int i)
 {
 	return i < il->count && (il->line[i].kind == IL_ARG_IN || il->line[i].kind == IL_ARG_OUT ||
 				 il->line[i].kind == IL_TARGET);
 }
 
-/* The next one that has a line of the text. */
 static int behind(const struct il *il, int i)
 {
 	do
@@ -57,62 +113,57 @@ static int behind(const struct il *il, int i)
 	return i;
 }
 
-static bool is_instruction(const struct il_line *line)
-{
-	return line->kind != IL_COMMENT && line->rung > 0;
-}
-
-/* How many instructions stand before those of @rung, 0-based. */
-static uint32_t count_before(const struct il *il, int rung)
-{
-	uint32_t count = 0;
-
-	for (int i = 0; i < il->count && (int)il->line[i].rung <= rung; i = behind(il, i))
-		count += is_instruction(&il->line[i]);
-	return count;
-}
-
 /* One for each line of the text: declarations, the list, END_PROGRAM. */
 static void find_spots(struct code_view *code, const struct pou *pou, const struct il *il,
 		       const char *text)
 {
-	struct spot spot = { .rung = -1 };
-	int lines = 0, rung = -1, number = 0, at;
+	const struct spot none = { .rung = -1 };
+	int depth = 0, lines = 0, at;
 
 	g_array_set_size(code->spots, 0);
-	if (pou->language != LANGUAGE_LD)
+	if (pou->language != LANGUAGE_LD || has_jumps(il))
 		return;
 	for (int i = 0; i < il->count; i = behind(il, i))
 		lines++;
 	for (const char *end = text; (end = strchr(end, '\n')); end++)
-		g_array_append_val(code->spots, spot);
+		g_array_append_val(code->spots, none);
 	at = (int)code->spots->len - 1 - lines; /* of the first line of the list */
 	for (int i = 0; at >= 0 && i < il->count; i = behind(il, i), at++) {
-		if (!is_instruction(&il->line[i]))
-			continue;
-		number = rung == (int)il->line[i].rung - 1 ? number + 1 : 0;
-		rung = (int)il->line[i].rung - 1;
-		spot = (struct spot){ rung, number };
-		g_array_index(code->spots, struct spot, at) = spot;
+		const struct il_line *line = &il->line[i];
+		const int next = behind(il, i);
+
+		depth += (line->kind == IL_OP || line->kind == IL_FN) &&
+			 line->modifiers & MOD_PAREN ? 1 : line->kind == IL_CLOSE ? -1 : 0;
+		if (depth == 0)
+			g_array_index(code->spots, struct spot, at) =
+				spot_of(pou, line, next < il->count ? &il->line[next] : NULL);
 	}
 }
 
-/* Called by the text for each line that is on the screen, once a program. The program that runs
- * may have other rungs before this one. */
-static bool find_result(void *context, const struct live_map *map, int line,
-			struct live_result *out)
+/* Called by the text for each line that is on the screen, once a program. */
+static bool find_result(void *context, const struct live_map *map, int line, uint32_t *at)
 {
 	struct code_view *code = context;
-	struct ladder *running = ladder_sim_ladder(code->sim);
-	const int pou = ladder_sim_pou(code->sim, code->document, code->pou);
+	struct ladder *ladder = ladder_document_checked(code->document);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
 	const struct spot *spot = line < (int)code->spots->len ?
 		&g_array_index(code->spots, struct spot, line) : NULL;
-	const struct il *il = running && pou >= 0 ? ladder_il(running, pou) : NULL;
-	const int rung = il && spot && spot->rung >= 0 ?
-		ladder_sim_rung(code->sim, code->document, code->pou, spot->rung) : -1;
+	const struct pou *pou = project && code->pou < project->pou_count ?
+		&project->pou[code->pou] : NULL;
+	struct live_rung *live;
 
-	return rung >= 0 && live_map_result(map, count_before(il, rung) +
-					    (uint32_t)spot->number + 1, out);
+	if (!pou || !spot || spot->rung < 0 || spot->rung >= pou->rung_count)
+		return false;
+	live = live_rung_new(map, project, pou->rung[spot->rung],
+			     ladder_sim_rung(code->sim, code->document, code->pou, spot->rung));
+	*at = LIVE_NOWHERE;
+	if (spot->row < live->rows && spot->col < live->cols) {
+		const struct live_cell *cell = &live->cell[spot->row * live->cols + spot->col];
+
+		*at = spot->out ? cell->out : cell->in;
+	}
+	live_rung_free(live);
+	return *at != LIVE_NOWHERE;
 }
 
 /* ---- the text ---- */

@@ -47,7 +47,7 @@ struct live_result {
 	uint32_t ran;          /* a BOOL: has it run?                           */
 	struct location at;    /* the current result after it; IEC_NONE: no single value */
 };
-/** live_map_result - of line @line, as code_result() counts it. Fails: false: no instruction is there. */
+/** live_map_result - of line @line of the file. Fails: false: no instruction is there. */
 bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out);
 
 /* A piece of a text: a variable, or the text between two of them. */

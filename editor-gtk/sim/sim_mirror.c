@@ -266,13 +266,8 @@ static bool knows(struct sim_source *source, struct location at)
 
 /* ---- cells ---- */
 
-static bool is_bit(const struct code_power *power)
-{
-	return !power->type || power->type == IEC_BOOL;
-}
-
 /* The cells of a program, or of the body of an instance; `name` of the program image. */
-struct unit { const char *name; guint cell, count; guint32 from, size, shift; };
+struct unit { const char *name; guint cell, count; guint32 shift; };
 
 static bool find_cells(const struct program *program, guint pou, struct unit *unit)
 {
@@ -294,13 +289,11 @@ static bool find_unit(const struct program *program, const char *name, struct un
 		const struct code_watched *watched = &program->watched[i];
 
 		unit->name = program->string + watched->name;
-		unit->from = watched->from;
-		unit->size = watched->size;
 		unit->shift = watched->to - watched->from;
 		if (name_is(unit->name, name, len))
 			return find_cells(program, watched->pou, unit);
 	}
-	unit->shift = unit->from = unit->size = 0;
+	unit->shift = 0;
 	for (guint i = 0; i < program->entry_count && program->string_bytes; i++) {
 		unit->name = program->string + program->entry[i].name;
 		if (name_is(unit->name, name, len))
@@ -331,12 +324,6 @@ static bool has_power(struct sim_source *source, const char *name)
 	return false;
 }
 
-/* Power that is the same for all instances, such as that of the rail, is not copied. */
-static guint32 of_instance(const struct unit *unit, guint32 offset)
-{
-	return offset - unit->from < unit->size ? offset + unit->shift : offset;
-}
-
 void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 *bits)
 {
 	const struct program *program = program_of(mirror);
@@ -349,9 +336,9 @@ void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 
 		const struct code_power *cell = &program->power[unit.cell + i];
 		const guint two = bits[i / 4] >> i % 4 * 2 & 3;
 
-		memory[of_instance(&unit, cell->in)] = two & 1;
-		if (is_bit(cell)) /* else its value is published as that of a variable */
-			memory[of_instance(&unit, cell->out)] = two >> 1 & 1;
+		memory[cell->in + unit.shift] = two & 1;
+		if (!cell->type) /* else its value is published as that of a variable */
+			memory[cell->out + unit.shift] = two >> 1 & 1;
 	}
 	if (g_hash_table_add(mirror->powered, (gpointer)unit.name))
 		mirror->other = true;
@@ -396,7 +383,7 @@ static void add_results(struct places *places)
 	const struct program *program = places->program;
 
 	for (guint i = 0; i < program->power_count && places->all; i++)
-		if (!is_bit(&program->power[i]))
+		if (program->power[i].type)
 			add_place(places, place_locate(program,
 				CODE_OPERAND(program->power[i].type, program->power[i].out)));
 }

@@ -156,8 +156,7 @@ struct code_power {     /* what a watched scan keeps                       */
 	uint16_t pou;   /* index in CODE_PROGRAMS                          */
 	uint16_t row, col; /* of a cell, 1-based. 0, CODE_LINE: of a line of a list */
 	uint16_t type;  /* of out: 0 is BOOL, as older images of this version have */
-	uint32_t rung;  /* 1-based; of a list: line of the file; of the list of a ladder:
-			   number of the instruction                       */
+	uint32_t rung;  /* 1-based; of a list: line of the file             */
 	uint32_t in;    /* offset in m of a BOOL: power at the cell's left end; has the
 			   line run in the last run of its POU?            */
 	uint32_t out;   /* offset in m: power that the cell lets through; the current
@@ -234,8 +233,7 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	       struct program *out, enum diag_id *why, size_t *where);
 
 /** code_result - where a watched scan keeps the current result after a line of a list
- * @pou: index in CODE_PROGRAMS; @line: of the file; of a ladder: the number of the instruction in
- *       the list that it becomes, from 1
+ * @pou: index in CODE_PROGRAMS; @line: of the file
  *
  * Owns: nothing; lives with the program. Scan-safe: yes (a search). Fails: NULL: no
  * instruction is there, or the image has no map. `type` 0: it leaves no single value. */

@@ -548,7 +548,7 @@ static void begin_statement(struct list *list)
 	if (list->depth > 0 || list->pending_count > 0)
 		return;
 	list->as->scratch_used = 0;
-	if (list->as->pointed[unit_number(list)] && !(line->mark & IL_WATCHING) && begins(list))
+	if (list->as->pointed[unit_number(list)] && begins(list))
 		place_point(list, line->rung, line->line);
 }
 
@@ -591,50 +591,16 @@ static void assemble_op(struct list *list, const struct il_line *line)
 
 /* ---- the current result after each line, while watched ---- */
 
-static bool is_ladder(const struct list *list)
-{
-	return list->pou->language == LANGUAGE_LD;
-}
-
-/* What comes behind it may not run; the result stays what it was. */
-static bool leaves(const struct il_line *line)
-{
-	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
-}
-
-/* Of a written list, of the lists in a chart, of the list that a ladder becomes. */
+/* Of a written list, and of the lists in a chart. */
 static bool keeps_results(const struct list *list)
 {
-	return list->as->watching && (is_ladder(list) || list->pou->il.count > 0);
+	return list->as->watching && list->pou->il.count > 0 &&
+	       (list->pou->language == LANGUAGE_IL || list->pou->language == LANGUAGE_SFC);
 }
 
 static struct frame *frame_of(const struct list *list)
 {
 	return &list->as->frame[list->unit - list->as->translation->unit];
-}
-
-/* Does no line of this list leave it, or jump? */
-static bool always_runs(const struct il *il)
-{
-	for (int i = 0; i < il->count; i++)
-		if (il->line[i].kind == IL_LABEL || leaves(&il->line[i]))
-			return false;
-	return true;
-}
-
-/* First pass, of a ladder: each line of its list may have one. */
-static bool make_ladder_slots(struct list *list)
-{
-	struct frame *frame = frame_of(list);
-
-	frame->always = always_runs(list->il);
-	frame->first_line = 1;
-	frame->lines = (uint32_t)list->il->count;
-	frame->slot_of = arena_alloc(list->as->arena, ((size_t)frame->lines + 1) *
-				     sizeof(*frame->slot_of));
-	for (uint32_t i = 0; frame->slot_of && i < frame->lines; i++)
-		frame->slot_of[i] = SLOT_FREE;
-	return frame->slot_of;
 }
 
 /* First pass: room for the number of the result of each line of the POU. */
@@ -646,8 +612,6 @@ static bool make_slots(struct list *list)
 
 	if (!keeps_results(list) || frame->slot_of)
 		return true;
-	if (is_ladder(list))
-		return make_ladder_slots(list);
 	frame->first_line = UINT32_MAX;
 	for (int i = 0; i < il->count; i++) {
 		frame->first_line = il->line[i].line < frame->first_line ? il->line[i].line :
@@ -672,7 +636,7 @@ static int *slot_of_line(const struct frame *frame, uint32_t line)
 	return slot && *slot != SLOT_NONE ? slot : NULL;
 }
 
-static bool is_instruction(const struct list *list, const struct il_line *line)
+static bool is_instruction(const struct il_line *line)
 {
 	switch ((enum il_kind)line->kind) {
 	case IL_OP:
@@ -680,8 +644,7 @@ static bool is_instruction(const struct list *list, const struct il_line *line)
 	case IL_CLOSE:
 	case IL_LABEL:
 	case IL_CALL:
-		return is_ladder(list) ? !(line->mark & IL_WATCHING) :
-		       line->line > 0 && !line->rung;
+		return line->line > 0 && !line->rung;
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
 	case IL_COMMENT:
@@ -711,30 +674,10 @@ static enum iec_type result_type(const struct il_result *now)
 	return IEC_NONE;
 }
 
-/* What the line leaves as its result. Before a jump that nothing decides there may be one that is
- * read no more, and watching does not keep that. */
-static enum iec_type type_after(const struct list *list, const struct il_line *line)
-{
-	return is_ladder(list) && leaves(line) && !(line->modifiers & MOD_C) ? IEC_NONE :
-	       result_type(&list->now);
-}
-
-/* Is the result what it was before the line? Only of lines that always run. */
-static bool keeps(const struct frame *frame, const struct il_line *line, int slot,
-		  enum iec_type type)
-{
-	return frame->always && line->kind == IL_OP && slot > 1 &&
-	       (line->op == OP_ST || line->op == OP_S || line->op == OP_R) &&
-	       type != IEC_NONE && frame->result[slot - 2].type == type;
-}
-
 /* First pass: which lines there are, and the types of their results. A label and an instruction
  * may share a line: the last one counts. */
-static void note_result(struct list *list, struct frame *frame, int *slot, uint32_t number)
+static void note_result(struct list *list, struct frame *frame, int *slot, uint32_t line)
 {
-	const struct il_line *line = &list->il->line[list->at];
-	const enum iec_type type = type_after(list, line);
-
 	if (*slot == SLOT_FREE && !arena_push(list->as->arena, &frame->result,
 					      &frame->result_count, sizeof(*frame->result))) {
 		list->as->failed = true;
@@ -742,8 +685,8 @@ static void note_result(struct list *list, struct frame *frame, int *slot, uint3
 	}
 	if (*slot == SLOT_FREE)
 		*slot = frame->result_count;
-	frame->result[*slot - 1] = (struct result){ .line = number, .type = type,
-						    .kept = keeps(frame, line, *slot, type) };
+	frame->result[*slot - 1] = (struct result){ .line = line,
+						    .type = result_type(&list->now) };
 }
 
 /* Second pass: into the places that they have got. */
@@ -755,10 +698,8 @@ static void store_result(struct list *list, struct frame *frame, const int *slot
 	if (*slot == SLOT_FREE)
 		return;
 	result = &frame->result[*slot - 1];
-	if (!frame->always)
-		bits_store(list->as, &yes, result->ran);
-	if (result->kept || result->type == IEC_NONE ||
-	    result->type != result_type(&list->now))
+	bits_store(list->as, &yes, result->ran);
+	if (result->type == IEC_NONE || result->type != result_type(&list->now))
 		return;
 	if (list->now.kind == RESULT_BITS)
 		bits_store(list->as, &list->now.bits, result->at);
@@ -771,16 +712,15 @@ static void keep_result(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 	struct frame *frame = frame_of(list);
-	const bool counts = keeps_results(list) && is_instruction(list, line);
-	const uint32_t number = is_ladder(list) ? list->number += counts : line->line;
-	int *slot = counts ? slot_of_line(frame, number) : NULL;
+	int *slot = keeps_results(list) && is_instruction(line) ?
+		    slot_of_line(frame, line->line) : NULL;
 
 	if (!slot)
 		return;
 	if (list->as->text == &list->as->watch)
 		store_result(list, frame, slot);
 	else
-		note_result(list, frame, slot, number);
+		note_result(list, frame, slot, line->line);
 }
 
 /* Before the first line no line has run. */
@@ -789,9 +729,15 @@ static void clear_results(struct list *list)
 	struct assembler *as = list->as;
 	const struct frame *frame = &as->frame[list->unit - as->translation->unit];
 
-	if (as->text == &as->watch && frame->result_count && !frame->always)
+	if (as->text == &as->watch && frame->result_count)
 		emit_block(as, frame->result[0].ran, as->not_run,
 			   (uint32_t)frame->result_count);
+}
+
+/* What comes behind it may not run; the result stays what it was. */
+static bool leaves(const struct il_line *line)
+{
+	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
 }
 
 static void assemble_one(struct list *list)

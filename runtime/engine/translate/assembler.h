@@ -91,10 +91,9 @@ struct assembler {
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
-/* The current result after a line of a list. */
+/* The current result after a line of a written list. */
 struct result {
-	uint32_t line;              /* of the file; of a ladder: number of the instruction */
-	bool kept;                  /* it is the result before it             */
+	uint32_t line;              /* of the file                            */
 	enum iec_type type;         /* IEC_NONE: no single value              */
 	uint32_t ran, at;           /* offsets: a BOOL; the value             */
 };
@@ -115,8 +114,7 @@ struct frame {
 	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
 	uint32_t power, power_size; /* of its cells or lines, and of instances inside */
 	int power_run;              /* the first run of that                  */
-	struct result *result;      /* of its lines; only while watched       */
-	bool always;                /* all of them run whenever the first one does */
+	struct result *result;      /* of written lists; only while watched   */
 	int result_count;
 	int *slot_of;               /* by line from first_line on: SLOT_NONE, SLOT_FREE, or
 				     * 1 + its index in result                */

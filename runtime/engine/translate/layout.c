@@ -870,12 +870,9 @@ static int unit_of(const struct assembler *as, const struct var_table *vars,
 static void place_results(struct assembler *as, struct frame *frame)
 {
 	for (int i = 0; i < frame->result_count; i++)
-		frame->result[i].ran = frame->always ? CODE_TRUE_AT(as->areas) :
-				       layout_tail(as, RUN_VALUES, IEC_BOOL);
+		frame->result[i].ran = layout_tail(as, RUN_VALUES, IEC_BOOL);
 	for (int i = 0; i < frame->result_count; i++)
-		if (frame->result[i].kept)
-			frame->result[i].at = frame->result[i - 1].at;
-		else if (frame->result[i].type != IEC_NONE)
+		if (frame->result[i].type != IEC_NONE)
 			frame->result[i].at = place_values(as, RUN_VALUES,
 				frame->result[i].type, RESULT_TEXT, 1);
 }
@@ -972,7 +969,7 @@ static void place_not_run(struct assembler *as)
 	int most = 0;
 
 	for (int i = 0; i < as->translation->unit_count; i++)
-		if (!as->frame[i].always && as->frame[i].result_count > most)
+		if (as->frame[i].result_count > most)
 			most = as->frame[i].result_count;
 	if (most)
 		as->not_run = place_values(as, RUN_VALUES, IEC_BOOL, 0, (uint32_t)most);

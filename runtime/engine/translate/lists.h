@@ -50,8 +50,6 @@ struct list {
 	const struct il *il;
 	const enum iec_type *types;
 	int at;                       /* the current line                     */
-	uint32_t number;              /* of a ladder: instructions so far, those that only keep
-				       * power not counted */
 	struct il_result now;
 	struct opened opened[LIMIT_IL_DEPTH];
 	int depth;

@@ -508,7 +508,7 @@ static void add_power(struct assembler *as, struct maps *maps)
 			};
 		}
 		add_results(as, maps, i);
-		if ((unit->pou->sfc || as->frame[i].result_count) && maps->power_count > first)
+		if (unit->pou->sfc && maps->power_count > first)
 			sort_cells(maps->power + first, (size_t)(maps->power_count - first));
 	}
 }

@@ -153,9 +153,9 @@ static void unwatched_lines_cost_nothing(void)
 	rig_close(&rig);
 }
 
-/* An image of CODE_VERSION that was made before lines had results has 0 in the place of the type
- * of cells: they are BOOL. The instructions of a ladder's list are counted from 1. */
-static void ladders_have_cells_and_lines(void)
+/* An image of CODE_VERSION that was made before lines had results has cells alone, and 0 in
+ * the place of the type: cells are BOOL, and no rung is taken for a line of its number. */
+static void older_images_have_cells_alone(void)
 {
 	static const char cells[] =
 		"PROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nRUNG\n  | NO I1 | COIL Q1 |\n"
@@ -164,21 +164,13 @@ static void ladders_have_cells_and_lines(void)
 
 	CHECK(rig_open(&rig, cells, true) && rig_scan(&rig));
 	program = rig.resource.image.program;
-	CHECK(program->power_count > 4);
+	CHECK(program->power_count > 0);
 	for (uint32_t i = 0; i < program->power_count; i++) {
 		const struct code_power *power = &program->power[i];
 
-		if (power->row)
-			CHECK(power->col >= 1 && power->type == 0);
-		else
-			CHECK(code_result(program, power->pou, power->rung) == power);
+		CHECK(power->row >= 1 && power->col >= 1 && power->type == 0);
+		CHECK(code_result(program, power->pou, power->rung) == NULL);
 	}
-	CHECK(rig_set(&rig, "I1", 1) && rig_scan(&rig));
-	RESULT(1, "FALSE");
-	RESULT(2, "FALSE");
-	RESULT(3, "TRUE");
-	RESULT(4, "TRUE");
-	RESULT(5, "?");
 	rig_close(&rig);
 }
 
@@ -188,6 +180,6 @@ int main(void)
 	skipped_lines_have_not_run();
 	instances_have_their_own();
 	unwatched_lines_cost_nothing();
-	ladders_have_cells_and_lines();
+	older_images_have_cells_alone();
 	return tap_done();
 }
