@@ -147,9 +147,14 @@ def copied(screen):
             if shown:
                 return shown[0]
         return None
-    button = until(over, 'the button over the code')
+    def rests():
+        """The place of the button, if it is where it was a moment ago. It goes when the page still scrolls below the pointer."""
+        button = over()
+        first = button and button.box()
+        sh('sleep', '0.1')
+        return first and first == button.box() and first
+    x, y, width, height = until(rests, 'the button over the code')
     editor.shot('manual-copy')
-    x, y, width, height = editor.at_rest(button)
     editor.click((int(at['X']) + x + width // 2, int(at['Y']) + y + height // 2))
     until(lambda: clipboard() != 'other' and clipboard() in text, 'the code below the button')
 
