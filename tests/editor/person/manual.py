@@ -147,16 +147,22 @@ def copied(screen):
             if shown:
                 return shown[0]
         return None
-    def rests():
-        """The place of the button, if it is where it was a moment ago. It goes when the page still scrolls below the pointer."""
+
+    def taken():
+        """Clicks the button where it rests, as often as it has moved meanwhile: it is placed a frame after it is shown."""
+        if clipboard() != 'other':
+            return True
         button = over()
-        first = button and button.box()
+        place = button and button.box()
         sh('sleep', '0.1')
-        return first and first == button.box() and first
-    x, y, width, height = until(rests, 'the button over the code')
+        if place and place == button.box():
+            left, top, wide, high = place
+            editor.click((int(at['X']) + left + wide // 2, int(at['Y']) + top + high // 2))
+            sh('sleep', '0.1')
+        return None
+    until(taken, 'the code below the button')
     editor.shot('manual-copy')
-    editor.click((int(at['X']) + x + width // 2, int(at['Y']) + y + height // 2))
-    until(lambda: clipboard() != 'other' and clipboard() in text, 'the code below the button')
+    assert clipboard() in text, clipboard()
 
 
 places.quick = 'editor-gtk/window'
