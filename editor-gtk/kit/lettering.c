@@ -13,20 +13,18 @@
 #define LAID_MOST 2000  /* of a style, laid out: 2 KB each                      */
 #define ELLIPSIS "\xe2\x80\xa6"
 
-/* Ascent and descent are those of the reserved room, not of one font: Chinese names use
- * another font. */
 static const struct letter_style style[LETTERS] = {
-	[LETTER_SYMBOL]  = { "symbol", 10 * PT, PANGO_WEIGHT_SEMIBOLD, false, 13, 4 },
-	[LETTER_ADDRESS] = { "address", 8.5f * PT, PANGO_WEIGHT_NORMAL, true, 11, 3 },
-	[LETTER_TITLE]   = { "title", 10.5f * PT, PANGO_WEIGHT_BOLD, false, 14, 4 },
-	[LETTER_COMMENT] = { "comment", 9.5f * PT, PANGO_WEIGHT_NORMAL, false, 12, 4 },
-	[LETTER_NUMBER]  = { "number", 10.5f * PT, PANGO_WEIGHT_BOLD, false, 14, 4 },
-	[LETTER_TYPE]    = { "type", 9.5f * PT, PANGO_WEIGHT_BOLD, false, 12, 4 },
-	[LETTER_PIN]     = { "pin", 8.5f * PT, PANGO_WEIGHT_NORMAL, false, 11, 3 },
-	[LETTER_OPERAND] = { "operand", 9 * PT, PANGO_WEIGHT_NORMAL, true, 12, 3 },
-	[LETTER_VALUE]   = { "value", 8.5f * PT, PANGO_WEIGHT_BOLD, true, 11, 3 },
-	[LETTER_BADGE]   = { "badge", 7.5f * PT, PANGO_WEIGHT_BOLD, false, 10, 2 },
-	[LETTER_HEADING] = { "heading", 14 * PT, PANGO_WEIGHT_BOLD, false, 18, 6 },
+	[LETTER_SYMBOL]  = { "symbol", 10 * PT, PANGO_WEIGHT_SEMIBOLD, false },
+	[LETTER_ADDRESS] = { "address", 8.5f * PT, PANGO_WEIGHT_NORMAL, true },
+	[LETTER_TITLE]   = { "title", 10.5f * PT, PANGO_WEIGHT_BOLD, false },
+	[LETTER_COMMENT] = { "comment", 9.5f * PT, PANGO_WEIGHT_NORMAL, false },
+	[LETTER_NUMBER]  = { "number", 10.5f * PT, PANGO_WEIGHT_BOLD, false },
+	[LETTER_TYPE]    = { "type", 9.5f * PT, PANGO_WEIGHT_BOLD, false },
+	[LETTER_PIN]     = { "pin", 8.5f * PT, PANGO_WEIGHT_NORMAL, false },
+	[LETTER_OPERAND] = { "operand", 9 * PT, PANGO_WEIGHT_NORMAL, true },
+	[LETTER_VALUE]   = { "value", 8.5f * PT, PANGO_WEIGHT_BOLD, true },
+	[LETTER_BADGE]   = { "badge", 7.5f * PT, PANGO_WEIGHT_BOLD, false },
+	[LETTER_HEADING] = { "heading", 14 * PT, PANGO_WEIGHT_BOLD, false },
 };
 
 struct known {

@@ -87,8 +87,6 @@ struct letter_style {
 	float size;         /* px                                              */
 	PangoWeight weight;
 	bool mono;
-	float ascent;       /* px above the baseline that texts may use         */
-	float descent;
 };
 /** letter_style - lives for ever. */
 const struct letter_style *letter_style(enum letter letter);

@@ -605,8 +605,3 @@ static void ladder_task_chart_init(LadderTaskChart *chart)
 	gtk_box_append(box, below_lanes(chart->bar));
 	show_text(chart);
 }
-
-GtkWidget *ladder_task_chart_new(void)
-{
-	return g_object_new(LADDER_TYPE_TASK_CHART, NULL);
-}

@@ -18,7 +18,6 @@
 #define LADDER_TYPE_TASK_CHART (ladder_task_chart_get_type())
 G_DECLARE_FINAL_TYPE(LadderTaskChart, ladder_task_chart, LADDER, TASK_CHART, GtkBox)
 
-GtkWidget *ladder_task_chart_new(void);
 /** ladder_task_chart_follow - @sim: referenced; once. */
 void ladder_task_chart_follow(LadderTaskChart *chart, LadderSim *sim);
 /** ladder_task_chart_set - @schedule: taken over; NULL: the program has errors. @tasks: gives the

@@ -204,11 +204,6 @@ guint64 sim_history_last(const struct sim_history *history)
 	return history->last_scan;
 }
 
-gsize sim_history_bytes(const struct sim_history *history)
-{
-	return history->used;
-}
-
 /* The last chunk that begins at @scan or before. */
 static const struct chunk *find_chunk(const struct sim_history *history, guint64 scan)
 {

@@ -23,8 +23,6 @@ void sim_history_add(struct sim_history *history, const struct twin *twin);
 /** sim_history_first, sim_history_last - scans; 0: nothing was added. */
 guint64 sim_history_first(const struct sim_history *history);
 guint64 sim_history_last(const struct sim_history *history);
-/** sim_history_bytes - memory in use. */
-gsize sim_history_bytes(const struct sim_history *history);
 /**
  * sim_history_seek - @twin gets the state that came last at @scan or before it
  * @at: where @twin is now: 0 at first, then as the call before left it

@@ -4,6 +4,7 @@
  */
 #include "ladderd/journal.h"
 #include "ladderd/disk.h"
+#include "online/wire.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -139,20 +140,6 @@ static void store(struct journal *journal)
 		fail(journal, error);
 }
 
-/* Whole characters of UTF-8. */
-static void copy(char *out, size_t size, const char *text)
-{
-	size_t len = strlen(text);
-
-	if (len >= size) {
-		len = size - 1;
-		while (len && ((unsigned char)text[len] & 0xc0) == 0x80)
-			len--;
-	}
-	memcpy(out, text, len);
-	out[len] = '\0';
-}
-
 void journal_add(struct journal *journal, enum event_id id, uint8_t role, const char *user,
 		 const char *one, const char *two)
 {
@@ -164,9 +151,9 @@ void journal_add(struct journal *journal, enum event_id id, uint8_t role, const 
 		.seq = journal->last, .id = (uint8_t)id, .role = role,
 		.time_ns = now.tv_sec * INT64_C(1000000000) + now.tv_nsec,
 	};
-	copy(event->user, sizeof(event->user), user);
-	copy(event->arg[0], sizeof(event->arg[0]), one);
-	copy(event->arg[1], sizeof(event->arg[1]), two);
+	wire_cut(event->user, sizeof(event->user), user, strlen(user));
+	wire_cut(event->arg[0], sizeof(event->arg[0]), one, strlen(one));
+	wire_cut(event->arg[1], sizeof(event->arg[1]), two, strlen(two));
 	if (*journal->path)
 		store(journal);
 }

@@ -35,18 +35,6 @@ static const struct {
 #include "online/alarms.def"
 };
 
-/* Whole characters of UTF-8. */
-static void copy(char *out, size_t size, const char *text, size_t len)
-{
-	if (len >= size) {
-		len = size - 1;
-		while (len && ((unsigned char)text[len] & 0xc0) == 0x80)
-			len--;
-	}
-	memcpy(out, text, len);
-	out[len] = '\0';
-}
-
 /* ---- what is watched ---- */
 
 /* The kind of the block whose COUNT this is; KINDS: of none. */
@@ -82,7 +70,7 @@ static uint32_t walk(const struct image *image, struct alarm_watch *out)
 			out->block[count] = (struct alarm_block){
 				.at = symbol.at.where - pins[kind].count, .kind = (uint32_t)kind,
 			};
-			copy(out->block[count].name, sizeof(out->block[count].name), symbol.name,
+			wire_cut(out->block[count].name, sizeof(out->block[count].name), symbol.name,
 			     len);
 		}
 		count++;
@@ -179,7 +167,7 @@ static bool look_at(struct alarm_ring *ring, const struct resource *resource,
 				     .times = count < block->count ? count : count - block->count,
 				     .time_ns = time_of(resource) };
 	memcpy(note->name, block->name, sizeof(note->name));
-	copy(note->text, sizeof(note->text), text->text,
+	wire_cut(note->text, sizeof(note->text), text->text,
 	     text->length < WORD_TEXT ? text->length : WORD_TEXT);
 	block->count = count;
 	block->state = state;
@@ -360,8 +348,8 @@ static void update_system(struct alarm_list *list, uint8_t system, bool active, 
 		list->unsure[row - list->row] = false;
 	if (row ? is_active(row) == active : !active)
 		return;
-	copy(note.name, sizeof(note.name), systems[system].name, strlen(systems[system].name));
-	copy(note.text, sizeof(note.text), systems[system].text, strlen(systems[system].text));
+	wire_cut(note.name, sizeof(note.name), systems[system].name, strlen(systems[system].name));
+	wire_cut(note.text, sizeof(note.text), systems[system].text, strlen(systems[system].text));
 	waits |= active && !systems[system].quiet;
 	note.state = (uint8_t)(active ? 2 - waits : 3 * waits);
 	update(list, &note);
@@ -436,7 +424,7 @@ void alarm_list_ack(struct alarm_list *list, uint32_t number, const char *who, i
 		return;
 	row->state = row->state == ALARM_UNACK ? ALARM_ACKED : ALARM_NORMAL;
 	row->acked_ns = time_ns;
-	copy(row->who, sizeof(row->who), who, strlen(who));
+	wire_cut(row->who, sizeof(row->who), who, strlen(who));
 	touch(list, row);
 }
 

@@ -18,7 +18,6 @@
 #define SERIAL_PACKET (SERIAL_HEAD + SERIAL_PIECE + 4) /* with its checksum          */
 #define SERIAL_CODED  (SERIAL_PACKET + SERIAL_PACKET / 254 + 3) /* on the line       */
 #define SERIAL_LEAST  32u                      /* bytes of a piece on a slow line    */
-#define SERIAL_BAUD   115200u                  /* when nobody names a speed          */
 #define SERIAL_SILENT INT64_C(30000000000)     /* ns: then the other side is away    */
 
 enum serial_side { SERIAL_DESK, SERIAL_BOARD };

@@ -96,6 +96,16 @@ static enum refusal put_settings(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* Nothing is written for a desk that is stale. */
+static enum refusal expected(struct server *server, const struct expect *expect)
+{
+	if (!server_can_order(server))
+		return REFUSAL_BUSY;
+	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
+					.expects = true, .expect = *expect };
+	return server_give(server);
+}
+
 static enum refusal change_setting(struct asked *asked)
 {
 	struct server *server = asked->server;
@@ -110,12 +120,7 @@ static enum refusal change_setting(struct asked *asked)
 	wire_copy_text(in, value, sizeof(value));
 	if (!wire_done(in) || how > 1)
 		return REFUSAL_BAD_FRAME;
-	if (!server_can_order(server))
-		return REFUSAL_BUSY;
-	/* Nothing is written for a desk that is stale. */
-	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
-					.expects = true, .expect = expect };
-	refusal = server_give(server);
+	refusal = expected(server, &expect);
 	if (refusal == REFUSAL_NONE)
 		refusal = server->setup.conf->change(server->setup.context, key, value, &changed,
 						     asked->detail, sizeof(asked->detail));
@@ -259,11 +264,7 @@ static enum refusal change_password(struct asked *asked, char *old, char *text)
 	take_password(&asked->frame.body, text);
 	if (!wire_done(&asked->frame.body))
 		return REFUSAL_BAD_FRAME;
-	if (!server_can_order(server))
-		return REFUSAL_BUSY;
-	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
-					.expects = true, .expect = expect };
-	refusal = server_give(server);
+	refusal = expected(server, &expect);
 	if (refusal == REFUSAL_NONE)
 		refusal = setup->password->change(setup->context, asked->session->who, old, text,
 						  asked->detail, sizeof(asked->detail));

@@ -80,23 +80,34 @@ enum refusal serve_block(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-/* The sums of the blocks of the program that runs. Sums of blocks of many sizes tell its bytes,
- * so they need the password. */
-enum refusal serve_sums(struct asked *asked)
+/* The program that runs, for a session that may read it. */
+static enum refusal give_running(struct asked *asked, const struct stored **stored)
 {
 	const struct server_store *store = asked->server->setup.store;
-	const uint32_t first = wire_u32(&asked->frame.body);
-	const uint32_t block = wire_u16(&asked->frame.body);
-	const struct stored *stored;
-	uint32_t all, count = SUMS_WORK / (block ? block : 1);
 
-	if (!wire_done(&asked->frame.body) || block < SUMS_LEAST || block > SUMS_MOST)
-		return REFUSAL_BAD_FRAME;
 	if (!store)
 		return REFUSAL_NO_STORE;
 	if (asked_is_locked(asked))
 		return REFUSAL_PASSWORD;
-	stored = store->running(asked->server->setup.context);
+	*stored = store->running(asked->server->setup.context);
+	return REFUSAL_NONE;
+}
+
+/* The sums of the blocks of the program that runs. Sums of blocks of many sizes tell its bytes,
+ * so they need the password. */
+enum refusal serve_sums(struct asked *asked)
+{
+	const uint32_t first = wire_u32(&asked->frame.body);
+	const uint32_t block = wire_u16(&asked->frame.body);
+	const struct stored *stored;
+	uint32_t all, count = SUMS_WORK / (block ? block : 1);
+	enum refusal refusal;
+
+	if (!wire_done(&asked->frame.body) || block < SUMS_LEAST || block > SUMS_MOST)
+		return REFUSAL_BAD_FRAME;
+	refusal = give_running(asked, &stored);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
 	all = stored_size(stored) / block;
 	if (first > all)
 		return REFUSAL_BAD_FRAME;
@@ -347,18 +358,16 @@ enum refusal serve_abort(struct asked *asked)
 
 enum refusal serve_upload(struct asked *asked)
 {
-	const struct server_store *store = asked->server->setup.store;
 	const uint32_t offset = wire_u32(&asked->frame.body);
 	const struct stored *stored;
+	enum refusal refusal;
 	uint32_t size, len;
 
 	if (!wire_done(&asked->frame.body))
 		return REFUSAL_BAD_FRAME;
-	if (!store)
-		return REFUSAL_NO_STORE;
-	if (asked_is_locked(asked))
-		return REFUSAL_PASSWORD;
-	stored = store->running(asked->server->setup.context);
+	refusal = give_running(asked, &stored);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
 	size = stored_size(stored);
 	if (offset > size)
 		return REFUSAL_BAD_FRAME;

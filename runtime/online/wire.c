@@ -160,13 +160,25 @@ void wire_put_bytes(struct wire_writer *out, const void *bytes, size_t len)
 		memcpy(at, bytes, len);
 }
 
+/* Whole characters of UTF-8. */
+static size_t cut(const char *text, size_t len, size_t most)
+{
+	if (len > most)
+		for (len = most; len && ((unsigned char)text[len] & 0xc0) == 0x80; len--)
+			;
+	return len;
+}
+
+void wire_cut(char *out, size_t size, const char *text, size_t len)
+{
+	len = cut(text, len, size - 1);
+	memcpy(out, text, len);
+	out[len] = '\0';
+}
+
 void wire_put_text(struct wire_writer *out, const char *text, size_t len)
 {
-	if (len > WIRE_TEXT_MOST) {
-		len = WIRE_TEXT_MOST;
-		while (len && ((unsigned char)text[len] & 0xc0) == 0x80)
-			len--;
-	}
+	len = cut(text, len, WIRE_TEXT_MOST);
 	wire_put_u16(out, (uint16_t)len);
 	wire_put_bytes(out, text, len);
 }

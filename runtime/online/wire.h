@@ -57,6 +57,9 @@ void wire_put_u32(struct wire_writer *out, uint32_t value);
 void wire_put_u64(struct wire_writer *out, uint64_t value);
 void wire_put_i64(struct wire_writer *out, int64_t value);
 void wire_put_bytes(struct wire_writer *out, const void *bytes, size_t len);
+/** wire_cut - the beginning of a text of @len bytes that fits into @size bytes with its NUL, in whole
+ * characters of UTF-8. */
+void wire_cut(char *out, size_t size, const char *text, size_t len);
 /** wire_put_text - a counted text, cut at WIRE_TEXT_MOST bytes, before a character of UTF-8. */
 void wire_put_text(struct wire_writer *out, const char *text, size_t len);
 /** wire_put_string - the same of a NUL-ended one. */

@@ -65,7 +65,6 @@ struct pou {
 	enum word word;         /* of a function or block; WORD_COUNT: none    */
 	enum word temp_word;    /* row of its VAR_TEMP; WORD_COUNT: none       */
 	int edges;              /* cells with a memory: in each instance       */
-	uint32_t edge_offset;   /* their offset in an instance                 */
 	struct var_table vars;  /* locals                                      */
 	struct rung **rung;     /* of LD, SFC; malloc'ed vector of malloc'ed rungs */
 	int rung_count;

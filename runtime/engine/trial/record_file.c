@@ -734,11 +734,6 @@ bool record_write(const struct record_parts *parts, const struct sink *out)
 
 /* ---- playback ---- */
 
-static const struct entry *entry_of(const struct playback *playback)
-{
-	return &playback->file->entry[playback->program];
-}
-
 static struct reader reader_at(const struct playback *playback, size_t at)
 {
 	const struct record_file *file = playback->file;
@@ -1165,52 +1160,4 @@ bool playback_init(struct playback *playback, const struct record_file *file)
 void playback_free(struct playback *playback)
 {
 	twin_free(&playback->twin);
-}
-
-static bool as_act(const struct program *program, const struct item *item, struct act *act,
-		   struct iec_text *room)
-{
-	memset(act, 0, sizeof(*act));
-	switch (item->kind) {
-	case RECORD_WRITE: case RECORD_FORCE: case RECORD_UNFORCE:
-		act->kind = item->kind == RECORD_WRITE ? ACT_SET :
-			    item->kind == RECORD_FORCE ? ACT_FORCE : ACT_RELEASE;
-		act->at = place_locate(program, item->place);
-		act->value.i = (int64_t)item->value;
-		if (item->text) {
-			struct iec_string *text = iec_text_init(room, (uint16_t)item->text_len);
-
-			memcpy(text->text, item->text, item->text_len);
-			act->value.s = text;
-		}
-		return true;
-	case RECORD_KEY:
-		act->kind = item->key.flags & KEY_WARM ? ACT_WARM : ACT_START;
-		return item->key.why == RECORD_START;
-	case RECORD_STATE:
-		act->kind = ACT_STOP;
-		return is_state(item, RECORD_STOPPED);
-	case RECORD_SCAN: case RECORD_INPUTS:
-		break;
-	}
-	return false;
-}
-
-void playback_acts(const struct playback *playback,
-		   void (*take_act)(void *context, const struct act *act), void *context)
-{
-	struct reader in = reader_at(playback, playback->at);
-	const struct program *program = &entry_of(playback)->program;
-	struct item *item = malloc(sizeof(*item));
-	struct iec_text room;
-	struct act act;
-
-	while (item && in.at < in.end && next_item(&in, item) && item->kind != RECORD_SCAN) {
-		if (item->kind == RECORD_KEY && item->key.why == RECORD_SWAP)
-			program = &playback->file->entry[find_entry(playback->file,
-								   item->key.identity)].program;
-		if (as_act(program, item, &act, &room))
-			take_act(context, &act);
-	}
-	free(item);
 }

@@ -92,8 +92,4 @@ bool playback_next(struct playback *playback);
 /** playback_seek - to the state right after a scan. Fails: false: it is not in the file, or no
  * memory. */
 bool playback_seek(struct playback *playback, uint64_t scan);
-/** playback_acts - steps through the acts between the present scan and the next one.
- * @take: gets each once */
-void playback_acts(const struct playback *playback,
-		   void (*take)(void *context, const struct act *act), void *context);
 #endif

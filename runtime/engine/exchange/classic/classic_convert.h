@@ -64,7 +64,6 @@ struct conversion {
 	int rung;              /* in it, for the report; 0: none                   */
 	struct classic_place at; /* place of the text in work                      */
 	size_t cap;
-	int cap_lines;
 	struct { const char **name; int count; } temps, programs;
 	struct sfc_step *step; /* by index; NULL: not made yet                     */
 	const char *system;    /* the program of system bits; NULL: not needed     */
