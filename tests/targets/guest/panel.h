@@ -25,7 +25,10 @@ extern struct bank panel;
 #define PANEL_RUNS    0x5u
 #define PANEL_IS_SAFE 0xau
 #define PANEL_SAFE PANEL_MAP("", "safe=0", "safe=1", "active-low safe=1", "active-low safe=0")
-#define PANEL_PLAIN PANEL_MAP("", "", "", "", "")
+/* A map whose outputs are off as long as no program runs. */
+#define PANEL_OFF(in, out0, out1, out2, out3)                                 \
+	PANEL_MAP(in, out0 " safe=0", out1 " safe=0", out2 " safe=0", out3 " safe=0")
+#define PANEL_PLAIN PANEL_OFF("", "", "", "", "")
 
 /** panel_up - creates it with all pulls down. @hog as for bank_up(). */
 void panel_up(int hog);

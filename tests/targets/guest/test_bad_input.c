@@ -34,8 +34,8 @@ static void refuse_map(const char *what, const char *code, const char *line)
 	static char map[512];
 
 	snprintf(map, sizeof(map), "BOARD \"panel\"\n%%IX0.0 gpio line=IN0\n"
-		 "%%QX0.0 gpio line=OUT0\n%%QX0.1 gpio %s\n"
-		 "%%QX0.2 gpio line=OUT2\n", line);
+		 "%%QX0.0 gpio line=OUT0 safe=0\n%%QX0.1 gpio %s safe=0\n"
+		 "%%QX0.2 gpio line=OUT2 safe=0\n", line);
 	check(is_refused(panel_image(), file_text("bad.io", map), code),
 	      "%s: %s, no line was taken", what, code);
 }
@@ -57,7 +57,7 @@ static void maps(void)
 			 file_text("other.io",
 				   "BOARD \"Raspberry Pi\"\n"
 				   "%IX0.0 gpio line=GPIO17\n"
-				   "%QX0.0 gpio chip=pinctrl-rp1 offset=5\n"),
+				   "%QX0.0 gpio chip=pinctrl-rp1 offset=5 safe=0\n"),
 			 "LD508") &&
 	      strstr(child_err(&last), "LD512"),
 	      "a map of which nothing is here: every line is named");

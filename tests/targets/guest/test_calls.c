@@ -82,7 +82,7 @@ void test_calls(void)
 			  "%IX0.0 gpio line=IN0 pull-down\n"
 			  "%IX0.1 gpio line=IN1 pull-up\n"
 			  "%IX0.3 gpio line=IN3 pull-down\n"
-			  "%QX0.0 gpio line=OUT0\n%QX0.1 gpio line=OUT1\n"
-			  "%QX0.2 gpio line=OUT2\n%QX0.3 gpio line=OUT3\n"),
+			  "%QX0.0 gpio line=OUT0 safe=0\n%QX0.1 gpio line=OUT1 safe=0\n"
+			  "%QX0.2 gpio line=OUT2 safe=0\n%QX0.3 gpio line=OUT3 safe=0\n"),
 		0);
 }

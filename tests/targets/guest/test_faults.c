@@ -61,8 +61,8 @@ static void held_by_another(void)
 	"%IX0.0 gpio line=IN0\n%IX0.1 gpio chip=plant offset=1\n"             \
 	"%IX0.3 gpio line=IN3\n"                                              \
 	"%QX0.0 gpio chip=lamps offset=0 safe=1\n"                            \
-	"%QX0.1 gpio line=OUT1\n%QX0.2 gpio line=OUT2\n"                      \
-	"%QX0.3 gpio line=OUT3\n"
+	"%QX0.1 gpio line=OUT1 safe=0\n%QX0.2 gpio line=OUT2 safe=0\n"                      \
+	"%QX0.3 gpio line=OUT3 safe=0\n"
 #define LAMPS_SAFE 0x1u
 
 static struct bank plant, lamps, spare;

@@ -133,19 +133,19 @@ void test_lines(void)
 		 "%IX0.0 gpio chip=panel offset=0\n"
 		 "%IX0.1 gpio chip=panel offset=1\n"
 		 "%IX0.3 gpio chip=panel offset=3\n"
-		 "%QX0.0 gpio chip=panel offset=4\n"
-		 "%QX0.1 gpio chip=panel offset=5\n"
-		 "%QX0.2 gpio chip=panel offset=6\n"
-		 "%QX0.3 gpio chip=panel offset=7\n");
+		 "%QX0.0 gpio chip=panel offset=4 safe=0\n"
+		 "%QX0.1 gpio chip=panel offset=5 safe=0\n"
+		 "%QX0.2 gpio chip=panel offset=6 safe=0\n"
+		 "%QX0.3 gpio chip=panel offset=7 safe=0\n");
 	found_by("both in one map",
 		 "BOARD \"panel\"\n"
 		 "%IX0.0 gpio line=IN0\n"
 		 "%IX0.1 gpio chip=panel offset=1\n"
 		 "%IX0.3 gpio line=IN3\n"
-		 "%QX0.0 gpio chip=panel offset=4\n"
-		 "%QX0.1 gpio line=OUT1\n"
-		 "%QX0.2 gpio chip=panel offset=6\n"
-		 "%QX0.3 gpio line=OUT3\n");
+		 "%QX0.0 gpio chip=panel offset=4 safe=0\n"
+		 "%QX0.1 gpio line=OUT1 safe=0\n"
+		 "%QX0.2 gpio chip=panel offset=6 safe=0\n"
+		 "%QX0.3 gpio line=OUT3 safe=0\n");
 	board_44b0x();
 	wide();
 }

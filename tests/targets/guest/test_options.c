@@ -32,7 +32,7 @@ static void active_low(void)
 	bank_pull(&panel, IN0 + 3, true);
 	ladderd_start(&child, panel_image(),
 		      file_text("panel.io",
-				PANEL_MAP("active-low", "active-low",
+				PANEL_OFF("active-low", "active-low",
 					  "active-low", "active-low", "")),
 		      NULL);
 	check(child_ready() && panel_shows(0x4 | 0x8),
@@ -45,22 +45,22 @@ static void active_low(void)
 static void bias(void)
 {
 	static const char *const maps[] = {
-		PANEL_MAP("no-pull", "", "", "", ""),
-		PANEL_MAP("", "push-pull", "push-pull", "push-pull",
+		PANEL_OFF("no-pull", "", "", "", ""),
+		PANEL_OFF("", "push-pull", "push-pull", "push-pull",
 			  "push-pull"),
 	};
 	struct child child;
 
 	/* The driver of the kernel sets the pull, which moves the line. */
-	run_with(&child, PANEL_MAP("pull-down", "", "", "", ""));
+	run_with(&child, PANEL_OFF("pull-down", "", "", "", ""));
 	check(panel_shows(0xc), "pull-down: inputs are FALSE");
 	done_with(&child, "pull-down");
 	run_with(&child,
 		 "BOARD \"panel\"\n"
 		 "%IX0.0 gpio line=IN0 pull-up\n%IX0.1 gpio line=IN1 pull-up\n"
 		 "%IX0.3 gpio line=IN3 pull-up active-low\n"
-		 "%QX0.0 gpio line=OUT0\n%QX0.1 gpio line=OUT1\n"
-		 "%QX0.2 gpio line=OUT2\n%QX0.3 gpio line=OUT3\n");
+		 "%QX0.0 gpio line=OUT0 safe=0\n%QX0.1 gpio line=OUT1 safe=0\n"
+		 "%QX0.2 gpio line=OUT2 safe=0\n%QX0.3 gpio line=OUT3 safe=0\n");
 	check(panel_shows(0xb), "pull-up: inputs are TRUE");
 	done_with(&child, "pull-up");
 	for (unsigned i = 0; i < 2; i++) {
@@ -71,7 +71,7 @@ static void bias(void)
 		done_with(&child, "and");
 	}
 	/* An open drain pulls down or releases; then the line has the level of its pull. */
-	run_with(&child, PANEL_MAP("", "open-drain", "", "", "open-drain"));
+	run_with(&child, PANEL_OFF("", "open-drain", "", "", "open-drain"));
 	check(panel_shows(0x4), "open-drain: without a pull-up all is low");
 	bank_pull(&panel, OUT0 + 3, true);
 	bank_pull(&panel, OUT0, true);
@@ -125,7 +125,7 @@ static void debounce(void)
 	int64_t begin_ns, seen_ns;
 	bool up;
 
-	run_with(&child, PANEL_MAP("debounce=20ms", "", "", "", ""));
+	run_with(&child, PANEL_OFF("debounce=20ms", "", "", "", ""));
 	panel_shows(0xc);
 	bounces(false);
 	begin_ns = clock_now();

@@ -120,7 +120,7 @@ static void large(const char *file)
 		struct child child;
 		int64_t ready_ns;
 
-		ladderd_start(&child, file_case(file), file_text("large.io", "BOARD \"large\"\n%QX0.0 sim\n"),
+		ladderd_start(&child, file_case(file), file_text("large.io", "BOARD \"large\"\n%QX0.0 sim safe=0\n"),
 			      NULL);
 		ready_ns = child_ready();
 		good += ready_ns && child_stop(&child) == 0;
