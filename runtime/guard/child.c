@@ -138,9 +138,13 @@ bool child_ended(struct child *child)
 	if (child->pid == 0 || waitpid(child->pid, &child->status, WNOHANG) != child->pid)
 		return false;
 	child->pid = 0;
+	return true;
+}
+
+void child_close(struct child *child)
+{
 	if (child->pidfd >= 0)
 		close(child->pidfd);
 	close(child->socket);
 	child->pidfd = child->socket = -1;
-	return true;
 }

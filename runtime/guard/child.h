@@ -34,6 +34,8 @@ void child_page(struct child *child);
  */
 bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stopped,
 		 unsigned count, int how);
-/** child_ended - whether it has ended: then status is set, and pidfd and socket are closed. */
+/** child_ended - whether it has ended: then status is set. Its last packets can still be read. */
 bool child_ended(struct child *child);
+/** child_close - after that: closes pidfd and socket. */
+void child_close(struct child *child);
 #endif

@@ -45,23 +45,52 @@ static int64_t interval(void)
 	return wanted >= 1 && wanted < EVERY_MS ? wanted : EVERY_MS;
 }
 
+static const char *what_to_do(int error)
+{
+	switch (error) {
+	case EACCES:
+	case EPERM:
+		return "give the user of the service the right to write it";
+	case EBUSY:
+		return "another program feeds it: stop that, such as RuntimeWatchdogSec of systemd";
+	default:
+		return "name a watchdog device of this machine";
+	}
+}
+
+static bool open_device(struct feed *feed)
+{
+	feed->device = open(feed->path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+	return feed->device >= 0;
+}
+
 bool feed_open(struct feed *feed, const char *device)
 {
 	memset(feed, 0, sizeof(*feed));
+	feed->path = device;
 	feed->device = feed->socket = -1;
 	feed->every_ms = interval();
 	if (!open_socket(feed))
 		return false;
-	if (!device)
+	if (!device || open_device(feed))
 		return true;
-	feed->device = open(device, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
-	if (feed->device >= 0)
-		return true;
-	dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\": %s%s\n", device, strerror(errno),
-		errno == EACCES || errno == EPERM ?
-		"; give the user of the service the right to write it" :
-		errno == EBUSY ? "; another program feeds it" : "");
+	dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\": %s; %s, or leave --watchdog out\n", device,
+		strerror(errno), what_to_do(errno));
 	return false;
+}
+
+static void feed_device(struct feed *feed)
+{
+	const bool good = (feed->device >= 0 || open_device(feed)) && write(feed->device, "", 1) == 1;
+
+	if (good != feed->lost)
+		return;
+	feed->lost = !good;
+	if (good)
+		dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\" is fed again\n", feed->path);
+	else
+		dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\" takes no byte: %s; if it still counts, it "
+			"restarts the machine; the guard tries again\n", feed->path, strerror(errno));
 }
 
 void feed_give(struct feed *feed, int64_t now_ms)
@@ -69,9 +98,12 @@ void feed_give(struct feed *feed, int64_t now_ms)
 	if (now_ms - feed->fed_ms < feed->every_ms)
 		return;
 	feed->fed_ms = now_ms;
-	if (feed->device >= 0 && write(feed->device, "", 1) < 0)
-		dprintf(STDERR_FILENO, "ladder-guard: the watchdog takes no byte: %s\n",
-			strerror(errno));
+	if (feed->path)
+		feed_device(feed);
+	if (feed->lost && feed->device >= 0) {
+		close(feed->device);
+		feed->device = -1;
+	}
 	if (getenv("WATCHDOG_USEC"))
 		feed_tell(feed, "WATCHDOG=1");
 }

@@ -11,7 +11,9 @@
 #include <sys/un.h>
 
 struct feed {
-	int device;            /* -1: none                                    */
+	const char *path;      /* of the watchdog device; NULL: none          */
+	int device;            /* -1: none is open                            */
+	bool lost;             /* told: the device takes no byte              */
 	int socket;            /* -1: no service manager                      */
 	struct sockaddr_un to;
 	socklen_t to_len;
@@ -19,9 +21,10 @@ struct feed {
 	int64_t fed_ms;
 };
 
-/** feed_open - opens what @device (NULL: none) and the environment name. Fails: false, told. */
+/** feed_open - opens what @device (borrowed; NULL: none) and the environment name. Fails: false, told. */
 bool feed_open(struct feed *feed, const char *device);
-/** feed_give - feeds both if it is time. */
+/** feed_give - feeds both if it is time. A device that takes no byte any more is told once and opened
+ * again at each feed. */
 void feed_give(struct feed *feed, int64_t now_ms);
 /** feed_tell - sends a state such as "READY=1"; never waits. */
 void feed_tell(const struct feed *feed, const char *state);

@@ -384,8 +384,11 @@ static int keep_watch(void)
 		if (guard.child.pid)
 			hear(now);
 		if (child_ended(&guard.child)) {
-			const int status = on_end(now);
+			int status;
 
+			hear(now); /* what it has said since */
+			child_close(&guard.child);
+			status = on_end(now);
 			if (status >= 0)
 				return status;
 		}

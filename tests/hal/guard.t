@@ -3,8 +3,8 @@
 #
 # guard.t - ladder-guard with a ladderd that is killed, crashes, freezes or hangs: the outputs get
 # their safe values each time, and ladderd begins again as it shall. Both share lines of a fake
-# (guard_fake.c). It prints how long that takes, and fails for no time. GUARD_KILLS and GUARD_STOPS
-# say how often.
+# (guard_fake.c). It prints how long that takes, and fails for no time. GUARD_KILLS, GUARD_STOPS,
+# GUARD_SWAPS and GUARD_HANGS say how often.
 use strict;
 use warnings;
 use Test::More;
@@ -54,7 +54,8 @@ END
 my @ladderd = ($ladderd, $rung, '--io', $map);
 
 our $count = 6; # lines of the chip
-sub fresh { spew("$dir/lines", "\0" x (56 * $count + 8)) }
+our $user = $>; # of the guard
+sub fresh { spew("$dir/lines", "\0" x (56 * $count + 24)) }
 # Sets the level of an input, or how reads behave (guard_fake.c).
 sub poke {
 	my ($at, $packed) = @_;
@@ -64,6 +65,8 @@ sub poke {
 }
 sub input { my ($line, $level) = @_; poke(56 * $line + 8, pack 'l', $level) }
 sub reads { my ($how) = @_; poke(56 * $count, pack 'q', $how) }
+# Since when a read waits, in s.
+sub waits_since { return unpack('q', substr slurp("$dir/lines"), 56 * $count + 16) / 1e9 }
 sub err { return slurp("$dir/err") // '' }
 
 # Of each output: level, consumer, time in s of the last write; time and level when the guard took
@@ -105,6 +108,7 @@ sub start {
 		open STDOUT, '>', "$dir/out" or die;
 		open STDERR, '>', "$dir/err" or die;
 		open STDIN, '<', '/dev/null' or die;
+		$user == $> or POSIX::setuid($user) or die;
 		exec $guard, @args;
 		die "exec: $!";
 	}
@@ -126,6 +130,7 @@ sub child {
 	}
 	die "no ladderd runs: " . err();
 }
+sub is_state { my ($pid, $state) = @_; return (slurp("/proc/$pid/stat") // '') =~ /\) $state/ }
 sub median { my @all = sort { $a <=> $b } @_; return $all[$#all / 2] }
 
 # The time at which the guard wrote the outputs, after a moment; undef: never.
@@ -313,7 +318,8 @@ until_it(\&runs);
 {
 	my $hang_map = spew("$dir/hang.io", "BOARD \"panel\"\n%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=0\n%QX0.1 gpio line=OUT1 safe=1\n");
 	my @hung = ($ladderd, $rung, '--io', $hang_map, '--period', '10ms', '--watchdog', 10);
-	for my $case ([], ['--heartbeat', 10000]) {
+	my @took;
+	for my $case (([]) x ($ENV{GUARD_HANGS} || 1), ['--heartbeat', 10000]) {
 		fresh();
 		unlink glob "$dir/slots/*";
 		$pid = start(named(), @$case, '--', @hung, @linked, '--slots', "$dir/slots");
@@ -323,7 +329,7 @@ until_it(\&runs);
 		my $at = guarded_since($since);
 		my $with = @$case ? "heartbeat $$case[1] ms" : 'heartbeat as it is by default';
 		ok(defined $at, "a driver hangs, $with: the guard makes the outputs safe");
-		diag(sprintf 'a driver hangs, limit of a scan 100 ms, %s: safe after %.1f ms', $with, 1e3 * ($at - $since)) if defined $at;
+		push @took, 1e3 * ($at - waits_since()) - 100 if defined $at;
 		like(err(), qr/ladderd hung in a scan and is killed; the outputs are safe/, 'since the scan is over its limit, not the heartbeat');
 		reads(0);
 		ok(until_it(\&runs), 'when the driver answers, ladderd runs again');
@@ -331,20 +337,124 @@ until_it(\&runs);
 		kill 'TERM', $pid;
 		finish($pid);
 	}
+	diag(sprintf 'a driver hangs: %d times safe after the limit of the scan: p50 %.1f ms, max %.1f ms', scalar @took,
+		median(@took), (sort { $b <=> $a } @took)[0]) if @took;
 	fresh();
 	$pid = start(named(), '--heartbeat', 10000, '--', @hung);
 	until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
-	my $since = clock_gettime(CLOCK_MONOTONIC);
 	reads(2);
 	ok(until_it(sub { is_at('ladderd', 0, 1) }), 'a signal reaches the driver: ladderd makes the outputs safe');
 	my ($at) = sort { $b <=> $a } map { $_->[2] } (lines())[0, 1];
-	diag(sprintf 'a signal reaches the driver, limit of a scan 100 ms: safe after %.1f ms', 1e3 * ($at - $since));
+	diag(sprintf 'a signal reaches the driver: safe %.1f ms after the limit of the scan', 1e3 * ($at - waits_since()) - 100);
 	sleep 0.1; # more than the grace of the guard
 	reads(0);
 	ok(until_it(sub { err() =~ /FAULT, outputs are safe: watchdog/ }), 'and it lives: its fault is told');
 	unlike(err(), qr/killed/, 'the guard has left it alone');
 	kill 'TERM', $pid;
 	finish($pid);
+}
+
+# ---- a download, a restart, another map ----
+# The other program drives OUT0 the other way round, with the other safe value; OUT1 goes, OUT2 and OUT3
+# come. In RUN each output has the level that is not its safe one. An open drain needs a restart.
+{
+	my @wired = ("%QX0.0 gpio line=OUT0 safe=1\n", "%QX0.2 gpio line=OUT2 safe=1\n%QX0.3 gpio line=OUT3 safe=0\n");
+	my %other_map = (swap => spew("$dir/other.io", "BOARD \"panel\"\n@wired"),
+		restart => spew("$dir/drain.io", "BOARD \"panel\"\n" . $wired[0] =~ s/safe/open-drain safe/r . $wired[1]));
+	my $other = spew("$dir/other.rung", slurp($rung) =~ s/Brake AT %QX0\.1 : BOOL;/Old AT %QX0.2 : BOOL;\n  New AT %QX0.3 : BOOL;/r
+		=~ s/NO SYS_ALWAYS_ON \| COIL Motor/NC SYS_ALWAYS_ON | COIL Motor/r =~ s/COIL Brake \|/COIL Old |\nRUNG\n  | NO SYS_ALWAYS_ON | COIL New |/r);
+	my @before = (@ladderd, @linked, '--slots', "$dir/slots", '--period', '5ms');
+	my $sent;
+	sub outputs { return join ' ', map { $_->[0] } lines() }
+	my $begin = sub {
+		fresh();
+		unlink glob "$dir/slots/*";
+		my $guard_pid = start(named(), '--', @before);
+		until_it(sub { runs() && -S "$dir/link" }) or BAIL_OUT("ladderd does not run: " . err());
+		return $guard_pid;
+	};
+	my $send = sub {
+		my ($how) = @_;
+		$sent = fork // die;
+		return if $sent;
+		open STDOUT, '>', "$dir/sent" or die;
+		open STDERR, '>&', \*STDOUT or die;
+		exec "$build/ladder", 'board', "unix:$dir/link", 'download', $other, $other_map{$how}, '--yes', $how eq 'swap' ? () : '--restart';
+	};
+	my $runs_other = sub { my @line = lines(); return $line[0][0] == 0 && $line[2][0] == 0 && $line[3][0] == 1 && $line[3][1] eq 'ladderd' };
+	# Ends ladderd, and the guard before it starts another, or else in order: the safe levels stay. Which
+	# map it knew: in the old one OUT0 is safe at 0. '': all lines are safe.
+	my $end = sub {
+		my ($guard_pid, $orderly) = @_;
+		my $pid = child($guard_pid);
+		kill 'STOP', $guard_pid;
+		kill 'STOP', $pid;
+		until_it(sub { is_state($pid, 'T') });
+		my $ran = $runs_other->();
+		kill 'KILL', $pid;
+		until_it(sub { is_state($pid, 'Z') });
+		kill 'TERM', $guard_pid;
+		kill 'CONT', $guard_pid;
+		my $status = finish($guard_pid);
+		my @line = lines();
+		my $knew = $line[0][4] ? 'new' : 'old';
+		# A line that comes: if ladderd had it, the guard has it.
+		my @come = $knew eq 'new' ? (2, 3) : grep { $line[$_][1] ne '' } 2, 3;
+		my @want = ($knew eq 'old' ? 0 : 1, 1, 1, 0);
+		my $bad = join ', ', map { $line[$_][0] == $want[$_] ? () : "OUT$_ is $line[$_][0]" } 0, 1, @come;
+		$bad .= " not taken: OUT$_" for grep { !$line[$_][3] } 0, $knew eq 'old' ? 1 : (), @come;
+		$bad .= " status $status" if $status ne 128 + 9 && !($orderly && $status eq 0);
+		$bad .= ' the old map' if $knew eq 'old' && $ran;
+		return ($knew, $bad);
+	};
+	my %took;
+	for my $how (qw(swap restart)) {
+		my $guard_pid = $begin->();
+		my $since = clock_gettime(CLOCK_MONOTONIC);
+		my $was = child($guard_pid);
+		$send->($how);
+		ok(until_it($runs_other), "$how: the other program drives the lines of its map") or diag(slurp("$dir/sent"), err());
+		waitpid $sent, 0;
+		$took{$how} = clock_gettime(CLOCK_MONOTONIC) - $since;
+		is(child($guard_pid), $was, "$how: by the same ladderd");
+		is_deeply([$end->($guard_pid)], ['new', ''], "$how: when ladderd is killed then, the guard knows the new lines and safe values");
+	}
+	# The table comes when the guard has read all packets, and before it asks whether ladderd has ended.
+	{
+		my $guard_pid = $begin->();
+		poke(56 * $count + 8, pack 'q', 1);
+		until_it(sub { is_state($guard_pid, 'T') });
+		$send->('swap');
+		ok(until_it($runs_other), 'while the guard does not listen');
+		waitpid $sent, 0;
+		is_deeply([$end->($guard_pid, 1)], ['new', ''], 'what a ladderd has said before its end counts');
+	}
+	my $swaps = $ENV{GUARD_SWAPS} || 12;
+	my (%knew, @bad);
+	for my $number (1 .. $swaps) {
+		my $how = $number % 3 ? 'swap' : 'restart';
+		my $guard_pid = $begin->();
+		$send->($how);
+		sleep rand 1.1 * $took{$how};
+		my ($knew, $bad) = $end->($guard_pid);
+		waitpid $sent, 0;
+		$knew{$knew}++;
+		$knew{"$knew, lines of both"}++ if $knew eq 'old' && (lines())[2][3];
+		push @bad, "$how: $bad" if $bad;
+	}
+	is_deeply(\@bad, [], "$swaps kills around an exchange: each line of both maps is safe");
+	diag(join ', ', map { "$_ map $knew{$_}" } sort keys %knew);
+	# STOP, RUN and a reset leave lines and guard as they are.
+	{
+		my $guard_pid = $begin->();
+		my $was = child($guard_pid);
+		board('stop');
+		ok(until_it(sub { is_at('ladderd', 0, 1) }), 'a desk stops the program: both are safe');
+		board('run --cold');
+		ok(until_it(\&runs), 'it runs again');
+		is(child($guard_pid), $was, 'in the same ladderd');
+		is_deeply([$end->($guard_pid)], ['old', ''], 'and the guard makes its lines safe as before');
+	}
 }
 
 # ---- a kernel without pidfd: SIGCHLD ----
@@ -493,7 +603,25 @@ END
 	is(finish($pid), 0, 'and ends as ever');
 }
 is(finish(start(named(), '--watchdog', $dir, '--', @ladderd)), 1, 'a watchdog that cannot be opened');
-like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": /, 'is told');
+like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": .*; name a watchdog device of this machine, or leave --watchdog out$/m, 'is told');
+{
+	my $device = spew("$dir/forbidden", '');
+	chmod 0, $device;
+	chmod 0711, $dir;
+	chmod 0666, "$dir/lines";
+	local $user = $> == 0 ? 65534 : $>;
+	is(finish(start(named(), '--watchdog', $device, '--', @ladderd)), 1, 'a watchdog that its user may not write');
+	like(err(), qr/^ladder-guard: watchdog "\Q$device\E": Permission denied; give the user of the service the right to write it, or leave --watchdog out$/m,
+		'says what to do');
+	unlink glob "$dir/out";
+}
+{
+	local $ENV{FAKE_BUSY} = spew("$dir/busy", '');
+	fresh();
+	is(finish(start(named(), '--watchdog', "$dir/busy", '--', @ladderd)), 1, 'a watchdog that another program holds');
+	like(err(), qr/^ladder-guard: watchdog "\S+busy": .* busy; another program feeds it: stop that, .*, or leave --watchdog out$/m, 'says so');
+	ok(!(grep { $_->[1] ne '' } lines()), 'no line was touched');
+}
 is(finish(start(named(), '--heartbeat', 5, '--', @ladderd)), 2, 'a heartbeat out of range');
 is(finish(start()), 2, 'no command');
 
@@ -519,5 +647,28 @@ is(finish(start()), 2, 'no command');
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'it ends');
 	like(slurp("$dir/watchdog"), qr/^\0{3,}V$/, 'the watchdog device was fed, and stopped at the end');
+	# A terminal stands for the device: it vanishes when its other end is closed. Then another one is there.
+	open my $terminal, '+<', '/dev/ptmx' or die;
+	my $number = pack 'i', 0;
+	ioctl $terminal, 0x40045431, $number or die;
+	ioctl $terminal, 0x80045430, $number or die;
+	symlink '/dev/pts/' . unpack('i', $number), "$dir/dog" or die;
+	fresh();
+	$pid = start(named(), '--watchdog', "$dir/dog", '--', @ladderd);
+	until_it(\&runs);
+	is(sysread($terminal, $text, 1), 1, 'a watchdog device is fed');
+	my $was = child($pid);
+	close $terminal;
+	ok(until_it(sub { err() =~ /^ladder-guard: watchdog "\S+dog" takes no byte: [^;]*; if it still counts, it restarts the machine; the guard tries again$/m }),
+		'it vanishes: that is told');
+	until_it(sub { $socket->recv($text, 200); $text eq 'WATCHDOG=1' }) for 1 .. 5;
+	spew("$dir/dog2", '');
+	symlink "$dir/dog2", "$dir/next" or die;
+	rename "$dir/next", "$dir/dog" or die;
+	ok(until_it(sub { err() =~ /^ladder-guard: watchdog "\S+dog" is fed again$/m && length slurp("$dir/dog2") }), 'it is there again: it is fed');
+	is(scalar(() = err() =~ /^ladder-guard:/mg), 2, 'each is told once');
+	ok(runs() && child($pid) == $was, 'and the machine has run on');
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'it ends');
 }
 done_testing;

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: MIT
  *
  * guard_fake - a chip that several processes share: gpiochip0 with the lines IN0, IN1, OUT0, OUT1 …,
- * label "panel". Linked with --wrap for open, close, ioctl and opendir into ladderd and ladder-guard.
+ * label "panel". Linked with --wrap for open, close, ioctl, opendir, syscall and waitpid into ladderd and
+ * ladder-guard.
  *
  *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
  *   FAKE_LINES   how many lines (6)
+ *   FAKE_BUSY    a file that another process has open, as a watchdog device
  *   FAKE_NO_PIDFD  if set, the kernel knows no pidfd_open()
  *   FAKE_SHARED  file of the lines: for each 56 bytes: int64 ns of CLOCK_MONOTONIC of its last
  *                write, int32 level, char[20] consumer, int64 ns and level when ladder-guard
  *                took it last, int64 how often its level has changed. Then an int64: 0 reads
  *                work, 1 they fail, 2 they wait until it is another number, 3 so, and nothing but
- *                SIGKILL interrupts them
+ *                SIGKILL interrupts them. Then an int64: 1 ladder-guard stops, as by SIGSTOP, before
+ *                it next asks whether ladderd has ended; an int64: ns of CLOCK_MONOTONIC at which a
+ *                read began to wait
  *
  * A line is locked by a lock of POSIX on its byte, which the kernel takes back when its process
  * dies, at the same moment as it would close the request of a line.
@@ -27,6 +31,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -58,9 +63,11 @@ int __wrap_ioctl(int fd, unsigned long what, ...);
 DIR *__wrap_opendir(const char *path);
 long __real_syscall(long number, ...);
 long __wrap_syscall(long number, ...);
+pid_t __real_waitpid(pid_t pid, int *status, int how);
+pid_t __wrap_waitpid(pid_t pid, int *status, int how);
 
 static volatile struct shared *line;
-static volatile int64_t *reads;
+static volatile int64_t *reads; /* how; whether the guard stops; since when one waits */
 static uint32_t lines = 6;
 static int file = -1;
 static struct taken taken[MOST];
@@ -73,7 +80,7 @@ __attribute__((constructor)) static void begin(void)
 		lines = (uint32_t)strtoul(count, NULL, 10);
 	file = path ? __real_open(path, O_RDWR | O_CLOEXEC) : -1;
 	if (file >= 0)
-		line = mmap(NULL, lines * sizeof(*line) + sizeof(*reads), PROT_READ | PROT_WRITE,
+		line = mmap(NULL, lines * sizeof(*line) + 3 * sizeof(*reads), PROT_READ | PROT_WRITE,
 			    MAP_SHARED, file, 0);
 	if (file < 0 || line == MAP_FAILED)
 		abort();
@@ -96,6 +103,15 @@ long __wrap_syscall(long number, ...)
 	return __real_syscall(number, a, b, c, d);
 }
 
+pid_t __wrap_waitpid(pid_t pid, int *status, int how)
+{
+	if (reads[1]) {
+		reads[1] = 0;
+		raise(SIGSTOP);
+	}
+	return __real_waitpid(pid, status, how);
+}
+
 DIR *__wrap_opendir(const char *path)
 {
 	return __real_opendir(strcmp(path, "/dev") == 0 ? getenv("FAKE_DEV") : path);
@@ -103,9 +119,12 @@ DIR *__wrap_opendir(const char *path)
 
 int __wrap_open(const char *path, int flags, ...)
 {
+	const char *busy = getenv("FAKE_BUSY");
 	va_list args;
 	int mode;
 
+	if (busy && strcmp(path, busy) == 0)
+		return errno = EBUSY, -1;
 	va_start(args, flags);
 	mode = flags & O_CREAT ? va_arg(args, int) : 0;
 	va_end(args);
@@ -149,14 +168,19 @@ static bool is_used(uint32_t at)
 	return is_mine(at) || (lock(at, F_WRLCK, F_GETLK, &flock) == 0 && flock.l_type != F_UNLCK);
 }
 
-static void write_level(uint32_t at, int level)
+static int64_t clock_now(void)
 {
 	struct timespec now;
 
 	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static void write_level(uint32_t at, int level)
+{
 	line[at].changes += line[at].level != level;
 	line[at].level = level;
-	line[at].written_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+	line[at].written_ns = clock_now();
 }
 
 static int take(struct gpio_v2_line_request *ask)
@@ -220,6 +244,8 @@ static int wait_for_read(void)
 	const int64_t how = *reads;
 	sigset_t all;
 
+	if (how >= 2)
+		reads[2] = clock_now();
 	sigfillset(&all);
 	if (how == 3)
 		sigprocmask(SIG_BLOCK, &all, NULL);
