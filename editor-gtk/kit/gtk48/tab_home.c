@@ -1,124 +1,77 @@
 /* SPDX-License-Identifier: MIT
  *
- * tab_home - keeps tabs in their window; see tab_home.h.
+ * tab_home - keeps tabs in their bar; see tab_home.h.
  *
- * While a tab is dragged out of its bar, libadwaita detaches it from its view. The drop
- * targets of bar and view ask accept() before they take a tab. A libadwaita without such drop
- * targets behaves as if this file did not exist.
+ * The bar reorders its tabs by a GtkGestureDrag. When the pointer is far outside, it begins a
+ * drag to elsewhere. It never hears that the pointer is outside: its handler of "drag-update"
+ * gets the nearest place inside. A libadwaita without such a handler behaves as if this file
+ * did not exist.
  */
 #include "editor-gtk/kit/gtk48/tab_home.h"
 
-#include <stdbool.h>
-
-struct home {
-	AdwTabView *view; /* only compared, no reference                          */
-	AdwTabPage *out;  /* the last tab that was detached; a weak pointer       */
-	int place;        /* where it was                                         */
-	bool begged;      /* libadwaita asked for a new window: the tab comes back */
-};
-
-static void forget(gpointer home)
+/* The offset from @start to the nearest place of @size that @offset does not leave. */
+static double inside(double start, double offset, int size)
 {
-	g_clear_weak_pointer(&((struct home *)home)->out);
+	return CLAMP(start + offset, 0, MAX(size - 1, 0)) - start;
 }
 
-static void let_go(gpointer home, GClosure *closure)
+static guint update_signal(void)
 {
-	(void)closure;
-	g_rc_box_release_full(home, forget);
+	return g_signal_lookup("drag-update", GTK_TYPE_GESTURE_DRAG);
 }
 
-/* Each signal connection holds a reference to @home. */
-static void listen(gpointer to, const char *signal, GCallback act, struct home *home)
+/* The bar's own handler; 0: none. */
+static gulong own_handler(gpointer gesture, GtkWidget *widget)
 {
-	g_signal_connect_data(to, signal, act, g_rc_box_acquire(home), let_go, 0);
+	return g_signal_handler_find(gesture, G_SIGNAL_MATCH_ID | G_SIGNAL_MATCH_DATA,
+				     update_signal(), 0, NULL, NULL, widget);
 }
 
-/* ---- which tabs are accepted ---- */
-
-/* The dragged tab; NULL: something else is dragged, or a tab of another program. */
-static AdwTabPage *dragged(GdkDrop *drop)
+/* @own is blocked except here. */
+static void update(GtkGestureDrag *gesture, double dx, double dy, gpointer unused)
 {
-	GdkDrag *drag = gdk_drop_get_drag(drop);
-	GValue value = G_VALUE_INIT;
-	AdwTabPage *page = NULL;
+	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(gesture));
+	gulong own = own_handler(gesture, widget);
+	double x, y;
 
-	if (!drag)
-		return NULL;
-	g_value_init(&value, ADW_TYPE_TAB_PAGE);
-	if (gdk_content_provider_get_value(gdk_drag_get_content(drag), &value, NULL))
-		page = g_value_get_object(&value); /* the drag has it */
-	g_value_unset(&value);
-	return page;
+	(void)unused;
+	if (!gtk_gesture_drag_get_start_point(gesture, &x, &y))
+		return;
+	g_signal_handlers_block_by_func(gesture, update, NULL);
+	g_signal_handler_unblock(gesture, own);
+	g_signal_emit(gesture, update_signal(), 0,
+		      inside(x, dx, gtk_widget_get_width(widget)),
+		      inside(y, dy, gtk_widget_get_height(widget)));
+	g_signal_handler_block(gesture, own);
+	g_signal_handlers_unblock_by_func(gesture, update, NULL);
 }
 
-/* The bar accepts tabs of its view, the view accepts none. */
-static gboolean accept(GtkDropTarget *target, GdkDrop *drop, struct home *home)
-{
-	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(target));
-
-	return gdk_content_formats_match(gdk_drop_get_formats(drop),
-					 gtk_drop_target_get_formats(target)) &&
-	       widget != GTK_WIDGET(home->view) && dragged(drop) == home->out;
-}
-
-static void ask_first(GtkWidget *widget, struct home *home)
+static void keep(GtkWidget *widget)
 {
 	GListModel *controllers = gtk_widget_observe_controllers(widget);
 
 	for (guint i = 0; i < g_list_model_get_n_items(controllers); i++) {
-		GObject *each = g_list_model_get_item(controllers, i);
+		gpointer each = g_list_model_get_item(controllers, i);
+		gulong own = GTK_IS_GESTURE_DRAG(each) ? own_handler(each, widget) : 0;
 
-		if (GTK_IS_DROP_TARGET(each) && gdk_content_formats_contain_gtype(
-			    gtk_drop_target_get_formats(GTK_DROP_TARGET(each)),
-			    ADW_TYPE_TAB_PAGE))
-			listen(each, "accept", G_CALLBACK(accept), home);
+		if (own) {
+			g_signal_handler_block(each, own);
+			g_signal_connect(each, "drag-update", G_CALLBACK(update), NULL);
+		}
 		g_object_unref(each);
 	}
 	g_object_unref(controllers);
 }
 
-static void ask_first_inside(GtkWidget *widget, struct home *home)
+static void keep_inside(GtkWidget *widget)
 {
-	ask_first(widget, home);
+	keep(widget);
 	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
 	     child = gtk_widget_get_next_sibling(child))
-		ask_first_inside(child, home);
-}
-
-/* ---- a tab dropped elsewhere comes back ---- */
-
-static void taken_out(AdwTabView *view, AdwTabPage *page, int place, struct home *home)
-{
-	(void)view;
-	g_set_weak_pointer(&home->out, page);
-	home->place = place;
-}
-
-/* Handler of "create-window": the first handler decides which view gets the tab. */
-static AdwTabView *back(AdwTabView *view, struct home *home)
-{
-	home->begged = true;
-	return view;
-}
-
-static void came(AdwTabView *view, AdwTabPage *page, int place, struct home *home)
-{
-	(void)place;
-	if (home->begged)
-		adw_tab_view_reorder_page(view, page, home->place);
-	home->begged = false;
+		keep_inside(child);
 }
 
 void tab_home_make(AdwTabBar *bar)
 {
-	struct home *home = g_rc_box_new0(struct home);
-
-	home->view = adw_tab_bar_get_view(bar);
-	ask_first_inside(GTK_WIDGET(bar), home);
-	ask_first(GTK_WIDGET(home->view), home);
-	listen(home->view, "page-detached", G_CALLBACK(taken_out), home);
-	listen(home->view, "create-window", G_CALLBACK(back), home);
-	listen(home->view, "page-attached", G_CALLBACK(came), home);
-	let_go(home, NULL);
+	keep_inside(GTK_WIDGET(bar));
 }
