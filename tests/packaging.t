@@ -9,7 +9,9 @@ use warnings;
 use Cwd qw(abs_path);
 use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
+use IO::Socket::UNIX;
 use POSIX ();
+use Socket qw(MSG_DONTWAIT);
 use Test::More;
 
 my $build = abs_path($ENV{BUILD} // 'build');
@@ -51,12 +53,11 @@ is(system("$build/ladderd '' --io '' >$dir/out 2>&1") >> 8, 2, 'without slots th
 like(get("$dir/out"), qr/FILE is missing/, 'and says so');
 
 like($unit, qr{^ExecStart=/usr/bin/ladder-guard \$GUARD_OPTIONS -- /usr/bin/ladderd }m, 'the guard starts ladderd');
-is_deeply([$unit =~ /^(NotifyAccess|KillMode|Type)=(.*)$/mg], [qw(Type notify NotifyAccess main KillMode mixed)],
-	'and speaks alone with systemd, and hands SIGTERM on');
+is_deeply([$unit =~ /^(NotifyAccess|KillMode|Type)=(.*)$/mg], [qw(Type notify NotifyAccess main KillMode control-group)],
+	'and speaks alone with systemd; each of the two may end in order');
 unlike(join('', map { get("packaging/$_") } qw(ladderd.service ladderd.default ladderd-run ladderd.procd)), qr/^[^#]*watchdog \/dev/m,
 	'nobody opens the watchdog device unasked');
 
-# ladderd-run with and without a guard beside it.
 sub until_it { my ($what) = @_; for (1 .. 1200) { return 1 if $what->(); select undef, undef, undef, 0.02 } return 0 }
 sub put { my ($name, $text) = @_; open my $f, '>', $name or die; print $f $text; close $f }
 mkdir "$dir/$_" for qw(bin etc run);
@@ -65,8 +66,58 @@ put("$dir/one.rung", "RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.0 : BOOL;\nEND_VAR\n\nP
 put("$dir/one.io", "BOARD \"x\"\n%QX0.0 sim safe=0\n");
 put("$dir/etc/active", "LADDERD_FILE=$dir/one.rung\nLADDERD_MAP=$dir/one.io\n");
 put("$dir/default", "LADDERD_OPTIONS=\"--period 10ms\"\nGUARD_OPTIONS=\"--name packaging-$$\"\n");
-my @env = ("LADDERD_FOLDER=$dir/etc", "LADDERD_DEFAULT=$dir/default", "LADDERD_RUN=$dir/run", "PATH=$dir/bin:$ENV{PATH}");
 sub ladderd_of { my ($parent) = @_; my ($pid) = get("/proc/$parent/task/$parent/children") =~ /^(\d+)/; return $pid // 0 }
+
+# The command of the unit, with what the unit and the two files say, as systemd makes words of it: "${A}" is
+# one word, "$A" is split.
+my %set = map { map { split /=/, $_, 2 } split } $unit =~ /^Environment=(.*)$/mg;
+my $files = get('packaging/ladderd.default') . get("$dir/etc/active");
+$set{$1} = $2 while $files =~ /^(\w+)="?(.*?)"?$/mg;
+s{/(var/lib|run)/rungboard}{$dir/state}g for values %set;
+my ($words) = $unit =~ /^ExecStart=(.*)$/m;
+my @command = map { /^\$\{(\w+)\}$/ ? $set{$1} : /^\$(\w+)$/ ? split(' ', $set{$1}) : s{^/usr/bin/}{$build/}r } split ' ', $words;
+splice @command, 1, 0, '--name', "unit-$$";
+my ($watchdog_s) = $unit =~ /^WatchdogSec=(\d+)$/m;
+mkdir "$dir/state";
+my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => "$dir/notify") or die;
+# Waits for a message of the service.
+sub told { my ($want) = @_; return until_it(sub { my $text = ''; $socket->recv($text, 200, MSG_DONTWAIT); return $text eq $want }) }
+sub start_unit {
+	my $pid = fork // die;
+	return $pid if $pid;
+	@ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC)} = ("$dir/notify", $watchdog_s * 1e6);
+	delete $ENV{WATCHDOG_PID};
+	open STDOUT, '>', "$dir/unit.out"; open STDERR, '>&', *STDOUT;
+	exec @command or die;
+}
+my $service = start_unit();
+ok(told('READY=1'), 'the command of the unit says that it is ready') or diag(get("$dir/unit.out"));
+ok(told('WATCHDOG=1'), 'and feeds the watchdog of the service');
+ok(-S "$dir/state/link" && -e "$dir/state/events", 'with the link and the log of its options');
+my $died = ladderd_of($service);
+kill 'KILL', $died;
+ok(told('STATUS=ladderd has died, outputs are safe'), 'a death of ladderd is told');
+ok(told('READY=1'), 'the next one is ready, in the same service');
+ok(told('WATCHDOG=1'), 'which is still fed');
+kill 'TERM', $service;
+ok(told('STOPPING=1'), 'SIGTERM: it says that it stops');
+ok(until_it(sub { waitpid($service, 1) == $service }) && $? == 0, 'and ends with status 0');
+$service = start_unit();
+told('READY=1');
+my $left = ladderd_of($service);
+kill 'KILL', $service;
+waitpid $service, 0;
+is($? & 127, 9, 'a guard that is killed has died of a signal: that is abnormal, so systemd starts it again');
+ok(until_it(sub { !-e "/proc/$left" || get("/proc/$left/stat") =~ /\) Z/ }), 'its ladderd has ended');
+is(unpack('x8 C', get("$dir/state/ends")), 0, 'in order: it has noted that');
+$set{LADDERD_FILE} = "$dir/nothing.rung";
+@command = ($command[0], '--name', "unit-$$", '--', "$build/ladderd", $set{LADDERD_FILE}, '--io', $set{LADDERD_MAP});
+$service = start_unit();
+ok(until_it(sub { waitpid($service, 1) == $service }) && $? >> 8 == 2, 'a file that cannot be read: status 2, which is no abnormal end: it is not started again');
+like($unit, qr/^Restart=on-abnormal$/m, 'as the unit says');
+
+# ladderd-run with and without a guard beside it.
+my @env = ("LADDERD_FOLDER=$dir/etc", "LADDERD_DEFAULT=$dir/default", "LADDERD_RUN=$dir/run", "PATH=$dir/bin:$ENV{PATH}");
 # Before it has handlers, a signal ends it.
 sub listens {
 	my ($pid) = @_;
