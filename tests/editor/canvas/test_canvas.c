@@ -129,6 +129,59 @@ static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least,
 	test_change(canvas, document, verb);
 }
 
+static GBytes *look(GtkWidget *page)
+{
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GBytes *bytes;
+
+	GTK_WIDGET_GET_CLASS(page)->snapshot(page, snapshot);
+	node = gtk_snapshot_free_to_node(snapshot);
+	bytes = gsk_render_node_serialize(node);
+	gsk_render_node_unref(node);
+	return bytes;
+}
+
+/* Moves over the page until it would take the tool. */
+static bool drag_over(GtkDropTarget *target, GtkWidget *page)
+{
+	GdkDragAction action = 0;
+
+	for (int y = 0; y < gtk_widget_get_height(page) && !action; y += 8)
+		for (int x = 0; x < gtk_widget_get_width(page) && !action; x += 8)
+			g_signal_emit_by_name(target, "motion", (double)x, (double)y, &action);
+	return action;
+}
+
+/* A tool is dragged over a chart and away: the mark of its place goes. */
+static void test_drag(LadderDocument *document)
+{
+	GtkWidget *page = ladder_sfc_view_new(document, 1);
+	GListModel *all = gtk_widget_observe_controllers(page);
+	GtkDropTarget *target = NULL;
+	GBytes *before, *over, *after;
+
+	gtk_window_set_child(GTK_WINDOW(window), page);
+	WAIT(gtk_widget_get_width(page) > 0 && gtk_widget_grab_focus(page));
+	for (guint i = 0; i < g_list_model_get_n_items(all) && !target; i++) {
+		gpointer each = g_list_model_get_item(all, i);
+
+		target = GTK_IS_DROP_TARGET(each) ? each : NULL;
+		g_object_unref(each);
+	}
+	before = look(page);
+	CHECK(target && drag_over(target, page));
+	over = look(page);
+	g_signal_emit_by_name(target, "leave");
+	after = look(page);
+	CHECK_AS(!g_bytes_equal(before, over), "the place of a dragged tool is marked");
+	CHECK_AS(g_bytes_equal(before, after), "no mark is left of a tool that was dragged away");
+	g_bytes_unref(before);
+	g_bytes_unref(over);
+	g_bytes_unref(after);
+	g_object_unref(all);
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 500, 200, &window);
@@ -139,6 +192,7 @@ int main(void)
 	gtk_widget_set_default_direction(GTK_TEXT_DIR_RTL);
 	test_sheet(document, ladder_grid_view_new(document, 0), 0.5, VERB_comment);
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
+	test_drag(document);
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);

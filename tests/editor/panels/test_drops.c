@@ -121,6 +121,40 @@ static bool drop(struct side *side, GObject *row, const char *text)
 	return changed;
 }
 
+/* Something in @from gives what a drag that begins at @x, @y of the list carries. */
+static bool carries(GtkWidget *from, double x, double y)
+{
+	GListModel *all = gtk_widget_observe_controllers(from);
+	bool carried = false;
+
+	for (guint i = 0; i < g_list_model_get_n_items(all); i++) {
+		GObject *each = g_list_model_get_item(all, i);
+		GdkContentProvider *what = NULL;
+
+		if (GTK_IS_DRAG_SOURCE(each))
+			g_signal_emit_by_name(each, "prepare", x, y, &what);
+		carried |= what != NULL;
+		g_clear_object(&what);
+		g_object_unref(each);
+	}
+	g_object_unref(all);
+	for (GtkWidget *child = gtk_widget_get_first_child(from); child && !carried;
+	     child = gtk_widget_get_next_sibling(child))
+		carried = carries(child, x, y);
+	return carried;
+}
+
+/* A list is dragged at the row with @text, a table at a handle. */
+static bool can_drag(struct side *side, const char *text)
+{
+	GtkWidget *at = find(side->list, GTK_TYPE_LABEL, text);
+	graphene_rect_t box;
+
+	at = at ? at : find(side->list, GTK_TYPE_ENTRY, text);
+	return at && gtk_widget_compute_bounds(at, side->list, &box) &&
+	       carries(side->list, box.origin.x + 2, box.origin.y + box.size.height / 2);
+}
+
 /* Drops @moved of another window, then of this one, on @at. */
 static void test_list(GtkWidget *(*new)(LadderDocument *), GType list, const char *moved,
 		      const char *at)
@@ -130,6 +164,7 @@ static void test_list(GtkWidget *(*new)(LadderDocument *), GType list, const cha
 
 	side_open(&there, new, list, at);
 	side_open(&here, new, list, at);
+	CHECK_AS(can_drag(&here, moved), "a row can be dragged");
 	foreign = row_with(&there, moved);
 	own = row_with(&here, moved);
 	CHECK_AS(!drop(&here, foreign, at), "a row of another window moves nothing");

@@ -88,6 +88,22 @@ static GtkWidget *popover_of(GtkWidget *page)
 	return child;
 }
 
+/* A menu that closes is removed from its page, and gives the focus back. */
+static void test_closed(void)
+{
+	GtkWidget *page = gtk_drawing_area_new();
+	GMenu *menu = g_menu_new();
+
+	gtk_widget_set_focusable(page, TRUE);
+	put(page);
+	g_menu_append(menu, "Undo", "win.undo");
+	popover_menu(page, menu, &(GdkRectangle){ 5, 5, 1, 1 }, page);
+	CHECK_SOON(is_open(page));
+	gtk_popover_popdown(GTK_POPOVER(popover_of(page)));
+	CHECK_SOON(!popover_of(page) && gtk_widget_has_focus(page));
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+}
+
 /* A menu that is higher than the room below and above its place shows all of its rows. */
 static void test_whole(void)
 {
@@ -120,6 +136,7 @@ int main(void)
 		return 0;
 	test_pages(document);
 	test_any();
+	test_closed();
 	test_whole();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
