@@ -43,7 +43,7 @@ ENGINE   := $(filter-out %_small.c,$(wildcard runtime/engine/*.c runtime/engine/
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
             name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c carry_losses.c carry_moves.c recorder.c \
-            carry_plan.c code_print.c code_strip.c retain.c retain_plan.c retain_slot.c symbols.c symbol_index.c),%_small.c),$(CORE))
+            carry_plan.c code_print.c code_strip.c retain.c retain_plan.c retain_slot.c still.c still_table.c symbols.c symbol_index.c),%_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
 CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number.c) \
@@ -57,7 +57,7 @@ $(call obj,$(ENGINE)): WARN += $(FRAME)
 OFTEN    := $(addprefix runtime/ladderd/,$(if $(CROSS)$(STATIC),,cycle.c) stats.c wall.c)
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c scan/declared.c \
-            scan/retain_*.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
+            scan/retain_*.c scan/still_table.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap*.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/carry.c scan/declared.c scan/recorder.c scan/fb_alarm.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fb_sun.c scan/fn_bits.c scan/fn_convert.c \
@@ -475,7 +475,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -485,6 +485,7 @@ $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
 $(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
+$(BIN)/still_differential: $(BUILD)/tests/still_differential.o $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap

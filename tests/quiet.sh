@@ -21,7 +21,7 @@ say() {
 
 # Files of scan/ that run in a scan; the others are called between scans (symbols, plans,
 # text of an instruction, the verifier) and may use more.
-between='code|code_[a-z]*|declared|carry_[a-z]*|place|symbols|symbol_index|retain_[a-z]*'
+between='code|code_[a-z]*|declared|carry_[a-z]*|place|symbols|symbol_index|retain_[a-z]*|still_table'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
@@ -51,7 +51,7 @@ for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|carry|iec|word|moves|name|digest|code|verify|image|resource|retain|declared|symbol|task|tasks|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|carry|iec|word|moves|name|digest|code|verify|image|resource|retain|declared|interrupt|still|symbol|task|tasks|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 

@@ -6,6 +6,8 @@
 #include "ladder/report.h"
 #include "ladder/tty.h"
 
+#include "engine/scan/still.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -26,6 +28,7 @@ enum inputs {
 	INPUTS_ZERO,     /* all are FALSE                                     */
 	INPUTS_FIXED,    /* random ones, which stay                           */
 	INPUTS_RANDOM,   /* others in each scan                               */
+	INPUTS_ONE,      /* one of them changes in each scan                  */
 	INPUTS_PACED,    /* others in each scan, a millisecond after the last one: other
 			    programs have used the caches                    */
 };
@@ -34,15 +37,20 @@ static const struct measure {
 	const char *name, *key;
 	bool body;             /* the program alone                           */
 	enum inputs inputs;
+	bool skips;            /* what has not changed is left out            */
 } measures[] = {
-	{ "body, zero",   "body_zero",   true,  INPUTS_ZERO },
-	{ "body, fixed",  "body_fixed",  true,  INPUTS_FIXED },
-	{ "body, random", "body_random", true,  INPUTS_RANDOM },
-	{ "body, 1 ms",   "body_paced",  true,  INPUTS_PACED },
-	{ "scan, zero",   "scan_zero",   false, INPUTS_ZERO },
-	{ "scan, fixed",  "scan_fixed",  false, INPUTS_FIXED },
-	{ "scan, random", "scan_random", false, INPUTS_RANDOM },
-	{ "scan, 1 ms",   "scan_paced",  false, INPUTS_PACED },
+	{ "body, zero",   "body_zero",   true,  INPUTS_ZERO, false },
+	{ "body, fixed",  "body_fixed",  true,  INPUTS_FIXED, false },
+	{ "body, random", "body_random", true,  INPUTS_RANDOM, false },
+	{ "body, 1 ms",   "body_paced",  true,  INPUTS_PACED, false },
+	{ "scan, zero",   "scan_zero",   false, INPUTS_ZERO, false },
+	{ "scan, fixed",  "scan_fixed",  false, INPUTS_FIXED, false },
+	{ "scan, random", "scan_random", false, INPUTS_RANDOM, false },
+	{ "scan, 1 ms",   "scan_paced",  false, INPUTS_PACED, false },
+	{ "rest: body",   "rest_body",   true,  INPUTS_FIXED, true },
+	{ "rest: scan",   "rest_scan",   false, INPUTS_FIXED, true },
+	{ "rest: one",    "rest_one",    false, INPUTS_ONE, true },
+	{ "rest: all",    "rest_all",    false, INPUTS_RANDOM, true },
 };
 enum { MEASURES = sizeof(measures) / sizeof(*measures) };
 
@@ -50,6 +58,7 @@ struct bench {
 	struct call *call;
 	struct machine machine;
 	struct resource *resource;
+	struct still *still;     /* NULL: each scan runs the whole program    */
 	double *sample;
 	int64_t scans, now_ns;
 	int64_t load_ns, build_ns;
@@ -90,6 +99,38 @@ static void set_inputs(struct bench *bench)
 	set_area(bench, AREA_XAI);
 }
 
+/* One bit of the inputs that the program uses. */
+static void change_one(struct bench *bench)
+{
+	struct image *image = &bench->resource->image;
+	const struct program *program = image->program;
+
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+		const uint32_t bit = bits->first + (uint32_t)(next_random(bench) % bits->count);
+
+		if (bits->area != AREA_I)
+			continue;
+		image_area(image, AREA_I)[bit / 8] ^= (uint8_t)(1u << bit % 8);
+		return;
+	}
+}
+
+/* The program between the edges of a scan that leaves out what has not changed. */
+static bool run_rest(struct bench *bench)
+{
+	struct resource *resource = bench->resource;
+	const struct program *program = resource->image.program;
+	struct still *still = resource->still;
+	bool good = true;
+
+	still_begin(still, &resource->image, resource->vm.now_ns, true);
+	for (uint32_t i = 0; i < program->call_count; i++)
+		good = still_run(still, &resource->vm, program->call[i]) == FAULT_NONE && good;
+	still_end(still, &resource->image);
+	return good;
+}
+
 static bool run_body(struct bench *bench)
 {
 	struct resource *resource = bench->resource;
@@ -98,6 +139,8 @@ static bool run_body(struct bench *bench)
 
 	resource->vm.now_ns = bench->now_ns += PERIOD_NS;
 	resource->vm.budget = program->header->budget;
+	if (resource->still)
+		return run_rest(bench);
 	for (uint32_t i = 0; i < program->call_count; i++)
 		good = vm_run(&resource->vm, program->call[i], false) ==
 		       FAULT_NONE && good;
@@ -152,7 +195,7 @@ static int64_t count_samples(const struct bench *bench, enum inputs inputs, int6
 {
 	int64_t count = 1 + bench->scans / batch;
 
-	if (inputs == INPUTS_RANDOM)
+	if (inputs == INPUTS_RANDOM || inputs == INPUTS_ONE)
 		return bench->scans;
 	if (count < LEAST || inputs == INPUTS_PACED)
 		count = inputs == INPUTS_PACED ? PACED : LEAST;
@@ -164,6 +207,7 @@ static bool measure(struct bench *bench, const struct measure *measure, struct f
 	const bool change = measure->inputs >= INPUTS_RANDOM;
 	int64_t batch = 1, count;
 
+	bench->resource->still = measure->skips ? bench->still : NULL;
 	resource_start(bench->resource);
 	resource_scan(bench->resource, bench->now_ns += PERIOD_NS);
 	if (measure->inputs != INPUTS_ZERO)
@@ -174,7 +218,9 @@ static bool measure(struct bench *bench, const struct measure *measure, struct f
 		batch = batch_of(bench, measure->body);
 	count = count_samples(bench, measure->inputs, batch);
 	for (int64_t i = 0; i < count; i++) {
-		if (change)
+		if (measure->inputs == INPUTS_ONE)
+			change_one(bench);
+		else if (change)
 			set_inputs(bench);
 		if (measure->inputs == INPUTS_PACED)
 			nanosleep(&(struct timespec){ .tv_nsec = PACE_NS }, NULL);
@@ -221,6 +267,12 @@ static void measure_load(struct bench *bench, const char *path)
 	}
 }
 
+/* Those that leave something out come last. */
+static bool is_measured(const struct bench *bench, int i)
+{
+	return bench->still || !measures[i].skips;
+}
+
 static int count_rungs(const struct machine *machine)
 {
 	const struct project *project = ladder_project(machine->ladder);
@@ -254,7 +306,7 @@ static void print_text(const struct bench *bench)
 	sink_printf(out, "\n%-14s%33s%36s\n%-14s%11s%11s%11s%14s%11s%11s\n", "",
 		    "ns a scan", "ns a rung", "", "least", "median", "longest",
 		    "least", "median", "longest");
-	for (int i = 0; i < MEASURES; i++) {
+	for (int i = 0; i < MEASURES && is_measured(bench, i); i++) {
 		const struct figure *f = &bench->figure[i];
 		double n = bench->rungs ? bench->rungs : 1;
 
@@ -283,7 +335,7 @@ static void print_json(const struct bench *bench)
 		    ladder_memory(bench->machine.ladder),
 		    image_memory_size(program), (long long)bench->load_ns,
 		    (long long)bench->build_ns);
-	for (int i = 0; i < MEASURES; i++) {
+	for (int i = 0; i < MEASURES && is_measured(bench, i); i++) {
 		const struct figure *f = &bench->figure[i];
 
 		sink_printf(out, ",\n \"%s_ns\": {\"min\": %.1f, "
@@ -305,7 +357,7 @@ static enum status run(struct bench *bench)
 	bench->rungs = count_rungs(&bench->machine);
 	measure_clock(bench);
 	measure_load(bench, path);
-	for (int i = 0; i < MEASURES; i++)
+	for (int i = 0; i < MEASURES && is_measured(bench, i); i++)
 		if (!measure(bench, &measures[i], &bench->figure[i])) {
 			report_diag((struct diag){ .id = DIAG_FAULT,
 						   .file = path }, "%s",
@@ -327,8 +379,11 @@ enum status cmd_bench(struct call *call)
 	if (!report_count(call, "--scans", 2000, 10000000, &bench.scans))
 		return STATUS_WRONG;
 	status = machine_open(&bench.machine, call->arg[0], MACHINE_AS_FILE);
-	if (status == STATUS_GOOD)
+	if (status == STATUS_GOOD) {
+		machine_skip(&bench.machine, call);
+		bench.still = bench.machine.resource.still;
 		status = run(&bench);
+	}
 	free(bench.sample);
 	machine_close(&bench.machine);
 	return status;

@@ -7,8 +7,10 @@
 
 #include "engine/base/file.h"
 #include "engine/base/digest.h"
+#include "engine/scan/still.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 static const char *const section_name[CODE_SECTION_COUNT] = {
@@ -163,6 +165,75 @@ static void print_tasks(const struct program *program, const struct sink *out)
 	}
 }
 
+/* ---- stretches ---- */
+
+/* The bytes of memory that a stretch reads, or writes. */
+struct touched { uint8_t *byte; uint32_t size; bool write; };
+
+static void take_bytes(void *context, const struct code_access *access)
+{
+	struct touched *touched = context;
+	const uint64_t end = (access->bit + access->bits + 7) / 8;
+
+	for (uint64_t i = access->bit / 8;
+	     access->write == touched->write && i < end && i < touched->size; i++)
+		touched->byte[i] = 1;
+}
+
+/* " 4..7 12" */
+static void print_ranges(const struct touched *touched, const struct sink *out)
+{
+	uint32_t end;
+
+	for (uint32_t i = 0; i < touched->size; i = end + 1) {
+		for (end = i; end < touched->size && touched->byte[end];)
+			end++;
+		if (end > i + 1)
+			sink_printf(out, " %u..%u", i, end - 1);
+		else if (end > i)
+			sink_printf(out, " %u", i);
+	}
+	sink_text(out, "\n");
+}
+
+static void print_stretch(const struct still *still, uint32_t i, struct touched *touched,
+			  const struct sink *out)
+{
+	const struct stretch *stretch = &still->stretch[i];
+
+	sink_printf(out, "%8u..%u%s\n", stretch->begin, stretch->end - 1,
+		    stretch->always ? "  in each scan" : "");
+	for (int write = 0; write < 2; write++) {
+		memset(touched->byte, 0, touched->size);
+		touched->write = write;
+		still_each(still, i, take_bytes, touched);
+		sink_text(out, write ? "          writes" : "          reads ");
+		print_ranges(touched, out);
+	}
+}
+
+static void print_stretches(const struct program *program, const struct sink *out)
+{
+	struct touched touched = { .size = program->header->data_size };
+	const struct still *still;
+	enum still_why why;
+	struct arena keep;
+
+	arena_init(&keep);
+	touched.byte = malloc(touched.size);
+	still = touched.byte ? still_new(program, STILL_LEAST, &keep, &why) : NULL;
+	if (still)
+		sink_printf(out, "\nstretches     %u, left out when no byte that they read or write "
+			    "has changed\n", still->count);
+	else
+		sink_printf(out, "\nstretches     none, each scan runs the whole program: %s\n",
+			    still_why_text(touched.byte ? why : STILL_NO_MEMORY));
+	for (uint32_t i = 0; still && i < still->count; i++)
+		print_stretch(still, i, &touched, out);
+	free(touched.byte);
+	arena_free(&keep);
+}
+
 static void print_code(const struct call *call, const struct program *program)
 {
 	uint32_t *own = calloc(program->entry_count + 1u, sizeof(*own));
@@ -186,6 +257,7 @@ static void print_code(const struct call *call, const struct program *program)
 	else
 		sink_printf(&call->out, "\nworst case    %u instructions\n",
 			    count);
+	print_stretches(program, &call->out);
 }
 
 enum status cmd_code(struct call *call)

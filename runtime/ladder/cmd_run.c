@@ -192,6 +192,7 @@ enum status cmd_run(struct call *call)
 	if (status == STATUS_GOOD && rungs)
 		status = watch_rungs(call, &machine, rungs);
 	if (status == STATUS_GOOD) {
+		machine_skip(&machine, call);
 		settle_pace(&pace, ladder_program(machine.ladder));
 		status = run(call, &machine, &pace);
 	}

@@ -135,6 +135,7 @@ static void run_file(struct tap *tap, const char *path)
 	    machine_open(&machine, program, MACHINE_AS_FILE) != STATUS_GOOD) {
 		print_result(tap, false, path, "its program is good");
 	} else {
+		machine_skip(&machine, tap->call);
 		text = report_read(path, &len);
 		if (!text || !run_text(tap, &machine, path, text, len))
 			print_result(tap, false, path, "can be read");

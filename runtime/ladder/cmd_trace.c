@@ -46,10 +46,12 @@ enum status cmd_trace(struct call *call)
 		return STATUS_WRONG;
 	status = machine_open_call(&machine, call,
 				   call_flag(call, "--faithful") ? MACHINE_FAITHFUL : 0);
-	if (status == STATUS_GOOD)
+	if (status == STATUS_GOOD) {
+		machine_skip(&machine, call);
 		status = run(call, &machine, csv ? TRACE_CSV :
 			     vcd ? TRACE_VCD : TRACE_LINES,
 			     program_period(machine.ladder, period_ns));
+	}
 	machine_close(&machine);
 	return status;
 }

@@ -5,6 +5,7 @@
 #include "ladder/report.h"
 
 #include "engine/base/file.h"
+#include "engine/scan/still.h"
 #include "engine/trial/script.h"
 #include "engine/trial/value.h"
 
@@ -247,6 +248,7 @@ enum status machine_open(struct machine *machine, const char *path, int how)
 	enum status status;
 
 	memset(machine, 0, sizeof(*machine));
+	arena_init(&machine->skip);
 	machine->ladder = program_new(how & MACHINE_FAITHFUL);
 	if (!machine->ladder)
 		return report_no_memory(path);
@@ -262,6 +264,13 @@ enum status machine_open(struct machine *machine, const char *path, int how)
 		return report_no_memory(path);
 	resource_init(&machine->resource, program, machine->memory);
 	return STATUS_GOOD;
+}
+
+void machine_skip(struct machine *machine, const struct call *call)
+{
+	if (!call_flag(call, "--full-scan"))
+		machine->resource.still = still_new(ladder_program(machine->ladder), STILL_LEAST,
+						    &machine->skip, NULL);
 }
 
 enum status machine_add_plant(struct machine *machine, const char *path,
@@ -324,6 +333,7 @@ void machine_close(struct machine *machine)
 	ladder_free(machine->plant_ladder);
 	machine->plant_ladder = NULL;
 	free(machine->memory);
+	arena_free(&machine->skip);
 	ladder_free(machine->ladder);
 	machine->memory = NULL;
 	machine->ladder = NULL;

@@ -69,6 +69,7 @@ struct machine {
 	struct ladder *ladder;
 	void *memory;
 	struct resource resource;
+	struct arena skip;        /* of resource.still                        */
 	struct ladder *plant_ladder;
 	struct plant plant;       /* memory NULL: none                        */
 };
@@ -83,6 +84,8 @@ enum {
 enum status machine_open(struct machine *machine, const char *path, int how);
 /** machine_open_call - machine_open() of the first argument of @call, with its --plant. */
 enum status machine_open_call(struct machine *machine, const struct call *call, int how);
+/** machine_skip - from now on scans leave out what has not changed, unless @call has --full-scan. */
+void machine_skip(struct machine *machine, const struct call *call);
 /** machine_add_plant - loads the plant at @path (trial/plant.h).
  * Fails: a status after diagnostics, the last one LD016 at @place. */
 enum status machine_add_plant(struct machine *machine, const char *path,

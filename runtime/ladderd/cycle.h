@@ -36,6 +36,7 @@ struct cycle {
 				* tasks that interrupt it                     */
 	int64_t asked_ns;      /* a time at which the timer of safe_ask() comes; 0: none */
 	int64_t wanted_ns;     /* --period; 0: not given                      */
+	bool full_scan;        /* each scan runs the whole program            */
 	bool begin_stopped;    /* does not run at the start                   */
 	const char *stopped;   /* why it began in STOP; NULL: not told         */
 	bool restart;          /* ends in order to begin with the newest slot */

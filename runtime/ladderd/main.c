@@ -7,6 +7,7 @@
 #define _DEFAULT_SOURCE /* syscall() */
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
+#include "engine/scan/still.h"
 #include "hal/drivers.h"
 #include "ladderd/conf.h"
 #include "ladderd/control.h"
@@ -210,6 +211,9 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	resource_init(&cycle->resource, program, memory);
+	cycle->full_scan = options->full_scan;
+	if (HAS_STILL && !cycle->full_scan)
+		cycle->resource.still = still_new(program, STILL_LEAST, &load->arena, NULL);
 	if (daemon->slots.empty) {
 		memcpy(cycle->identity, "none", 5);
 	} else {

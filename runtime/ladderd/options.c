@@ -25,6 +25,7 @@
 "  --serial-role ROLE  what a desk there may do: view, oper or eng; default eng\n" \
 "  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
 "                   needed until the first one, and used again when they change\n" \
+"  --full-scan      run the whole program in each scan, also what nothing has reached\n" \
 "  --groups FILE    with --link: the groups, instead of /etc/group\n" \
 "  --late N         with --link: N late scans in a row are an event of the log;\n" \
 "                   1 to 1000, default 3\n" \
@@ -35,6 +36,7 @@
 	{ "--serial",        TEXT,   AT(serial),    0, 0 }, \
 	{ "--serial-role",   TEXT,   AT(serial_role), 0, 0 }, \
 	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
+	{ "--full-scan",     FLAG,   AT(full_scan), 0, 0 }, \
 	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
 	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
 	{ "--record",        NUMBER, AT(record_kb), 0, 65536 },

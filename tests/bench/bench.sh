@@ -47,6 +47,17 @@ for kind in seal mixed dense; do
 	done
 done
 echo
+echo 'What has not changed is left out, ns a scan:'
+echo
+echo '| program | rungs | body, nothing changes | whole scan | one input changes | all change | the same with --full-scan |'
+echo '|---|---|---|---|---|---|---|'
+for kind in seal mixed; do
+	perl "$(dirname "$0")/programs.pl" $kind 10000 >"$tmp/p.rung"
+	"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
+	echo "| $kind | 10000 | $(median "$tmp/p.json" rest_body_ns) | $(median "$tmp/p.json" rest_scan_ns)" \
+		"| $(median "$tmp/p.json" rest_one_ns) | $(median "$tmp/p.json" rest_all_ns) | $(median "$tmp/p.json" scan_random_ns) |"
+done
+echo
 echo 'Whole processes, from their start to their end:'
 echo
 echo '| program | rungs | `ladder check` ms | `ladderd`, one scan, ms | `ladderd` while it scans, KB in memory |'

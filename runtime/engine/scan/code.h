@@ -272,6 +272,9 @@ static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t cou
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/** code_targets - the words of the instruction at @code that say where it may jump to, each the
+ * index of a word of its section; @count of them. Scan-safe: yes. */
+const uint32_t *code_targets(const uint32_t *code, uint32_t *count);
 /** code_type - the type that REAL, DINT, INT and CMP_REAL … compute with; IEC_NONE for
  * another @op. Scan-safe: yes. */
 uint32_t code_type(uint32_t op);

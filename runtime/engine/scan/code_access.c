@@ -194,3 +194,14 @@ void code_each_access(const struct program *program,
 	for (const uint32_t *code = program->text; code < end; code += code_words(code))
 		visit_code(&visit, code);
 }
+
+#ifndef RUNGBOARD_SMALL
+void code_access(const uint32_t *code,
+		 void (*take)(void *context, const struct code_access *access),
+		 void *context)
+{
+	const struct visit visit = { take, context };
+
+	visit_code(&visit, code);
+}
+#endif

@@ -79,6 +79,15 @@ uint32_t code_words(const uint32_t *code)
 	return 1;
 }
 
+const uint32_t *code_targets(const uint32_t *code, uint32_t *count)
+{
+	const uint32_t op = *code & 0xff;
+	const bool jump = op == VM_JMP || op == VM_JMPC;
+
+	*count = jump ? 1 : op == VM_EACH ? *code >> 8 : 0;
+	return code + (jump ? 1 : 3);
+}
+
 uint32_t code_type(uint32_t op)
 {
 	static const uint8_t type[VM_COUNT] = {
@@ -407,13 +416,10 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 	if (last != VM_END && last != VM_JMP)
 		return verify_refuse(v, base + first);
 	for (uint32_t at = 0; at < words; at += code_words(base + first + at)) {
-		const uint32_t *code = base + first + at;
-		uint32_t op = *code & 0xff;
+		const uint32_t *code = base + first + at, *target;
+		uint32_t targets;
 
-		bool jump = op == VM_JMP || op == VM_JMPC;
-		const uint32_t *target = code + (jump ? 1 : 3);
-		uint32_t targets = jump ? 1 : op == VM_EACH ? *code >> 8 : 0;
-
+		target = code_targets(code, &targets);
 		for (uint32_t i = 0; i < targets; i++)
 			if (target[i] < first || target[i] - first >= words ||
 			    !starts[target[i] - first])

@@ -14,6 +14,13 @@ size_t image_memory_size(const struct program *program)
 	return (size_t)program->header->data_size + IMAGE_TAIL + interrupt_bytes(program);
 }
 
+/* Somebody outside of the program writes a value. */
+static inline void note_change(struct image *image)
+{
+	if (HAS_STILL)
+		image->changed = true;
+}
+
 static void load_init(struct image *image)
 {
 	const struct code_header *header = image->program->header;
@@ -87,6 +94,7 @@ void image_init(struct image *image, const struct program *program, void *memory
 	image->memory = memory;
 	image->program = program;
 	image->force_count = 0;
+	note_change(image);
 	memset(memory, 0, image_memory_size(program));
 	load_init(image);
 	bound_texts(image);
@@ -140,6 +148,7 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 
 	if (!inside(image, area, bit))
 		return false;
+	note_change(image);
 	slot = bit_slot(image, area, bit);
 	if (slot)
 		*slot = value;
@@ -198,6 +207,18 @@ static void pack(const uint8_t *slot, uint8_t *area, const struct code_bits *bit
 		}
 	}
 }
+
+#ifndef RUNGBOARD_SMALL
+void image_unpack(struct image *image, const struct code_bits *bits)
+{
+	unpack(image->memory + bits->slot, image_area(image, (enum iec_area)bits->area), bits);
+}
+
+void image_pack(struct image *image, const struct code_bits *bits)
+{
+	pack(image->memory + bits->slot, image_area(image, (enum iec_area)bits->area), bits);
+}
+#endif
 
 /* Applies forces at both edges. A value written since the last edge is kept aside,
  * unless it equals the forced value: then perhaps nothing was written. */
@@ -277,6 +298,7 @@ bool image_set(struct image *image, struct location at, union iec_value value)
 		return false;
 	if (at.area != AREA_NONE)
 		return image_set_bit(image, at.area, at.where, value.i != 0);
+	note_change(image);
 	if (at.type == IEC_BOOL)
 		value.i = value.i != 0;
 	iec_store(image->memory + at.where, at.type, value);

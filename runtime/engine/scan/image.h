@@ -11,6 +11,13 @@
 
 #include "engine/scan/code.h"
 
+/* A small board is built without scan/still.h: each scan runs the whole program. */
+#ifdef RUNGBOARD_SMALL
+#define HAS_STILL 0
+#else
+#define HAS_STILL 1
+#endif
+
 /* Where a value is: a typed place in memory, or one bit of an area. */
 struct location {
 	enum iec_type type;     /* IEC_NONE: nowhere                         */
@@ -29,6 +36,7 @@ struct image {
 	const struct program *program;
 	struct force force[LIMIT_FORCES];
 	int force_count;
+	bool changed;           /* somebody outside of the program wrote a value: see still.h */
 };
 
 /** image_memory_size - bytes that image_init wants for @program. */
@@ -48,11 +56,21 @@ void image_begin(struct image *image);
 /** image_end - the edge behind the program: applies forces, packs bits of areas. */
 void image_end(struct image *image);
 
+/* Whether bits of an area come from outside: image_begin() unpacks them, image_end() packs the
+ * others. */
+static inline bool image_reads(const struct code_bits *bits)
+{
+	return iec_area_row((enum iec_area)bits->area)->access == ACCESS_READ;
+}
+/** image_unpack, image_pack - some of the bits that live a byte each. Scan-safe: yes. */
+void image_unpack(struct image *image, const struct code_bits *bits);
+void image_pack(struct image *image, const struct code_bits *bits);
+
 /**
  * image_area - the packed bytes of an area, for drivers
  *
  * Their number is in image->program->areas.bytes. image_begin reads inputs from it;
- * image_end writes outputs to it.
+ * image_end writes outputs to it. Only bytes of inputs and system words may be written so.
  * Owns: the image. Scan-safe: yes.
  */
 uint8_t *image_area(struct image *image, enum iec_area area);

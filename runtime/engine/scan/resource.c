@@ -6,6 +6,7 @@
 
 #include "engine/base/name.h"
 #include "engine/scan/interrupt.h"
+#include "engine/scan/still.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -13,6 +14,41 @@
 #define MS_NS     INT64_C(1000000)
 #define SECOND_NS INT64_C(1000000000)
 #define DAY_NS    (86400 * SECOND_NS)
+
+/* ---- leaving out what has not changed ---- */
+
+#ifndef RUNGBOARD_SMALL
+static void begin_image(struct resource *resource, int64_t now_ns, bool watch)
+{
+	struct still *still = resource->still;
+
+	if (!still || !still_begin(still, &resource->image, now_ns + resource->timers_ns,
+				   !watch && !resource->pace.speed))
+		image_begin(&resource->image);
+}
+
+static void end_image(struct resource *resource)
+{
+	if (!resource->still || !still_end(resource->still, &resource->image))
+		image_end(&resource->image);
+}
+
+static enum fault run_program(struct resource *resource, uint32_t entry, bool watch)
+{
+	return resource->still && !watch ? still_run(resource->still, &resource->vm, entry) :
+					   vm_run(&resource->vm, entry, watch);
+}
+
+static void reset_still(struct resource *resource)
+{
+	still_reset(resource->still);
+}
+#else
+#define begin_image(resource, now_ns, watch) ((void)(watch), image_begin(&(resource)->image))
+#define end_image(resource) image_end(&(resource)->image)
+#define run_program(resource, entry, watch) vm_run(&(resource)->vm, entry, watch)
+#define reset_still(resource)
+#endif
 
 static void begin_cold(struct resource *resource)
 {
@@ -38,6 +74,7 @@ static void begin_cold(struct resource *resource)
 	resource->level = 0;
 	resource->standing = false;
 	tasks_start(&resource->tasks, program, 0);
+	reset_still(resource);
 }
 
 void resource_init(struct resource *resource, const struct program *program,
@@ -227,7 +264,7 @@ static void write_cycle(struct resource *resource, uint32_t index)
 		cycle_ns = resource->period_ns;
 	state->began = true;
 	state->began_ns = resource->vm.now_ns;
-	store64(image_area(&resource->image, AREA_SM) + 48, cycle_ns);
+	store64(image_area(&resource->image, AREA_SM) + RESOURCE_CYCLE, cycle_ns);
 }
 
 /* ---- words, and safe points ---- */
@@ -364,7 +401,7 @@ static bool run_programs(struct resource *resource, bool watch)
 		vm->resume = run->resume;
 		resource->words += run->ahead;
 		run->ahead = 0;
-		fault = vm_run(vm, entry, watch);
+		fault = run_program(resource, entry, watch);
 		run->resume = vm->resume;
 		if (fault == FAULT_PAUSED)
 			return false;
@@ -631,7 +668,7 @@ static void halt(struct resource *resource, bool watch)
 	clear_area(resource, AREA_XAQ);
 }
 
-static void begin_scan(struct resource *resource, int64_t now_ns)
+static void begin_scan(struct resource *resource, int64_t now_ns, bool watch)
 {
 	if (resource->scans == 0) {
 		resource->start_ns = now_ns;
@@ -639,7 +676,7 @@ static void begin_scan(struct resource *resource, int64_t now_ns)
 			    resource->due_ns : now_ns);
 	}
 	write_system(resource, now_ns);
-	image_begin(&resource->image);
+	begin_image(resource, now_ns, watch);
 	ready_points(resource);
 	resource->vm.now_ns = now_ns + resource->timers_ns;
 }
@@ -656,14 +693,14 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 	if (resource->standing) {
 		whole = go_on(resource, now_ns, watch);
 	} else {
-		begin_scan(resource, now_ns);
+		begin_scan(resource, now_ns, watch);
 		whole = run_due(resource, now_ns, watch);
 	}
 	if (errors == 0 && vm->errors)
 		resource->error_at = place_in(resource, vm->error_text, watch);
 	if (!whole)
 		return true;
-	image_end(&resource->image);
+	end_image(resource);
 	resource->scans++;
 	if (vm->stop && resource->state == STATE_RUN)
 		halt(resource, watch);

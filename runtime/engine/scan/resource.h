@@ -21,6 +21,7 @@ struct fault_place {
 };
 
 struct resource;
+struct still;
 /* How tasks interrupt others: of ladderd, of the simulation, of a record. */
 struct interrupts {
 	/* At a safe point, while vm.ask is not 0: shall tasks that have become due run? Then
@@ -110,6 +111,8 @@ struct resource {
 	uint32_t patience;           /* watchdog of each task: so many late runs in a row,
 				      * or one run that takes so many periods; 0: none.
 				      * WATCHDOG is always active. */
+	struct still *still;         /* leaves out what has not changed; NULL: each scan runs
+				      * all. Of this program; borrowed       */
 	int64_t due_ns;              /* when this scan should have begun, not later than
 				      * now; 0: now. Set before each scan if tick_ns is not
 				      * 0 */
@@ -120,6 +123,7 @@ struct resource {
 #define RESOURCE_WALL INT64_C(946684800000000000)
 
 #define RESOURCE_ZONE 56 /* of SYS_ZONE in its area                             */
+#define RESOURCE_CYCLE 48 /* of SYS_CYCLE                                       */
 #define RESOURCE_DISK 2  /* of SYS_DISK_FAULT: the lowest bit                   */
 
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */

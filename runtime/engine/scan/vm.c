@@ -296,6 +296,13 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return pc;
 }
 
+#ifndef RUNGBOARD_SMALL
+void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n)
+{
+	run_lut(memory, part, n);
+}
+#endif
+
 /* @size: bytes to copy; 0: the value is widened, or is a text. */
 static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 {
@@ -573,7 +580,11 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *run = pc;          /* last target of EACH            */
 	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
 
+	const uint32_t *until = HAS_STILL && vm->until ? base + vm->until : NULL;
+
 	vm->resume = 0;
+	if (HAS_STILL)
+		vm->until = 0;
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
 
@@ -586,6 +597,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = back[--depth];
 			break;
 		case VM_LUT:
+			if (HAS_STILL && pc == until) {
+				vm->budget = budget;
+				return FAULT_NONE;
+			}
 			pc = run_lut(m, pc + 1, n);
 			break;
 		case VM_BITGET:

@@ -39,6 +39,8 @@ struct vm {
 	bool (*at_point)(struct vm *vm, uint32_t words);
 	uint32_t resume;       /* word of the section where vm_run() begins; 0: at the
 				* beginning. Where it ended with FAULT_PAUSED. */
+	uint32_t until;        /* LUT of the section where vm_run() ends; 0: none. Set before
+				* each call; it is 0 afterwards. Not with SMALL=1 */
 	uint32_t called;       /* words of CODE_TEXT of all programs that were called; wraps */
 };
 
@@ -52,6 +54,9 @@ struct vm {
  * wants it; vm->resume tells where the next call goes on.
  */
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
+
+/** vm_look_up - runs @n parts of a LUT, the first one at @part. Scan-safe: yes. */
+void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n);
 
 /* The arguments of the functions of fn_*.c and blocks of fb_*.c. */
 enum fn_status {

@@ -5,6 +5,7 @@
 #include "engine/trial/twin.h"
 
 #include "engine/scan/carry.h"
+#include "engine/scan/still.h"
 #include "engine/scan/retain.h"
 #include "engine/trial/pace.h"
 #include "engine/trial/plant.h"
@@ -78,10 +79,13 @@ bool twin_clone(struct twin *twin, const struct twin *from)
 static void resource_copy(struct resource *to, const struct resource *from, size_t size)
 {
 	uint8_t *memory = to->image.memory;
+	struct still *still = to->still;
 
 	if (!size)
 		return;
 	*to = *from;
+	to->still = still;
+	still_reset(still);
 	to->image.memory = to->vm.memory = memory;
 	memcpy(memory, from->image.memory, size);
 }
