@@ -182,6 +182,32 @@ static void test_drag(LadderDocument *document)
 	g_object_unref(all);
 }
 
+static GBytes *look_at(GtkWidget *page)
+{
+	gtk_window_set_child(GTK_WINDOW(window), page);
+	WAIT(gtk_widget_get_width(page) > 0 && gtk_widget_grab_focus(page));
+	return look(page);
+}
+
+/* A mistake is marked in the sheet that shows it, as in one that is opened later. */
+static void test_marks(LadderDocument *document)
+{
+	const gsize at = (gsize)(strstr(sample, "%QX0.0") - sample);
+	GtkWidget *page = ladder_grid_view_new(document, 0);
+	GBytes *before = look_at(page), *now, *later;
+
+	CHECK(ladder_document_replace(document, at, 6, "Wrong_", NULL));
+	CHECK_SOON(ladder_document_diags(document)->errors > 0);
+	now = look(page);
+	later = look_at(ladder_grid_view_new(document, 0));
+	CHECK_AS(!g_bytes_equal(before, now), "another name is shown");
+	CHECK_AS(g_bytes_equal(now, later), "a mistake is marked at once");
+	CHECK(ladder_document_replace(document, at, 6, "%QX0.0", NULL));
+	g_bytes_unref(before);
+	g_bytes_unref(now);
+	g_bytes_unref(later);
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 500, 200, &window);
@@ -193,6 +219,7 @@ int main(void)
 	test_sheet(document, ladder_grid_view_new(document, 0), 0.5, VERB_comment);
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	test_drag(document);
+	test_marks(document);
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
