@@ -35,6 +35,8 @@ static void end_image(struct resource *resource)
 
 static enum fault run_program(struct resource *resource, uint32_t entry, bool watch)
 {
+	if (resource->vm.run)
+		return resource->vm.run(&resource->vm, entry, watch);
 	return resource->still && !watch ? still_run(resource->still, &resource->vm, entry) :
 					   vm_run(&resource->vm, entry, watch);
 }

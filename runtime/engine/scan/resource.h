@@ -44,6 +44,11 @@ struct pace_part {
 	uint8_t task;
 	bool whole;        /* the run ended; otherwise it goes on later       */
 };
+/* A jump back, the words that a round costs, and those that the last safe point in it counted too
+ * much. */
+struct pace_loop { const uint32_t *from; uint32_t words, behind; };
+#define PACE_LOOPS 8
+
 struct paced {
 	uint64_t speed;              /* words a millisecond; 0: work takes no time */
 	uint64_t most;               /* words left in this period when it began */
@@ -53,6 +58,9 @@ struct paced {
 	int64_t begin_ns;            /* of the work in this period            */
 	struct pace_part part[PACE_PARTS]; /* the first ones of this period   */
 	uint32_t parts;
+#ifndef RUNGBOARD_SMALL
+	struct pace_loop loop[PACE_LOOPS]; /* those of this period, by `from` */
+#endif
 };
 
 /* A task that runs, or was interrupted and goes on later. */

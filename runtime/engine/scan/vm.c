@@ -254,6 +254,7 @@ static enum fn_status (*const fn_table[WORD_KNOWN])(struct fn_args *) = {
 #include "engine/catalog.def"
 };
 
+#ifndef VM_COUNTS_BACK
 enum fn_status vm_function(enum word word, struct fn_args *args)
 {
 	return fn_table[word](args);
@@ -271,6 +272,7 @@ const char *fault_text(enum fault fault)
 
 	return fault < FAULT_COUNT ? text[fault] : "unknown";
 }
+#endif
 
 /* Contacts become these: a bit by a truth table of three others. Without branches, so
  * that its time does not depend on the inputs. The index is 0..7, as the verifier
@@ -296,7 +298,7 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return pc;
 }
 
-#ifndef RUNGBOARD_SMALL
+#if !defined(RUNGBOARD_SMALL) && !defined(VM_COUNTS_BACK)
 void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n)
 {
 	run_lut(memory, part, n);
@@ -569,6 +571,17 @@ static inline bool pay(uint32_t *budget, uint32_t cost)
 	return true;
 }
 
+/* engine/trial/vm_counting.c is this file again, with a call at each jump back. */
+#ifdef VM_COUNTS_BACK
+static inline void count_back(struct vm *vm, const uint32_t *from, const uint32_t *to)
+{
+	if (to <= from && (*to & 0xff) != VM_EACH)
+		vm->went_back(vm, from);
+}
+#else
+#define count_back(vm, from, to) ((void)0)
+#endif
+
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 {
 	const struct program *program = vm->program;
@@ -685,6 +698,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
+			count_back(vm, pc, base + pc[1]);
 			pc = base + pc[1];
 			n = *pc >> 8;
 			/* Back to EACH, for the next active step. */
@@ -699,6 +713,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
+			count_back(vm, pc, base + pc[1]);
 			pc = base + pc[1];
 			n = *pc >> 8;
 			if ((*pc & 0xff) == VM_EACH)

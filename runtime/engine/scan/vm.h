@@ -42,6 +42,11 @@ struct vm {
 	uint32_t until;        /* LUT of the section where vm_run() ends; 0: none. Set before
 				* each call; it is 0 afterwards. Not with SMALL=1 */
 	uint32_t called;       /* words of CODE_TEXT of all programs that were called; wraps */
+#ifndef RUNGBOARD_SMALL
+	/* What runs programs; NULL: vm_run(). And what vm_run_counting() calls before it jumps back. */
+	enum fault (*run)(struct vm *vm, uint32_t entry, bool watch);
+	void (*went_back)(struct vm *vm, const uint32_t *from);
+#endif
 };
 
 /**
@@ -54,6 +59,10 @@ struct vm {
  * wants it; vm->resume tells where the next call goes on.
  */
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
+/** vm_run_counting - as vm_run(), and calls vm->went_back() before each jump back, but not before one to
+ * an EACH. For the simulation: a board has no use for it, and it would cost vm_run() a part of its speed.
+ * Scan-safe, fails: as vm_run(). */
+enum fault vm_run_counting(struct vm *vm, uint32_t entry, bool watch);
 
 /** vm_look_up - runs @n parts of a LUT, the first one at @part. Scan-safe: yes. */
 void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n);

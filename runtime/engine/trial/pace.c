@@ -4,6 +4,7 @@
  */
 #include "engine/trial/pace.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #define MS_NS     1000000
@@ -52,6 +53,75 @@ static void ran(struct resource *resource, uint32_t task, uint64_t from, bool wh
 			at_most(from), at_most(resource->words), (uint8_t)task, whole };
 }
 
+/* ---- rounds of loops ---- */
+
+static bool is_back(const uint32_t *base, const uint32_t *pc)
+{
+	const uint32_t op = *pc & 0xff;
+
+	return (op == VM_JMP || op == VM_JMPC) && base + pc[1] <= pc && (base[pc[1]] & 0xff) != VM_EACH;
+}
+
+/* The program that the words at @pc are of. */
+static const struct code_program *entry_of(const struct program *program, uint32_t pc, bool watch)
+{
+	const struct code_program *at = program->entry;
+
+	while (pc - (watch ? at->watch : at->text) >= (watch ? at->watch_words : at->text_words))
+		at++;
+	return at;
+}
+
+/* The same jump in the code that is not watched: its loops are the same, in the same order. */
+static const uint32_t *unwatched(const struct program *program, const uint32_t *from)
+{
+	const struct code_program *at = entry_of(program, (uint32_t)(from - program->watch), true);
+	const uint32_t *pc = program->watch + at->watch, *text = program->text + at->text;
+	uint32_t before = 0;
+
+	for (; pc < from; pc += code_words(pc))
+		before += is_back(program->watch, pc);
+	while (!is_back(program->text, text) || before-- > 0)
+		text += code_words(text);
+	return text;
+}
+
+/* Each safe point counts the words up to the next one, also those behind the loop: so a round costs
+ * the words before its first point, less those behind the loop. */
+static struct pace_loop round_of(const struct resource *resource, const uint32_t *from)
+{
+	const struct program *program = resource->image.program;
+	const struct code_program *at;
+	struct pace_loop loop = { .from = from };
+	const uint32_t *pc, *end;
+
+	if (program->watch_words && from >= program->watch && from < program->watch + program->watch_words)
+		from = unwatched(program, from);
+	at = entry_of(program, (uint32_t)(from - program->text), false);
+	for (pc = program->text + from[1]; pc <= from; pc += code_words(pc)) {
+		if (resource->vm.at_point && (*pc & 0xff) == VM_POINT)
+			break;
+	}
+	loop.words = (uint32_t)(pc - (program->text + from[1]));
+	if (pc > from)
+		return loop;
+	end = program->text + at->text + at->text_words;
+	for (pc = from + code_words(from); pc < end && (*pc & 0xff) != VM_POINT; pc += code_words(pc))
+		loop.behind += code_words(pc);
+	return loop;
+}
+
+static void went_back(struct vm *vm, const uint32_t *from)
+{
+	struct resource *resource = (struct resource *)((char *)vm - offsetof(struct resource, vm));
+	struct pace_loop *known = &resource->pace.loop[(uintptr_t)from / sizeof(*from) % PACE_LOOPS];
+
+	if (known->from != from)
+		*known = round_of(resource, from);
+	vm->called += known->words;
+	resource->words -= known->behind;
+}
+
 static const struct interrupts by_words = { .asks = asks, .ran = ran };
 
 /* Others have hooks of their own: a record, a board. */
@@ -76,6 +146,7 @@ void pace_set(struct resource *resource, uint64_t speed)
 		pace_finish(resource);
 		resource->interrupts = NULL;
 		resource->clock_ns = NULL;
+		resource->vm.run = NULL;
 		resource->patience = 0;
 		resource->late = false;
 		resource->scan_us = 0;
@@ -102,6 +173,9 @@ static void ready(struct resource *resource, int64_t now_ns, uint64_t words)
 	resource->vm.ask = 1;
 	resource->interrupts = &by_words;
 	resource->clock_ns = clock_of;
+	memset(pace->loop, 0, sizeof(pace->loop));
+	resource->vm.run = vm_run_counting;
+	resource->vm.went_back = went_back;
 	resource->patience = PACE_PATIENCE;
 }
 

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_pace - virtual time with a speed: which period does how much work, what a period sees,
- * late scans, watchdogs, acts in the middle of a scan, and a record.
+ * late scans, watchdogs, acts in the middle of a scan, rounds of loops, and a record.
  */
+#include "engine/scan/code.h"
 #include "engine/trial/pace.h"
 #include "engine/trial/record.h"
 #include "engine/trial/session.h"
 #include "tests/unit/rig.h"
+
+#include <stdarg.h>
 
 #define MS INT64_C(1000000)
 
@@ -78,7 +81,8 @@ static void scans(int count)
 /* Stands at scan 52 of 1 ms with K = 1 … 19. */
 static void stand(uint64_t speed)
 {
-	CHECK(act(ACT_START, 0));
+	/* The first scan is not interrupted: with a speed it would take three periods. */
+	CHECK(act(ACT_SPEED, 0) && act(ACT_START, 0));
 	scans(50);
 	CHECK(get("N") == 50 && get("K") == 20 && act(ACT_SPEED, (int64_t)speed));
 	scans(1);
@@ -88,7 +92,7 @@ static void stand(uint64_t speed)
 static void sees(void)
 {
 	CHECK(open_twin(pair));
-	stand(120);
+	stand(115);
 	/* The inputs of Slow are those of its begin; Fast and the lines get new ones. */
 	CHECK(set("Go", 1) && get("Q0") == 0);
 	scans(1);
@@ -291,6 +295,209 @@ static void sessions(void)
 	close_twin();
 }
 
+/* ---- rounds of loops ---- */
+
+/* The rounds of a loop are given while it runs: in a program without tasks, in a task of the
+ * highest priority, and in a block that one calls. */
+#define ROUND "  LD K\n  ADD 1\n  ST K\n  LT Rounds\n  JMPC Again\n"
+#define SUM   "  LD 0\n  ST K\nAgain:\n" ROUND
+#define VARS  "VAR_GLOBAL\n  Rounds, N : INT := 1;\nEND_VAR\n"
+#define LOOP_BLOCK "FUNCTION_BLOCK Sum IL\nVAR\n  K : INT;\nEND_VAR\n" SUM "END_FUNCTION_BLOCK\n"
+#define TOP   "CONFIGURATION Plant\n  TASK T1 (INTERVAL := T#1ms, PRIORITY := 0);\n" \
+	"  TASK T2 (INTERVAL := T#1s, PRIORITY := 1);\n  PROGRAM A WITH T1 : Main;\n" \
+	"  PROGRAM B WITH T2 : Low;\nEND_CONFIGURATION\nPROGRAM Low IL\n  LD N\n  ST N\nEND_PROGRAM\n"
+static const char *const looping[] = {
+	"RUNGBOARD 1\n" VARS "PROGRAM Main IL\nVAR\n  K : INT;\nEND_VAR\n" SUM "END_PROGRAM\n",
+	"RUNGBOARD 1\n" VARS TOP "PROGRAM Main IL\nVAR\n  K : INT;\nEND_VAR\n" SUM "END_PROGRAM\n",
+	"RUNGBOARD 1\n" VARS LOOP_BLOCK "PROGRAM Main IL\nVAR\n  S : Sum;\nEND_VAR\n  CAL S()\nEND_PROGRAM\n",
+	"RUNGBOARD 1\n" VARS TOP LOOP_BLOCK
+	"PROGRAM Main IL\nVAR\n  S : Sum;\nEND_VAR\n  CAL S()\nEND_PROGRAM\n",
+};
+
+/* Words of the next whole scan. */
+static uint64_t words_for(int64_t rounds)
+{
+	CHECK(set("Rounds", rounds));
+	scans(1);
+	CHECK(!twin.resource.standing && twin.resource.state == STATE_RUN);
+	return twin.resource.pace.taken;
+}
+
+static void rounds(void)
+{
+	uint64_t one, round;
+
+	for (size_t i = 0; i < sizeof(looping) / sizeof(looping[0]); i++)
+		for (int watch = 0; watch < 2; watch++) {
+			CHECK(open_twin(looping[i]));
+			twin.resource.watch = watch;
+			CHECK(act(ACT_START, 0) && act(ACT_SPEED, (int64_t)PACE_SPEED_MOST));
+			scans(2);
+			one = words_for(1);
+			round = words_for(2) - one;
+			CHECK(round > 10 && round < one && words_for(100) == one + 99 * round &&
+			      words_for(1000) == one + 999 * round && words_for(1) == one);
+			/* The schedule: ten rounds a period, so 30 rounds are over in the fourth one. */
+			CHECK(act(ACT_SPEED, (int64_t)(10 * round)) && set("Rounds", 30));
+			scans(1);
+			CHECK(twin.resource.late);
+			scans(2);
+			CHECK(twin.resource.late);
+			scans(1);
+			CHECK(twin.resource.scan_us == (one + 29 * round) * 1000 / (10 * round));
+			close_twin();
+		}
+}
+
+/* A program of nested loops and calls, and its blocks; the model knows how often each loop turns. */
+struct maker {
+	char text[32 * 1024];
+	size_t used;
+	struct { int rounds; uint64_t turns; } loop[60];
+	int loops, variable;
+	uint32_t seed;
+};
+
+static uint32_t any(struct maker *maker, uint32_t below)
+{
+	maker->seed = maker->seed * 1664525 + 1013904223;
+	return (maker->seed >> 8) % below;
+}
+
+static void say(struct maker *maker, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	maker->used += (size_t)vsnprintf(maker->text + maker->used, sizeof(maker->text) - maker->used,
+					 format, args);
+	va_end(args);
+	if (maker->used >= sizeof(maker->text))
+		abort();
+}
+
+/* @times: how often this part of the body runs in a call. @calls: gets how often each of two blocks
+ * is called. */
+static void make_part(struct maker *maker, int depth, uint64_t times, uint64_t *calls)
+{
+	const uint32_t kind = any(maker, depth < 3 && maker->loops < 50 ? 6 : 3);
+	int here, number;
+
+	if (kind == 2 && calls) {
+		here = (int)any(maker, 2);
+		calls[here] += times;
+		say(maker, "  CAL Own%d()\n", here);
+		return;
+	}
+	if (kind < 3) {
+		say(maker, "  LD N\n  ADD %u\n  MOD 1000\n  ST N\n", any(maker, 9));
+		return;
+	}
+	number = maker->variable++;
+	here = (int)any(maker, 6) + 1;
+	say(maker, "  LD 0\n  ST K%d\nL%d:\n", number, number);
+	for (int i = (int)any(maker, 3); i >= 0; i--)
+		make_part(maker, depth + 1, times * (uint64_t)here, calls);
+	say(maker, "  LD K%d\n  ADD 1\n  ST K%d\n  LT %d\n  JMPC L%d\n", number, number, here, number);
+	/* In the order of their jumps back, as in the code. */
+	maker->loop[maker->loops].rounds = here;
+	maker->loop[maker->loops++].turns = times * (uint64_t)(here - 1);
+}
+
+/* Gives the words of a call without those of blocks. */
+static void make_pou(struct maker *maker, const char *kind, const char *name, bool calls, uint64_t *called)
+{
+	maker->loops = maker->variable = 0;
+	say(maker, "%s %s IL\nVAR\n%s", kind, name, calls ? "  Own0 : B0;\n  Own1 : B1;\n" : "");
+	for (int i = 0; i < 60; i++)
+		say(maker, "  K%d : INT;\n", i);
+	say(maker, "END_VAR\n  LD N\n  ST N\n");
+	for (int i = (int)any(maker, 3); i >= 0; i--)
+		make_part(maker, 0, 1, calls ? called : NULL);
+	say(maker, "END_%s\n", kind);
+}
+
+/* The words of a call of the POU that was made last, its blocks apart. */
+static uint64_t model(const struct maker *maker, const char *name)
+{
+	const struct program *program = ladder_program(ladder);
+	const struct code_program *at = program->entry;
+	const uint32_t *pc;
+	uint64_t words;
+	int loop = 0;
+
+	while (strcmp(program->string + at->name, name) != 0)
+		at++;
+	words = at->text_words;
+	for (pc = program->text + at->text; pc < program->text + at->text + at->text_words;
+	     pc += code_words(pc)) {
+		const uint32_t *to = program->text + pc[1];
+
+		if ((*pc & 0xff) != VM_JMPC || to > pc)
+			continue;
+		words += maker->loop[loop++].turns * (uint64_t)(pc - to + code_words(pc));
+	}
+	CHECK(loop == maker->loops);
+	return words;
+}
+
+/* A random program: it takes what the model says, watched or not, alone, in a task that interrupts and in
+ * one that is interrupted. */
+static bool is_as_model(uint32_t seed)
+{
+	static const char *const name[] = { "B0", "B1", "Main" };
+	static struct maker maker, made[3];
+	uint64_t calls[2] = { 0, 0 }, wanted, seen[2];
+	const uint32_t kind = seed % 3;
+	bool over;
+
+	maker.seed = seed;
+	maker.used = 0;
+	say(&maker, "RUNGBOARD 1\nVAR_GLOBAL\n  N, M : INT;\nEND_VAR\n");
+	if (kind)
+		say(&maker, "CONFIGURATION Plant\n  TASK T1 (INTERVAL := T#1ms, PRIORITY := %d);\n"
+		    "  TASK T2 (INTERVAL := T#1s, PRIORITY := 1);\n  PROGRAM A WITH T1 : Main;\n"
+		    "  PROGRAM B WITH T2 : Other;\nEND_CONFIGURATION\nPROGRAM Other IL\n  LD M\n  ST M\n"
+		    "END_PROGRAM\n", kind == 1 ? 0 : 2);
+	for (int i = 0; i < 3; i++) {
+		make_pou(&maker, i < 2 ? "FUNCTION_BLOCK" : "PROGRAM", name[i], i == 2, calls);
+		memcpy(made[i].loop, maker.loop, sizeof(maker.loop));
+		made[i].loops = maker.loops;
+	}
+	if (!open_twin(maker.text)) {
+		close_twin();
+		return false;
+	}
+	wanted = model(&made[2], "Main") + calls[0] * model(&made[0], "B0") + calls[1] * model(&made[1], "B1");
+	CHECK(act(ACT_START, 0) && act(ACT_SPEED, (int64_t)PACE_SPEED_MOST));
+	scans(2);
+	for (int watch = 0; watch < 2; watch++) {
+		twin.resource.watch = watch;
+		scans(1);
+		seen[watch] = twin.resource.pace.taken;
+	}
+	over = twin.resource.state == STATE_FAULT && twin.resource.fault == FAULT_BUDGET;
+	close_twin();
+	if (over && wanted > LIMIT_BUDGET / 4)
+		return true;
+	if (seen[0] == wanted && seen[1] == wanted)
+		return true;
+	printf("# %u: %llu words, watched %llu, the model %llu\n", seed, (unsigned long long)seen[0],
+	       (unsigned long long)seen[1], (unsigned long long)wanted);
+	return false;
+}
+
+static void loops(void)
+{
+	const char *wanted = getenv("LOOP_COUNT");
+	const uint32_t most = wanted ? (uint32_t)strtoul(wanted, NULL, 10) : 200;
+	uint32_t same = 0;
+
+	for (uint32_t seed = 0; seed < most; seed++)
+		same += is_as_model(seed) ? 1 : 0;
+	CHECK_AS(same == most, "random programs with loops take the words of the model");
+}
+
 static void reads(void)
 {
 	static const struct { const char *text; uint64_t speed; } given[] = {
@@ -318,5 +525,7 @@ int main(void)
 	one_task();
 	watchdogs();
 	sessions();
+	rounds();
+	loops();
 	return tap_done();
 }
