@@ -203,7 +203,7 @@ $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 # ladderd and ladder-guard with lines that both share.
 GUARD_FAKES := $(HAL_TEST)/guarded_ladderd $(HAL_TEST)/guarded_guard
-GUARD_WRAP  := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl,--wrap=opendir,--wrap=syscall,--wrap=waitpid
+GUARD_WRAP  := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl,--wrap=opendir,--wrap=poll,--wrap=syscall,--wrap=waitpid
 $(HAL_TEST)/guarded_ladderd: $(LADDERD) $(call obj,tests/hal/guard_fake.c $(HAL_CORE) hal/gpio_find.c hal/gpio_uapi.c) $(BUILD)/libonline.a $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(GUARD_WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm

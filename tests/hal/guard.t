@@ -590,6 +590,33 @@ END
 	is($good, $all, "the same through the guard, $all times");
 }
 
+# While the dynamic loader still runs nothing can hold them; no line is taken then.
+{
+	fresh();
+	my $alone = $guard;
+	$guard = 'env';
+	is(finish(start("FAKE_EARLY=15", @ladderd)), 'signal 15', 'a signal while it is loaded, alone: it ends, and no line was touched');
+	$guard = $alone;
+	ok(!(grep { $_->[1] ne '' } lines()), 'indeed none');
+	is(finish(start(named(), '--', 'env', 'FAKE_EARLY=15', @ladderd)), 0, 'under the guard the signal waits: it ends in order');
+	ok(is_at('ladderd', 0, 1), 'with safe outputs');
+}
+
+# ---- signals while ladderd waits for the answer of the guard ----
+# It must not go on without the answer: an output that holds would begin at 0.
+{
+	my $holds = spew("$dir/holds.io", "BOARD \"panel\"\n%QX0.0 gpio line=OUT0 safe=hold\n%QX0.1 gpio line=OUT1 safe=1\n");
+	fresh();
+	$pid = start(named(), '--', 'env', 'FAKE_INTERRUPTED=3', $ladderd, $rung, '--io', $holds);
+	until_it(\&runs);
+	my ($was, $changes) = (child($pid), (lines())[0][5]);
+	kill 'KILL', $was;
+	ok(until_it(sub { (lines())[1][3] && runs() && child($pid) != $was }), 'interrupted while it asks for its lines: it begins');
+	is((lines())[0][5], $changes, 'with the level that is held');
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
 # ---- refused ----
 {
 	my @name = named();

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
  * guard_fake - a chip that several processes share: gpiochip0 with the lines IN0, IN1, OUT0, OUT1 …,
- * label "panel". Linked with --wrap for open, close, ioctl, opendir, syscall and waitpid into ladderd and
+ * label "panel". Linked with --wrap for open, close, ioctl, opendir, poll, syscall and waitpid into ladderd and
  * ladder-guard.
  *
  *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
  *   FAKE_LINES   how many lines (6)
  *   FAKE_BUSY    a file that another process has open, as a watchdog device
+ *   FAKE_EARLY   a signal that comes while ladderd is loaded, before main()
+ *   FAKE_INTERRUPTED  how many calls of poll() a signal interrupts first
  *   FAKE_NO_PIDFD  if set, the kernel knows no pidfd_open()
  *   FAKE_SHARED  file of the lines: for each 56 bytes: int64 ns of CLOCK_MONOTONIC of its last
  *                write, int32 level, char[20] consumer, int64 ns and level when ladder-guard
@@ -23,6 +25,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/gpio.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -63,6 +66,8 @@ int __wrap_ioctl(int fd, unsigned long what, ...);
 DIR *__wrap_opendir(const char *path);
 long __real_syscall(long number, ...);
 long __wrap_syscall(long number, ...);
+int __real_poll(struct pollfd *fd, nfds_t count, int timeout);
+int __wrap_poll(struct pollfd *fd, nfds_t count, int timeout);
 pid_t __real_waitpid(pid_t pid, int *status, int how);
 pid_t __wrap_waitpid(pid_t pid, int *status, int how);
 
@@ -85,6 +90,20 @@ __attribute__((constructor)) static void begin(void)
 	if (file < 0 || line == MAP_FAILED)
 		abort();
 	reads = (volatile int64_t *)(line + lines);
+	if (getenv("FAKE_EARLY"))
+		raise(atoi(getenv("FAKE_EARLY")));
+}
+
+int __wrap_poll(struct pollfd *fd, nfds_t count, int timeout)
+{
+	static int interrupted;
+	const char *times = getenv("FAKE_INTERRUPTED");
+
+	if (times && interrupted < atoi(times)) {
+		interrupted++;
+		return errno = EINTR, -1;
+	}
+	return __real_poll(fd, count, timeout);
 }
 
 long __wrap_syscall(long number, ...)

@@ -122,14 +122,17 @@ static void test_restart(void)
 	note("Gone", ALARM_UNACK, 1, 1);
 	note("Seen", ALARM_ACKED, 1, 1);
 	note("Again", ALARM_UNACK, 1, 1);
+	note("Seen again", ALARM_ACKED, 1, 1);
 	alarm_list_raise(list, ALARM_IO, true, 1);
 	alarm_list_doubt(list, false);
 	note("Again", ALARM_UNACK, 1, 90);
+	note("Seen again", ALARM_UNACK, 1, 90); /* its block is not retained */
 	alarm_list_note(list, &sync);
 	CHECK(row_of("Gone")->state == ALARM_GONE_UNACK);
 	CHECK(row_of("Gone")->went_ns == 100);
 	CHECK(row_of("Seen")->state == ALARM_NORMAL);
 	CHECK(row_of("Again")->state == ALARM_UNACK);
+	CHECK(row_of("Seen again")->state == ALARM_UNACK);
 	CHECK(row_of("SYS_IO_FAULT")->state == ALARM_UNACK); /* it is of the board, not of the program */
 	alarm_list_doubt(list, true);
 	alarm_list_note(list, &sync);
