@@ -39,7 +39,6 @@ class Hand:
 
     def __init__(self, editor, number):
         self.editor, self.dice, self.keys = editor, random.Random(number), keys_of_window()
-        self.left, self.top, self.width, self.height = editor.place()
 
     def point(self):
         """A point below the heading, whose buttons close the window."""
@@ -59,6 +58,8 @@ class Hand:
                 'mousemove', *self.point(), 'sleep', '0.03', 'mouseup', '1']
 
     def acts(self, count):
+        """Where the window is now: a click beside it takes the keys away from it."""
+        self.left, self.top, self.width, self.height = self.editor.place()
         return [word for _ in range(count) for word in [*self.act(), 'sleep', '0.01']]
 
 
