@@ -312,10 +312,16 @@ static void popover_closed(GtkWidget *popover)
 	popover_drop_later(popover);
 }
 
-bool panel_cells_take(GtkWidget *cell, const char *text)
+LadderPanelRow *panel_cells_row(GtkWidget *cell)
 {
 	GtkListItem *item = item_of(cell);
-	LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
+
+	return item ? gtk_list_item_get_item(item) : NULL;
+}
+
+bool panel_cells_take(GtkWidget *cell, const char *text)
+{
+	LadderPanelRow *row = panel_cells_row(cell);
 
 	if (!row)
 		return false;
@@ -343,8 +349,7 @@ static void chosen(GtkWidget *popover, GtkListBoxRow *choice)
 static void open_form(GtkWidget *cell)
 {
 	const struct column *column = column_of(cell);
-	GtkListItem *item = item_of(cell);
-	LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
+	LadderPanelRow *row = panel_cells_row(cell);
 
 	if (row)
 		column->cells->open_form(column->cells->owner, row, column->field, cell);

@@ -50,6 +50,8 @@ void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, i
 /** panel_cells_update - as panel_list_update(); if the row of the focus or the selected row was
  * replaced, the row with its table and name follows. */
 void panel_cells_update(struct panel_list *list, GPtrArray *rows);
+/** panel_cells_row - the row that a cell shows; NULL: none. Borrowed. */
+LadderPanelRow *panel_cells_row(GtkWidget *cell);
 /** panel_cells_take - sets the text of a cell as if it had been typed; a refusal is shown in
  * the cell. False: refused. */
 bool panel_cells_take(GtkWidget *cell, const char *text);

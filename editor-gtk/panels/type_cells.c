@@ -187,7 +187,8 @@ static void make_array(struct array_form *form)
 	g_object_ref(cell);
 	gtk_popover_popdown(GTK_POPOVER(form->popover));
 	gtk_widget_grab_focus(cell);
-	panel_cells_take(cell, text);
+	if (panel_cells_row(cell) == form->row)
+		panel_cells_take(cell, text);
 	g_object_unref(cell);
 	g_free(text);
 }

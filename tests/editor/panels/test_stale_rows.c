@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_stale_rows - the symbol table is updated with a delay after a change: text typed
- * into a row goes to the declaration that the row shows, or is refused.
+ * into a row goes to the declaration that the row shows, or is refused; so does a type from the
+ * form of an array.
  */
 #include "editor-gtk/document/symbols.h"
 #include "editor-gtk/panels/symbols_view.h"
+#include "editor-gtk/panels/type_cells.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -79,6 +81,42 @@ static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
 	undo_all(view);
 }
 
+/* Opens the form of an array at the row of @name; returns the entry of its last index. */
+static GtkWidget *open_array(LadderSymbolsView *view, const char *name, GtkWidget **cell)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+
+	*cell = cell_with(GTK_WIDGET(view), "INT");
+	row->text[FIELD_NAME] = g_strdup(name);
+	row->text[FIELD_TYPE] = g_strdup("INT");
+	gtk_widget_grab_focus(*cell);
+	type_cells_open(document, row, FIELD_TYPE, *cell);
+	g_object_unref(row);
+	return cell_with(*cell, "9");
+}
+
+static bool has_focus(GtkWidget *cell)
+{
+	GtkWidget *focus = gtk_root_get_focus(gtk_widget_get_root(cell));
+
+	return focus && (focus == cell || gtk_widget_is_ancestor(focus, cell));
+}
+
+static void test_array(LadderSymbolsView *view)
+{
+	GtkWidget *cell, *last = open_array(view, "Spare", &cell);
+
+	CHECK(last);
+	gtk_popover_popdown(GTK_POPOVER(gtk_widget_get_ancestor(last, GTK_TYPE_POPOVER)));
+	turn(0);
+	CHECK_AS(has_focus(cell) && !cell_with(cell, "9"),
+		 "the form of an array gives the focus back when it closes");
+	last = open_array(view, "Other", &cell);
+	g_signal_emit_by_name(last, "activate");
+	CHECK_AS(!has("ARRAY"), "the form of an array changes no row that came to its place");
+	turn(0);
+}
+
 int main(void)
 {
 	LadderSymbolsView *view;
@@ -103,6 +141,7 @@ int main(void)
 	if (cell) {
 		test_moved(view, cell);
 		test_gone(view, cell);
+		test_array(view);
 	}
 	CHECK_AS(has(text), "an undo restores the text");
 	g_free(text);
