@@ -16,7 +16,7 @@ prefix   ?= /usr/local
 WERROR   ?= -Werror
 CFLAGS   ?= $(if $(filter 1,$(SMALL)),-Os,-O2) -g
 # time_t has 64 bits also on 32-bit boards, for dates after 2038.
-CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(LINK:serial=-DRUNGBOARD_SERIAL) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
+CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(LINK:serial=-DRUNGBOARD_SERIAL) $(if $(CROSS),$(STATIC:1=-DRUNGBOARD_WHOLE)) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
 # No fused multiply-add, or REAL would differ from board to board.
 STD      := -std=c11 -ffp-contract=off
 LDFLAGS  += $(STATIC:1=-static)

@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/digest.h"
+#include "engine/scan/image.h"
 #include "engine/scan/still.h"
 
 #include <stdlib.h>
@@ -257,7 +258,8 @@ static void print_code(const struct call *call, const struct program *program)
 	else
 		sink_printf(&call->out, "\nworst case    %u instructions\n",
 			    count);
-	print_stretches(program, &call->out);
+	if (HAS_STILL)
+		print_stretches(program, &call->out);
 }
 
 enum status cmd_code(struct call *call)

@@ -268,7 +268,7 @@ enum status machine_open(struct machine *machine, const char *path, int how)
 
 void machine_skip(struct machine *machine, const struct call *call)
 {
-	if (!call_flag(call, "--full-scan"))
+	if (HAS_STILL && !call_flag(call, "--full-scan"))
 		machine->resource.still = still_new(ladder_program(machine->ladder), STILL_LEAST,
 						    &machine->skip, NULL);
 }

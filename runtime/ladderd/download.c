@@ -134,7 +134,7 @@ static bool make_ready(struct download *download, struct standby *standby)
 	standby->views = calloc(3, standby->view_size);
 	standby->program.index = symbol_index_new(&standby->program, &standby->arena);
 	resource_init(&standby->resource, &standby->program, memory);
-	if (!download->cycle->full_scan)
+	if (HAS_STILL && !download->cycle->full_scan)
 		standby->resource.still = still_new(&standby->program, STILL_LEAST,
 						    &standby->arena, NULL);
 	code_identity(&standby->program, standby->identity);
@@ -455,7 +455,8 @@ static void take_lines(struct cycle *cycle, struct hal *lines)
 static void take(struct cycle *cycle, const struct resource *resource, const uint8_t identity[32])
 {
 	cycle->resource = *resource;
-	still_reset(cycle->resource.still);
+	if (HAS_STILL)
+		still_reset(cycle->resource.still);
 	cycle->store = NULL;
 	memcpy(cycle->identity_bytes, identity, sizeof(cycle->identity_bytes));
 	event_program(identity, cycle->identity);

@@ -11,8 +11,9 @@
 
 #include "engine/scan/code.h"
 
-/* A small board is built without scan/still.h: each scan runs the whole program. */
-#ifdef RUNGBOARD_SMALL
+/* A small board, and a static ladderd for another machine, are built without scan/still.h: each scan
+ * runs the whole program. */
+#if defined(RUNGBOARD_SMALL) || defined(RUNGBOARD_WHOLE)
 #define HAS_STILL 0
 #else
 #define HAS_STILL 1

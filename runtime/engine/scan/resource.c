@@ -17,7 +17,7 @@
 
 /* ---- leaving out what has not changed ---- */
 
-#ifndef RUNGBOARD_SMALL
+#if HAS_STILL
 static void begin_image(struct resource *resource, int64_t now_ns, bool watch)
 {
 	struct still *still = resource->still;
