@@ -263,7 +263,7 @@ static int wait_for_read(void)
 	const int64_t how = *reads;
 	sigset_t all;
 
-	if (how >= 2)
+	if (how >= 2 && !reads[2]) /* the first start that waits; ladder-guard starts it again */
 		reads[2] = clock_now();
 	sigfillset(&all);
 	if (how == 3)
