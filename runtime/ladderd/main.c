@@ -211,7 +211,8 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	resource_init(&cycle->resource, program, memory);
-	cycle->full_scan = options->full_scan;
+	if (HAS_STILL)
+		cycle->full_scan = options->full_scan;
 	if (HAS_STILL && !cycle->full_scan)
 		cycle->resource.still = still_new(program, STILL_LEAST, &load->arena, NULL);
 	if (daemon->slots.empty) {

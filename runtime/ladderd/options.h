@@ -26,10 +26,10 @@ struct options {
 	char name[64];         /* of the board; "": that of the map           */
 	struct store_wish retain; /* path NULL: no --retain                   */
 	bool no_pm_qos;        /* --rt leaves idle states alone               */
-	bool full_scan;        /* each scan runs the whole program            */
 	bool check, trace_io, attended, help, version;
 	const char *wrong;     /* the wrong argument                          */
 	const char *why;       /* what is wrong with it                       */
+	bool full_scan;        /* each scan runs the whole program            */
 };
 
 /** options_read - Scan-safe: no. Fails: false; sets `wrong` and `why`. */
