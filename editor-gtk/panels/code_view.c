@@ -14,9 +14,12 @@
 
 #include <string.h>
 
-/* The cell whose power is the result after a line. */
+/* A line of the text. A simulation keeps the result after each instruction; a board that of cells
+ * alone, whose power is the result after some lines. */
 struct spot {
-	int rung, row, col; /* 0-based; rung -1: none                             */
+	int at;             /* its index in the list; -1: no instruction          */
+	int rung, number;   /* 0-based: of which rung it is the how manieth       */
+	int row, col;       /* 0-based, of a cell of that rung; -1: none          */
 	bool out;           /* the power that it lets through, not what comes to it */
 };
 
@@ -71,22 +74,23 @@ static const struct cell *cell_of(const struct pou *pou, const struct il_line *l
 	       cell : NULL;
 }
 
-static struct spot spot_at(const struct il_line *line, bool out)
+static void set_cell(struct spot *spot, const struct il_line *line, bool out)
 {
-	return (struct spot){ (int)line->rung - 1, line->row - 1, line->col - 1, out };
+	spot->row = line->row - 1;
+	spot->col = line->col - 1;
+	spot->out = out;
 }
 
 /* @next: the instruction behind it, NULL: none. Neither stands in parentheses. */
-static struct spot spot_of(const struct pou *pou, const struct il_line *line,
-			   const struct il_line *next)
+static void find_cell(struct spot *spot, const struct pou *pou, const struct il_line *line,
+		      const struct il_line *next)
 {
 	const struct cell *cell = cell_of(pou, line);
 
 	if (cell)
-		return spot_at(line, is_contact(cell));
-	if (next && next->rung == line->rung && next->op != OP_LD && cell_of(pou, next))
-		return spot_at(next, false); /* which takes the result */
-	return (struct spot){ .rung = -1 };
+		set_cell(spot, line, is_contact(cell));
+	else if (next && next->rung == line->rung && next->op != OP_LD && cell_of(pou, next))
+		set_cell(spot, next, false); /* which takes the result */
 }
 
 static bool has_jumps(const struct il *il)
@@ -113,57 +117,158 @@ static int behind(const struct il *il, int i)
 	return i;
 }
 
-/* One for each line of the text: declarations, the list, END_PROGRAM. */
-static void find_spots(struct code_view *code, const struct pou *pou, const struct il *il,
-		       const char *text)
+/* Has code_listed() a number for it? */
+static bool is_instruction(const struct il_line *line)
 {
-	const struct spot none = { .rung = -1 };
-	int depth = 0, lines = 0, at;
+	return line->kind == IL_OP || line->kind == IL_FN || line->kind == IL_CLOSE ||
+	       line->kind == IL_LABEL || line->kind == IL_CALL;
+}
 
-	g_array_set_size(code->spots, 0);
+/* The cells of a ladder without jumps: else nobody knows which of its rungs have run. */
+static void find_cells(struct code_view *code, const struct pou *pou, const struct il *il, int at)
+{
+	int depth = 0;
+
 	if (pou->language != LANGUAGE_LD || has_jumps(il))
 		return;
-	for (int i = 0; i < il->count; i = behind(il, i))
-		lines++;
-	for (const char *end = text; (end = strchr(end, '\n')); end++)
-		g_array_append_val(code->spots, none);
-	at = (int)code->spots->len - 1 - lines; /* of the first line of the list */
-	for (int i = 0; at >= 0 && i < il->count; i = behind(il, i), at++) {
+	for (int i = 0; i < il->count; i = behind(il, i), at++) {
 		const struct il_line *line = &il->line[i];
 		const int next = behind(il, i);
 
 		depth += (line->kind == IL_OP || line->kind == IL_FN) &&
 			 line->modifiers & MOD_PAREN ? 1 : line->kind == IL_CLOSE ? -1 : 0;
 		if (depth == 0)
-			g_array_index(code->spots, struct spot, at) =
-				spot_of(pou, line, next < il->count ? &il->line[next] : NULL);
+			find_cell(&g_array_index(code->spots, struct spot, at), pou, line,
+				  next < il->count ? &il->line[next] : NULL);
 	}
 }
 
+/* One for each line of the text: declarations, the list, END_PROGRAM. */
+static void find_spots(struct code_view *code, const struct pou *pou, const struct il *il,
+		       const char *text)
+{
+	const struct spot none = { .at = -1, .rung = -1, .row = -1 };
+	int lines = 0, rung = -1, number = 0, first;
+
+	g_array_set_size(code->spots, 0);
+	for (int i = 0; i < il->count; i = behind(il, i))
+		lines++;
+	for (const char *end = text; (end = strchr(end, '\n')); end++)
+		g_array_append_val(code->spots, none);
+	first = (int)code->spots->len - 1 - lines; /* line of the list */
+	if (first < 0)
+		return;
+	for (int i = 0, at = first; i < il->count; i = behind(il, i), at++) {
+		struct spot *spot = &g_array_index(code->spots, struct spot, at);
+
+		if (!is_instruction(&il->line[i]))
+			continue;
+		number = rung == (int)il->line[i].rung - 1 ? number + 1 : 0;
+		rung = (int)il->line[i].rung - 1;
+		*spot = (struct spot){ .at = i, .rung = rung, .number = number, .row = -1 };
+	}
+	find_cells(code, pou, il, first);
+}
+
+/* How many instructions stand before line @end. */
+static uint32_t count_before(const struct il *il, int end)
+{
+	uint32_t count = 0;
+
+	for (int i = 0; i < end && i < il->count; i++)
+		count += is_instruction(&il->line[i]);
+	return count;
+}
+
+/* The line of the list that runs; -1: it has another one. Before a rung may now be others than
+ * there. */
+static int line_of_rung(const struct code_view *code, const struct spot *spot,
+			const struct il *running)
+{
+	const int rung = spot->rung < 0 ? -1 :
+		ladder_sim_rung(code->sim, code->document, code->pou, spot->rung);
+	int number = spot->number;
+
+	for (int i = 0; rung >= 0 && i < running->count; i++)
+		if ((int)running->line[i].rung - 1 == rung && is_instruction(&running->line[i]) &&
+		    number-- == 0)
+			return i;
+	return -1;
+}
+
+static const char *words(const struct project *project, uint32_t id)
+{
+	return id ? project_text(project, id) : "";
+}
+
+/* The same of a chart: all of it has to be as it runs. */
+static int line_of_chart(const struct spot *spot, const struct project *project,
+			 const struct il *il, const struct project *other, const struct il *running)
+{
+	const struct il_line *a = &il->line[spot->at], *b = &running->line[spot->at];
+
+	return running->count == il->count && a->kind == b->kind && a->op == b->op &&
+	       a->modifiers == b->modifiers && a->word == b->word &&
+	       strcmp(words(project, a->operand), words(other, b->operand)) == 0 ? spot->at : -1;
+}
+
+/* As a simulation keeps it. False: the program that runs keeps none, or runs another line. */
+static bool find_listed(const struct code_view *code, const struct project *project,
+			const struct il *il, const struct spot *spot, const struct live_map *map,
+			struct live_result *out)
+{
+	struct ladder *ladder = ladder_sim_ladder(code->sim);
+	const int pou = ladder_sim_pou(code->sim, code->document, code->pou);
+	const struct il *running = ladder && pou >= 0 ? ladder_il(ladder, pou) : NULL;
+	int line = -1;
+
+	if (running && project->pou[code->pou].language == LANGUAGE_LD)
+		line = line_of_rung(code, spot, running);
+	else if (running)
+		line = line_of_chart(spot, project, il, ladder_project(ladder), running);
+	return line >= 0 && live_map_listed(map, count_before(running, line) + 1, out);
+}
+
+/* As a board keeps it. */
+static bool find_power(const struct code_view *code, const struct project *project,
+		       const struct spot *spot, const struct live_map *map,
+		       struct live_result *out)
+{
+	const struct pou *pou = &project->pou[code->pou];
+	struct live_rung *live;
+	uint32_t at = LIVE_NOWHERE;
+
+	if (spot->row < 0 || spot->rung < 0 || spot->rung >= pou->rung_count)
+		return false;
+	live = live_rung_new(map, project, pou->rung[spot->rung],
+			     ladder_sim_rung(code->sim, code->document, code->pou, spot->rung));
+	if (spot->row < live->rows && spot->col < live->cols) {
+		const struct live_cell *cell = &live->cell[spot->row * live->cols + spot->col];
+
+		at = spot->out ? cell->out : cell->in;
+	}
+	live_rung_free(live);
+	*out = live_map_always(map);
+	out->at = (struct location){ .type = IEC_BOOL, .where = at };
+	return at != LIVE_NOWHERE;
+}
+
 /* Called by the text for each line that is on the screen, once a program. */
-static bool find_result(void *context, const struct live_map *map, int line, uint32_t *at)
+static bool find_result(void *context, const struct live_map *map, int line,
+			struct live_result *out)
 {
 	struct code_view *code = context;
 	struct ladder *ladder = ladder_document_checked(code->document);
 	const struct project *project = ladder ? ladder_project(ladder) : NULL;
 	const struct spot *spot = line < (int)code->spots->len ?
 		&g_array_index(code->spots, struct spot, line) : NULL;
-	const struct pou *pou = project && code->pou < project->pou_count ?
-		&project->pou[code->pou] : NULL;
-	struct live_rung *live;
+	const struct il *il = project && code->pou < project->pou_count ?
+		ladder_il(ladder, code->pou) : NULL;
 
-	if (!pou || !spot || spot->rung < 0 || spot->rung >= pou->rung_count)
+	if (!il || !spot || spot->at < 0 || spot->at >= il->count)
 		return false;
-	live = live_rung_new(map, project, pou->rung[spot->rung],
-			     ladder_sim_rung(code->sim, code->document, code->pou, spot->rung));
-	*at = LIVE_NOWHERE;
-	if (spot->row < live->rows && spot->col < live->cols) {
-		const struct live_cell *cell = &live->cell[spot->row * live->cols + spot->col];
-
-		*at = spot->out ? cell->out : cell->in;
-	}
-	live_rung_free(live);
-	return *at != LIVE_NOWHERE;
+	return find_listed(code, project, il, spot, map, out) ||
+	       find_power(code, project, spot, map, out);
 }
 
 /* ---- the text ---- */

@@ -6,9 +6,10 @@
  * The list is made when the panel is shown: for a large program that takes long, and a text
  * widget needs many times its size.
  *
- * A scan that is watched runs another list, which keeps the power of each cell. So a line of a
- * ladder's list has a result where that is the power at an end of a contact or coil, and no line
- * has one in a program with jumps: nobody knows which of its rungs have run.
+ * A simulation runs this list with further instructions, which keep the result after each line:
+ * code_listed(). A board keeps the power of each cell alone. So there a line of a ladder's list has
+ * a result where that is the power at an end of a contact or coil, and no line has one in a
+ * program with jumps: nobody knows which of its rungs have run.
  */
 #ifndef EDITOR_CODE_VIEW_H
 #define EDITOR_CODE_VIEW_H

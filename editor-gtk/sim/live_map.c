@@ -182,17 +182,33 @@ void live_map_power(const struct live_map *map, struct live_rung *rung)
 	}
 }
 
-bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out)
+static bool take_result(const struct live_map *map, const struct code_power *power,
+			struct live_result *out)
 {
-	const struct code_power *power = map->unit < 0 || !has_power(map) ? NULL :
-		code_result(map->program, (uint32_t)map->unit, line);
-
-	if (!power)
+	if (!power || !has_power(map))
 		return false;
 	out->ran = place_of(map, power->in);
 	out->at = (struct location){ .type = (enum iec_type)power->type,
 				     .where = place_of(map, power->out) };
 	return true;
+}
+
+bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out)
+{
+	return map->unit >= 0 &&
+	       take_result(map, code_result(map->program, (uint32_t)map->unit, line), out);
+}
+
+bool live_map_listed(const struct live_map *map, uint32_t number, struct live_result *out)
+{
+	return map->unit >= 0 &&
+	       take_result(map, code_listed(map->program, (uint32_t)map->unit, number), out);
+}
+
+struct live_result live_map_always(const struct live_map *map)
+{
+	return (struct live_result){ .ran = CODE_TRUE_AT(&map->program->areas),
+				     .at.type = IEC_NONE };
 }
 
 /* ---- instances ---- */

@@ -49,6 +49,11 @@ struct live_result {
 };
 /** live_map_result - of line @line of the file. Fails: false: no instruction is there. */
 bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out);
+/** live_map_listed - the same of instruction @number, from 1, of the list that a ladder or a chart
+ * becomes, as code_listed() counts it. Fails: false: the program keeps no such results. */
+bool live_map_listed(const struct live_map *map, uint32_t number, struct live_result *out);
+/** live_map_always - of a line that has run, without a value. */
+struct live_result live_map_always(const struct live_map *map);
 
 /* A piece of a text: a variable, or the text between two of them. */
 struct live_part {

@@ -594,12 +594,15 @@ static gboolean notified(gpointer data)
 
 /* ---- on and off ---- */
 
-struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
+typedef struct sim_program *(*ReadProgram)(struct ladder *, const char *, const char *, gsize,
+					   GError **);
+
+static struct sim_program *build(LadderSim *sim, ReadProgram read_program, GError **error)
 {
 	gsize len;
 	char *text = ladder_document_text(sim->document, &len);
 	const char *path = ladder_document_path(sim->document);
-	struct sim_program *program = sim_program_read(ladder_document_reader(sim->document),
+	struct sim_program *program = read_program(ladder_document_reader(sim->document),
 		g_intern_string(path ? path : "-"), text, len, error);
 
 	/* A list that cannot be read would run differently from its text. */
@@ -611,6 +614,11 @@ struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
 	}
 	g_free(text);
 	return program;
+}
+
+struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
+{
+	return build(sim, sim_program_read, error);
 }
 
 static void drop_source(LadderSim *sim)
@@ -669,7 +677,7 @@ static bool start(LadderSim *sim, gint64 period_ns, guint64 speed, GError **erro
 
 	if (!may_restart(sim, error))
 		return false;
-	program = ladder_sim_build(sim, error);
+	program = build(sim, sim_program_read_listed, error);
 	if (!program) {
 		ladder_document_check_now(sim->document);
 		return false;
@@ -829,7 +837,7 @@ static void rebuild_run(GTask *task, gpointer source, gpointer data,
 			GCancellable *cancellable)
 {
 	struct rebuild *rebuild = data;
-	struct sim_program *program = sim_program_read(g_steal_pointer(&rebuild->reader),
+	struct sim_program *program = sim_program_read_listed(g_steal_pointer(&rebuild->reader),
 		rebuild->file, rebuild->text, rebuild->len, NULL);
 
 	(void)source;

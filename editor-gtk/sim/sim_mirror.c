@@ -267,7 +267,7 @@ static bool knows(struct sim_source *source, struct location at)
 /* ---- cells ---- */
 
 /* The cells of a program, or of the body of an instance; `name` of the program image. */
-struct unit { const char *name; guint cell, count; guint32 shift; };
+struct unit { const char *name; guint cell, count; guint32 from, size, shift; };
 
 static bool find_cells(const struct program *program, guint pou, struct unit *unit)
 {
@@ -289,11 +289,13 @@ static bool find_unit(const struct program *program, const char *name, struct un
 		const struct code_watched *watched = &program->watched[i];
 
 		unit->name = program->string + watched->name;
+		unit->from = watched->from;
+		unit->size = watched->size;
 		unit->shift = watched->to - watched->from;
 		if (name_is(unit->name, name, len))
 			return find_cells(program, watched->pou, unit);
 	}
-	unit->shift = 0;
+	unit->from = unit->size = unit->shift = 0;
 	for (guint i = 0; i < program->entry_count && program->string_bytes; i++) {
 		unit->name = program->string + program->entry[i].name;
 		if (name_is(unit->name, name, len))
@@ -324,6 +326,12 @@ static bool has_power(struct sim_source *source, const char *name)
 	return false;
 }
 
+/* Power that is the same for all instances, such as that of the rail, is not copied. */
+static guint32 of_instance(const struct unit *unit, guint32 offset)
+{
+	return offset - unit->from < unit->size ? offset + unit->shift : offset;
+}
+
 void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 *bits)
 {
 	const struct program *program = program_of(mirror);
@@ -336,9 +344,9 @@ void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 
 		const struct code_power *cell = &program->power[unit.cell + i];
 		const guint two = bits[i / 4] >> i % 4 * 2 & 3;
 
-		memory[cell->in + unit.shift] = two & 1;
+		memory[of_instance(&unit, cell->in)] = two & 1;
 		if (!cell->type) /* else its value is published as that of a variable */
-			memory[cell->out + unit.shift] = two >> 1 & 1;
+			memory[of_instance(&unit, cell->out)] = two >> 1 & 1;
 	}
 	if (g_hash_table_add(mirror->powered, (gpointer)unit.name))
 		mirror->other = true;

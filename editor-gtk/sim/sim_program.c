@@ -86,8 +86,13 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 	return sim_program_read(ladder_new(), file, text, len, error);
 }
 
-struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
-				     gsize len, GError **error)
+static bool build(struct ladder *ladder, const char *file, const char *text, gsize len)
+{
+	return ladder_load_text(ladder, file, text, len) && ladder_build(ladder);
+}
+
+static struct sim_program *read_program(struct ladder *reader, const char *file, const char *text,
+					gsize len, bool listed, GError **error)
 {
 	struct sim_program *program = g_new0(struct sim_program, 1);
 
@@ -97,8 +102,11 @@ struct sim_program *sim_program_read(struct ladder *reader, const char *file, co
 	if (!program->ladder)
 		g_error("out of memory");
 	ladder_watch(program->ladder, true);
-	if (!ladder_load_text(program->ladder, file, program->text, len) ||
-	    !ladder_build(program->ladder)) {
+	ladder_watch_lists(program->ladder, listed);
+	if (listed && !build(program->ladder, file, program->text, len))
+		ladder_watch_lists(program->ladder, false);
+	if (!ladder_program(program->ladder) &&
+	    !build(program->ladder, file, program->text, len)) {
 		sim_program_say_why(ladder_project(program->ladder), ladder_diags(program->ladder),
 				    error);
 		sim_program_unref(program);
@@ -108,6 +116,18 @@ struct sim_program *sim_program_read(struct ladder *reader, const char *file, co
 	program->safe = iomap_safe_beside(g_str_equal(file, "-") ? NULL : file,
 					  &program->program->areas);
 	return program;
+}
+
+struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
+				     gsize len, GError **error)
+{
+	return read_program(reader, file, text, len, false, error);
+}
+
+struct sim_program *sim_program_read_listed(struct ladder *reader, const char *file,
+					    const char *text, gsize len, GError **error)
+{
+	return read_program(reader, file, text, len, true, error);
 }
 
 bool sim_program_open_image(struct sim_program *program, const void *bytes, gsize len)

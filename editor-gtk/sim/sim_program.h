@@ -28,6 +28,10 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 /** sim_program_read - the same by @reader, which is taken over: of ladder_document_reader(). */
 struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
 				     gsize len, GError **error);
+/** sim_program_read_listed - the same with results beside the lists that ladders and charts become:
+ * ladder_watch_lists(). No board runs it. A program that is too large with them has none. */
+struct sim_program *sim_program_read_listed(struct ladder *reader, const char *file,
+					    const char *text, gsize len, GError **error);
 /** sim_program_open_image - from now on the program is the image that a board runs, instead of
  * the translation of the same sources: places are those of the board. Fails: false: @bytes is
  * no image; nothing has changed. */

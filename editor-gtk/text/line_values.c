@@ -29,7 +29,6 @@ struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
 	struct location now, goal; /* of a call: what counts in the instance      */
 	bool instruction;         /* the program that runs has one here          */
-	bool power;               /* its result is the power of a cell           */
 	bool missing;             /* the board runs without this line            */
 	struct live_result result;
 	bool ran;                 /* as last looked at                           */
@@ -185,7 +184,7 @@ static void print_result(struct seen *seen, const struct image *image)
 		g_strlcpy(seen->after, _("not downloaded"), sizeof(seen->after));
 	if (!seen->instruction)
 		return;
-	seen->ran = seen->power || image->memory[seen->result.ran];
+	seen->ran = image->memory[seen->result.ran];
 	if (!seen->ran)
 		g_strlcpy(seen->after, _("not run"), sizeof(seen->after));
 	else if (seen->result.at.type != IEC_NONE)
@@ -244,9 +243,8 @@ static void find_result(LadderLineValues *values, int line, struct seen *seen)
 	int place;
 
 	if (values->finder) {
-		seen->result.at = (struct location){ .type = IEC_BOOL };
-		seen->power = seen->instruction = values->finder(values->context, values->map,
-			line, &seen->result.at.where);
+		seen->instruction = values->finder(values->context, values->map, line,
+						   &seen->result);
 		return;
 	}
 	if (!values->placed)

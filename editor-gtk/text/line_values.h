@@ -24,9 +24,10 @@ LadderLineValues *line_values_new(GtkSourceBuffer *buffer);
 void line_values_set_sim(LadderLineValues *values, LadderSim *sim);
 /** line_values_set_pou - the POU whose list is shown; "": none. */
 void line_values_set_pou(LadderLineValues *values, const char *pou);
-/* Where the power is that is the current result after line @line, from 0, of a list that was made
- * from a ladder: @at gets the offset of its byte. False: it is not known. */
-typedef bool (*LineResult)(void *context, const struct live_map *map, int line, uint32_t *at);
+/* The current result after line @line, from 0, of a list that is not in the file, as
+ * live_map_result() finds it. False: it is not known. */
+typedef bool (*LineResult)(void *context, const struct live_map *map, int line,
+			   struct live_result *out);
 /** line_values_set_result - for a list that is not in the file; @context: borrowed. */
 void line_values_set_result(LadderLineValues *values, LineResult result, void *context);
 /** line_values_text - of the operand of a line, from 0: "3.2 s / 5 s"; NULL: none. Borrowed until

@@ -33,7 +33,7 @@ struct ladder {
 	const void *image;
 	size_t image_len;
 	struct program program;
-	bool good, built, unreadable, watch; /* good: the last load succeeded */
+	bool good, built, unreadable, watch, lists; /* good: the last load succeeded */
 	bool leaves;              /* constant expressions are not computed  */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
 	struct ladder_files files; /* load NULL: the disk                    */
@@ -284,6 +284,11 @@ void ladder_watch(struct ladder *ladder, bool watch)
 	ladder->watch = watch;
 }
 
+void ladder_watch_lists(struct ladder *ladder, bool lists)
+{
+	ladder->lists = lists;
+}
+
 bool ladder_could_read(const struct ladder *ladder)
 {
 	return !ladder->unreadable;
@@ -425,6 +430,7 @@ static bool begin_translation(struct ladder *ladder)
 	t->diags = &ladder->diags;
 	t->scope = scope_new(ladder->project, &ladder->arena);
 	t->unit_count = ladder->project->pou_count;
+	t->listing = ladder->lists;
 	t->unit = arena_alloc(&ladder->arena, ((size_t)t->unit_count + 1) *
 			      sizeof(*t->unit));
 	return t->scope && t->unit;

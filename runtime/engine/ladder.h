@@ -105,6 +105,11 @@ void ladder_leave_expressions(struct ladder *ladder, bool leave);
  * power of every cell can be read. Off at first. */
 void ladder_watch(struct ladder *ladder, bool watch);
 
+/** ladder_watch_lists - whether the instrumented section of later builds also keeps the current
+ * result after each line of the lists that ladders and charts become: code_listed(). Such an image
+ * is larger and slower; it is for a simulation, never for a board. Off at first. */
+void ladder_watch_lists(struct ladder *ladder, bool lists);
+
 /**
  * ladder_build - checks the loaded project and translates it to a code image
  *

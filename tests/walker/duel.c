@@ -287,6 +287,8 @@ enum verdict duel_judge(const char *text, size_t len, const struct duel_plan *pl
 	duel.ladder = ladder_new();
 	if (duel.ladder)
 		ladder_watch(duel.ladder, true);
+	if (duel.ladder) /* as a simulation does, every other time */
+		ladder_watch_lists(duel.ladder, len % 2);
 	if (duel.ladder)
 		verdict = fight(&duel, text, len);
 	snprintf(why, size, "%s", duel.why);

@@ -422,8 +422,9 @@ static bool check_maps(struct verifier *v)
 	return true;
 }
 
-const struct code_power *code_result(const struct program *program, uint32_t pou,
-				     uint32_t line)
+/* Of row 0; its column is the last key. */
+static const struct code_power *find_result(const struct program *program, uint32_t pou,
+					    uint32_t line, uint16_t col)
 {
 	uint32_t low = 0, high = program->power_count;
 
@@ -432,14 +433,27 @@ const struct code_power *code_result(const struct program *program, uint32_t pou
 		const struct code_power *at = &program->power[middle];
 
 		/* Cells of a chart's rungs lie between the lines of its lists. */
-		if (at->pou == pou && at->rung == line && at->row == 0)
-			return at->col == CODE_LINE ? at : NULL;
-		if (at->pou > pou || (at->pou == pou && at->rung >= line))
+		if (at->pou == pou && at->rung == line && at->row == 0 && at->col == col)
+			return at;
+		if (at->pou > pou || (at->pou == pou && at->rung > line) ||
+		    (at->pou == pou && at->rung == line && (at->row || at->col > col)))
 			high = middle;
 		else
 			low = middle + 1;
 	}
 	return NULL;
+}
+
+const struct code_power *code_result(const struct program *program, uint32_t pou,
+				     uint32_t line)
+{
+	return find_result(program, pou, line, CODE_LINE);
+}
+
+const struct code_power *code_listed(const struct program *program, uint32_t pou,
+				     uint32_t number)
+{
+	return find_result(program, pou, number, CODE_LISTED);
 }
 
 void code_identity(const struct program *p, uint8_t out[32])

@@ -154,9 +154,11 @@ struct code_group {     /* symbols from here to the next group             */
 
 struct code_power {     /* what a watched scan keeps                       */
 	uint16_t pou;   /* index in CODE_PROGRAMS                          */
-	uint16_t row, col; /* of a cell, 1-based. 0, CODE_LINE: of a line of a list */
+	uint16_t row, col; /* of a cell, 1-based. 0, CODE_LINE: of a line of a list; 0,
+			   CODE_LISTED: of a line of a generated list      */
 	uint16_t type;  /* of out: 0 is BOOL, as older images of this version have */
-	uint32_t rung;  /* 1-based; of a list: line of the file             */
+	uint32_t rung;  /* 1-based; of a list: line of the file; of a generated list:
+			   number of the instruction                       */
 	uint32_t in;    /* offset in m of a BOOL: power at the cell's left end; has the
 			   line run in the last run of its POU?            */
 	uint32_t out;   /* offset in m: power that the cell lets through; the current
@@ -178,6 +180,7 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 			       of the file, in a list that was written     */
 };
 #define CODE_LINE UINT16_MAX
+#define CODE_LISTED (UINT16_MAX - 1)
 
 #define CODE_OFFSET_BITS 24
 #define CODE_OFFSET(word) ((word) & 0xffffffu)
@@ -239,6 +242,12 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
  * instruction is there, or the image has no map. `type` 0: it leaves no single value. */
 const struct code_power *code_result(const struct program *program, uint32_t pou,
 				     uint32_t line);
+/** code_listed - the same of a list that a ladder or a chart becomes
+ * @number: of the instruction, from 1; labels count, inputs and outputs of calls do not
+ *
+ * Fails: NULL, too, when the image has no such results: ladder_watch_lists(). */
+const struct code_power *code_listed(const struct program *program, uint32_t pou,
+				     uint32_t number);
 /** code_run_size - bytes of one value or instance of a run. Scan-safe: yes. */
 static inline uint32_t code_run_size(const struct code_run *run)
 {

@@ -548,7 +548,7 @@ static void begin_statement(struct list *list)
 	if (list->depth > 0 || list->pending_count > 0)
 		return;
 	list->as->scratch_used = 0;
-	if (list->as->pointed[unit_number(list)] && begins(list))
+	if (list->as->pointed[unit_number(list)] && !(line->mark & IL_WATCHING) && begins(list))
 		place_point(list, line->rung, line->line);
 }
 
@@ -636,6 +636,12 @@ static int *slot_of_line(const struct frame *frame, uint32_t line)
 	return slot && *slot != SLOT_NONE ? slot : NULL;
 }
 
+/* A chart copies a list to each place where it runs, among lines that translation makes. */
+static bool is_written(const struct il_line *line)
+{
+	return line->line > 0 && !line->rung;
+}
+
 static bool is_instruction(const struct il_line *line)
 {
 	switch ((enum il_kind)line->kind) {
@@ -644,7 +650,7 @@ static bool is_instruction(const struct il_line *line)
 	case IL_CLOSE:
 	case IL_LABEL:
 	case IL_CALL:
-		return line->line > 0 && !line->rung;
+		return true;
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
 	case IL_COMMENT:
@@ -690,16 +696,13 @@ static void note_result(struct list *list, struct frame *frame, int *slot, uint3
 }
 
 /* Second pass: into the places that they have got. */
-static void store_result(struct list *list, struct frame *frame, const int *slot)
+static void store_result(struct list *list, const struct result *result, bool always)
 {
 	const struct bits yes = bits_constant(true);
-	const struct result *result;
 
-	if (*slot == SLOT_FREE)
-		return;
-	result = &frame->result[*slot - 1];
-	bits_store(list->as, &yes, result->ran);
-	if (result->type == IEC_NONE || result->type != result_type(&list->now))
+	if (!always)
+		bits_store(list->as, &yes, result->ran);
+	if (result->kept || result->type == IEC_NONE || result->type != result_type(&list->now))
 		return;
 	if (list->now.kind == RESULT_BITS)
 		bits_store(list->as, &list->now.bits, result->at);
@@ -708,36 +711,108 @@ static void store_result(struct list *list, struct frame *frame, const int *slot
 			  list_operand(list, &list->now, result->type));
 }
 
-static void keep_result(struct list *list)
+/* Of a line that a person wrote. */
+static void keep_written(struct list *list, const struct il_line *line)
 {
-	const struct il_line *line = &list->il->line[list->at];
 	struct frame *frame = frame_of(list);
-	int *slot = keeps_results(list) && is_instruction(line) ?
+	int *slot = keeps_results(list) && is_written(line) ?
 		    slot_of_line(frame, line->line) : NULL;
 
 	if (!slot)
 		return;
-	if (list->as->text == &list->as->watch)
-		store_result(list, frame, slot);
-	else
+	if (list->as->text != &list->as->watch)
 		note_result(list, frame, slot, line->line);
+	else if (*slot != SLOT_FREE)
+		store_result(list, &frame->result[*slot - 1], false);
+}
+
+/* ---- the same of the list that a ladder or a chart becomes ---- */
+
+/* What comes behind it may not run; the result stays what it was. */
+static bool leaves(const struct il_line *line)
+{
+	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
+}
+
+/* Does each line run whenever the first one does? */
+static bool always_runs(const struct il *il)
+{
+	for (int i = 0; i < il->count; i++)
+		if (il->line[i].kind == IL_LABEL || il->line[i].kind == IL_EACH ||
+		    leaves(&il->line[i]))
+			return false;
+	return true;
+}
+
+/* What the line leaves as its result. Before a jump that nothing decides there may be one that is
+ * read no more, and watching does not keep that. */
+static enum iec_type type_after(const struct list *list, const struct il_line *line)
+{
+	return leaves(line) && !(line->modifiers & MOD_C) ? IEC_NONE : result_type(&list->now);
+}
+
+/* Is the result what it was before the line? Only of lines that always run. */
+static bool is_kept(const struct frame *frame, const struct il_line *line, enum iec_type type)
+{
+	return frame->always && line->kind == IL_OP && frame->listed_count > 0 &&
+	       (line->op == OP_ST || line->op == OP_S || line->op == OP_R) &&
+	       type != IEC_NONE && frame->listed[frame->listed_count - 1].type == type;
+}
+
+static void note_listed(struct list *list, struct frame *frame, const struct il_line *line)
+{
+	const enum iec_type type = type_after(list, line);
+	const struct result result = { .line = list->number, .type = type,
+				       .kept = is_kept(frame, line, type) };
+	struct result *listed = arena_push(list->as->arena, &frame->listed,
+					   &frame->listed_count, sizeof(*listed));
+
+	if (listed)
+		*listed = result;
+	else
+		list->as->failed = true;
+}
+
+/* Both sections have the same lines, but for those that keep power. */
+static void keep_listed(struct list *list, const struct il_line *line)
+{
+	struct frame *frame = frame_of(list);
+
+	if (!list->as->listing || list->pou->language == LANGUAGE_IL ||
+	    line->mark & IL_WATCHING)
+		return;
+	list->number++;
+	if (list->as->text != &list->as->watch)
+		note_listed(list, frame, line);
+	else if (list->number <= (uint32_t)frame->listed_count)
+		store_result(list, &frame->listed[list->number - 1], frame->always);
+}
+
+static void keep_result(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+
+	if (!is_instruction(line))
+		return;
+	keep_written(list, line);
+	keep_listed(list, line);
 }
 
 /* Before the first line no line has run. */
 static void clear_results(struct list *list)
 {
 	struct assembler *as = list->as;
-	const struct frame *frame = &as->frame[list->unit - as->translation->unit];
+	struct frame *frame = frame_of(list);
 
-	if (as->text == &as->watch && frame->result_count)
+	frame->always = always_runs(&list->unit->il);
+	if (as->text != &as->watch)
+		return;
+	if (frame->result_count)
 		emit_block(as, frame->result[0].ran, as->not_run,
 			   (uint32_t)frame->result_count);
-}
-
-/* What comes behind it may not run; the result stays what it was. */
-static bool leaves(const struct il_line *line)
-{
-	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
+	if (frame->listed_count && !frame->always)
+		emit_block(as, frame->listed[0].ran, as->not_run,
+			   (uint32_t)frame->listed_count);
 }
 
 static void assemble_one(struct list *list)
@@ -872,6 +947,7 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->arena = translation->arena;
 	as->areas = scope_areas(translation->scope);
 	as->watching = watch;
+	as->listing = watch && translation->listing;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
 	if (!as->entry || !layout_make(as) || !pack_tasks(as) || !find_pointed(as) ||

@@ -59,6 +59,7 @@ struct assembler {
 	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
 	struct frame *frame;       /* by unit                                 */
 	bool watching;             /* there will be an instrumented section   */
+	bool listing;              /* in which generated lists keep results   */
 	uint32_t **power;          /* by table, index: where an instance's
 				      power lies; 0: nowhere. NULL: unwatched */
 	uint32_t not_run;          /* as many FALSE as the longest list has lines */
@@ -91,9 +92,10 @@ struct assembler {
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
-/* The current result after a line of a written list. */
+/* The current result after a line of a list. */
 struct result {
-	uint32_t line;              /* of the file                            */
+	uint32_t line;              /* of the file; of a generated list: number of the instruction */
+	bool kept;                  /* it is the result before it             */
 	enum iec_type type;         /* IEC_NONE: no single value              */
 	uint32_t ran, at;           /* offsets: a BOOL; the value             */
 };
@@ -116,6 +118,9 @@ struct frame {
 	int power_run;              /* the first run of that                  */
 	struct result *result;      /* of written lists; only while watched   */
 	int result_count;
+	struct result *listed;      /* of its generated list; only while listing */
+	int listed_count;
+	bool always;                /* all lines run whenever the first one does */
 	int *slot_of;               /* by line from first_line on: SLOT_NONE, SLOT_FREE, or
 				     * 1 + its index in result                */
 	uint32_t first_line, lines;

@@ -20,6 +20,7 @@ struct element_state {
 	bool powered;      /* `leaf` holds its power already                  */
 	uint32_t leaf;     /* operand that gives its power; 0: NOT, or an output */
 	int next;          /* of those that read the same place; -1: last     */
+	uint32_t power;    /* while watched: what keeps its power; 0: none    */
 };
 
 /* A FOR whose NEXT has not come yet: operands and labels, as string ids. */
@@ -31,6 +32,7 @@ struct open_loop {
 struct net_state {
 	bool seen, prepared;
 	uint32_t temp;     /* variable that holds its power; 0: none          */
+	uint32_t power;    /* while watched: what keeps its power; 0: none    */
 };
 
 struct ld {
@@ -40,6 +42,8 @@ struct ld {
 	struct arena *scratch;
 	struct il *il;
 	bool watch, failed;
+	bool listing;      /* translation->listing, while watched             */
+	uint8_t mark;      /* of the next instructions: IL_WATCHING, or 0     */
 	const struct rung *rung;
 	struct network network;
 	struct element_state *element;

@@ -867,14 +867,23 @@ static int unit_of(const struct assembler *as, const struct var_table *vars,
 }
 
 /* First a byte for each line, so that one BLOCK clears all of them. */
-static void place_results(struct assembler *as, struct frame *frame)
+static void place_results(struct assembler *as, struct result *result, int count, bool always)
 {
-	for (int i = 0; i < frame->result_count; i++)
-		frame->result[i].ran = layout_tail(as, RUN_VALUES, IEC_BOOL);
-	for (int i = 0; i < frame->result_count; i++)
-		if (frame->result[i].type != IEC_NONE)
-			frame->result[i].at = place_values(as, RUN_VALUES,
-				frame->result[i].type, RESULT_TEXT, 1);
+	for (int i = 0; i < count; i++)
+		result[i].ran = always ? CODE_TRUE_AT(as->areas) :
+				layout_tail(as, RUN_VALUES, IEC_BOOL);
+	for (int i = 0; i < count; i++)
+		if (result[i].kept)
+			result[i].at = result[i - 1].at;
+		else if (result[i].type != IEC_NONE)
+			result[i].at = place_values(as, RUN_VALUES, result[i].type,
+						    RESULT_TEXT, 1);
+}
+
+static void place_lists(struct assembler *as, struct frame *frame)
+{
+	place_results(as, frame->result, frame->result_count, false);
+	place_results(as, frame->listed, frame->listed_count, frame->always);
 }
 
 /* A copy of what a block keeps; the same types at the same distances. */
@@ -928,7 +937,7 @@ static bool place_table(struct assembler *as, int table)
 	if (!as->power[table] || !layout_place_powers(as, table))
 		return false;
 	if (table > 0)
-		place_results(as, &as->frame[table - 1]);
+		place_lists(as, &as->frame[table - 1]);
 	for (int i = 0; i < vars->count && !as->failed; i++)
 		as->power[table][i] = place_kept(as, vars, i);
 	return !as->failed;
@@ -968,9 +977,13 @@ static void place_not_run(struct assembler *as)
 {
 	int most = 0;
 
-	for (int i = 0; i < as->translation->unit_count; i++)
-		if (as->frame[i].result_count > most)
-			most = as->frame[i].result_count;
+	for (int i = 0; i < as->translation->unit_count; i++) {
+		const struct frame *frame = &as->frame[i];
+
+		most = frame->result_count > most ? frame->result_count : most;
+		if (!frame->always && frame->listed_count > most)
+			most = frame->listed_count;
+	}
 	if (most)
 		as->not_run = place_values(as, RUN_VALUES, IEC_BOOL, 0, (uint32_t)most);
 }

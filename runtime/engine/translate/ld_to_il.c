@@ -124,19 +124,37 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 	line.row = ld->row;
 	line.col = ld->col;
 	line.line = (uint32_t)rung_line(ld->rung, ld->row);
+	line.mark |= ld->mark;
 	if (!il_add(ld->il, line))
 		ld->failed = true;
 }
 
-/* Was it stored by the line before? Then it is still the result. */
-static bool is_result(const struct ld *ld, uint32_t operand)
+/* The last line; NULL: none. @watching: or the last one that also runs unwatched. */
+static const struct il_line *last_line(const struct ld *ld, bool watching)
 {
-	const struct il_line *last = ld->il->count ?
-		&ld->il->line[ld->il->count - 1] : NULL;
+	int at = ld->il->count - 1;
 
-	return last && last->kind == IL_OP && last->op == OP_ST &&
-	       !last->modifiers && last->operand == operand &&
-	       last->rung == ld->number;
+	while (!watching && at >= 0 && ld->il->line[at].mark & IL_WATCHING)
+		at--;
+	return at >= 0 ? &ld->il->line[at] : NULL;
+}
+
+static bool stores(const struct ld *ld, const struct il_line *line, uint32_t operand)
+{
+	return line && line->kind == IL_OP && line->op == OP_ST && !line->modifiers &&
+	       line->operand == operand && line->rung == ld->number;
+}
+
+/* Was it stored by the line before? Then it is still the result. */
+static bool is_result(struct ld *ld, uint32_t operand)
+{
+	if (stores(ld, last_line(ld, true), operand))
+		return true;
+	if (ld->mark || !stores(ld, last_line(ld, false), operand))
+		return false;
+	ld_emit_line(ld, (struct il_line){ .kind = IL_OP, .op = OP_LD, .mark = IL_WATCHING,
+					   .operand = operand });
+	return true;
 }
 
 void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand)
@@ -506,17 +524,49 @@ static uint32_t store_power(struct ld *ld)
 	return name;
 }
 
-/* ld_settle - while watching: power of an element or net in a variable. */
-static void ld_settle_element(struct ld *ld, int element)
+/* What keeps the power of a net, or gives it. */
+static uint32_t power_of(const struct ld *ld, int net)
+{
+	return net != NET_RAIL && ld->net[net].power ? ld->net[net].power : ld->true_id;
+}
+
+/* While listing: the power of an element in a variable of its own. The list that runs unwatched
+ * has the lines without a mark, and the same results after them. */
+static void keep_element(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	struct element_state *state = &ld->element[element];
-	const struct word_row *row = word_row((enum word)at->word);
+
+	ld->mark = IL_WATCHING;
+	ld_place(ld, at->row, at->col);
+	if (is_single(ld, element)) {
+		ld_emit(ld, OP_LD, negation(state), state->leaf);
+	} else {
+		ld_emit(ld, OP_LD, 0, power_of(ld, at->in));
+		if (state->leaf)
+			ld_emit(ld, OP_AND, negation(state), state->leaf);
+		else
+			ld_emit(ld, OP_NOT, 0, 0);
+	}
+	state->power = store_power(ld);
+	ld->mark = 0;
+}
+
+/* While watching: power of an element in a variable. It is read from there, unless lists keep
+ * results, too. */
+static void ld_settle_element(struct ld *ld, int element)
+{
+	struct element_state *state = &ld->element[element];
+	const struct word_row *row = row_of(ld, element);
 
 	if (!ld->watch || row->place == PLACE_LAST)
 		return;
 	if (!state->leaf && row->operand == OPND_ASSIGN)
 		return;
+	if (ld->listing) {
+		keep_element(ld, element);
+		return;
+	}
 	load_elements(ld, &element, 1);
 	*state = (struct element_state){
 		.seen = true, .powered = true, .leaf = store_power(ld),
@@ -533,6 +583,7 @@ static void pass_on(struct ld *ld, int element)
 		return;
 	state->leaf = ld_operand(ld, ld->network.element[element].in);
 	state->powered = true;
+	state->power = power_of(ld, ld->network.element[element].in);
 	if (state->leaf != ld->true_id)
 		ld_read(ld, element);
 }
@@ -567,9 +618,40 @@ static void evaluate(struct ld *ld, int element)
 	ld_read(ld, element);
 }
 
+/* While listing: what keeps the power of a net; a variable of its own, if no element has it. */
+static void keep_net(struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+	int first = n->first_feeder[net], end = n->first_feeder[net + 1];
+
+	if (end == first + 1 && ld->element[n->feeder[first]].power) {
+		ld->net[net].power = ld->element[n->feeder[first]].power;
+		return;
+	}
+	ld->mark = IL_WATCHING;
+	for (int i = first; i < end; i++) {
+		const struct network_element *at = &n->element[n->feeder[i]];
+		uint32_t power = ld->element[n->feeder[i]].power;
+
+		ld_place(ld, at->row, at->col);
+		ld_emit(ld, i == first ? OP_LD : OP_OR, 0,
+			power ? power : power_of(ld, at->in));
+	}
+	if (first == end)
+		ld_emit(ld, OP_LD, 0, ld->true_id);
+	ld->net[net].power = store_power(ld);
+	ld->mark = 0;
+}
+
 static void ld_settle_net(struct ld *ld, int net)
 {
-	if (!ld->watch || net == NET_RAIL || ld->net[net].temp)
+	if (!ld->watch)
+		return;
+	if (ld->listing) {
+		keep_net(ld, net);
+		return;
+	}
+	if (net == NET_RAIL || ld->net[net].temp)
 		return;
 	ld_load(ld, net);
 	ld->net[net].temp = store_power(ld);
@@ -912,6 +994,12 @@ static void note_power(struct ld *ld, int row, int col, uint32_t in,
 }
 
 /* Power of every cell that has been evaluated, in reading order. */
+/* What keeps the power that the element lets through; 0: none. */
+static uint32_t kept_of(const struct ld *ld, int element)
+{
+	return ld->listing ? ld->element[element].power : ld->element[element].leaf;
+}
+
 static void note_rung(struct ld *ld)
 {
 	const struct network *n = &ld->network;
@@ -921,7 +1009,8 @@ static void note_rung(struct ld *ld)
 		for (int col = 0; col < n->cols; col++) {
 			const struct cell *cell = rung_at(ld->rung, row, col);
 			int net = network_net(n, row, col);
-			uint32_t in = ld->net[net].temp, out = in;
+			uint32_t in = ld->listing ? ld->net[net].power : ld->net[net].temp;
+			uint32_t out = in;
 
 			if (cell->word == ELEM_EMPTY ||
 			    (net != NET_RAIL && !in && cell->word == ELEM_WIRE))
@@ -933,8 +1022,8 @@ static void note_rung(struct ld *ld)
 					element++;
 					continue;
 				}
-				if (ld->element[element].leaf)
-					out = ld->element[element].leaf;
+				if (kept_of(ld, element))
+					out = kept_of(ld, element);
 				element++;
 			}
 			note_power(ld, row, col, in, out);
@@ -1040,6 +1129,7 @@ bool ld_begin(struct ld *ld)
 		ld->unit->temps->unit = ld->unit;
 	}
 	ld->temps = ld->unit->temps;
+	ld->listing = ld->watch && t->listing;
 	ld->temps->edges = ld->temps->powers = 0;
 	ld->il->arena = t->arena;
 	ld->expr = arena_alloc(t->arena, sizeof(*ld->expr));

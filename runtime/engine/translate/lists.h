@@ -50,6 +50,8 @@ struct list {
 	const struct il *il;
 	const enum iec_type *types;
 	int at;                       /* the current line                     */
+	uint32_t number;              /* instructions so far, those that only keep power not
+				       * counted; only while listing          */
 	struct il_result now;
 	struct opened opened[LIMIT_IL_DEPTH];
 	int depth;

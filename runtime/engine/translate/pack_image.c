@@ -463,12 +463,10 @@ static void sort_cells(struct code_power *power, size_t count)
 }
 
 /* The lines of a list have no cells. */
-static void add_results(struct assembler *as, struct maps *maps, int unit)
+static void add_results(struct assembler *as, struct maps *maps, int unit,
+			const struct result *result, int count, uint16_t col)
 {
-	const struct frame *frame = &as->frame[unit];
-
-	for (int i = 0; i < frame->result_count && !as->failed; i++) {
-		const struct result *result = &frame->result[i];
+	for (int i = 0; i < count && !as->failed; i++, result++) {
 		struct code_power *power = arena_push(as->arena, &maps->power,
 			&maps->power_count, sizeof(*power));
 
@@ -477,7 +475,7 @@ static void add_results(struct assembler *as, struct maps *maps, int unit)
 			return;
 		}
 		*power = (struct code_power){
-			.pou = (uint16_t)unit, .col = CODE_LINE, .rung = result->line,
+			.pou = (uint16_t)unit, .col = col, .rung = result->line,
 			.in = result->ran, .type = (uint16_t)result->type,
 			.out = result->type == IEC_NONE ? result->ran : result->at,
 		};
@@ -489,6 +487,7 @@ static void add_power(struct assembler *as, struct maps *maps)
 {
 	for (int i = 0; i < as->translation->unit_count; i++) {
 		const struct unit *unit = &as->translation->unit[i];
+		const struct frame *frame = &as->frame[i];
 		const int first = maps->power_count;
 
 		for (int k = 0; k < unit->power_count; k++) {
@@ -507,8 +506,9 @@ static void add_power(struct assembler *as, struct maps *maps)
 				.out = power_offset(as, unit->pou, note->out),
 			};
 		}
-		add_results(as, maps, i);
-		if (unit->pou->sfc && maps->power_count > first)
+		add_results(as, maps, i, frame->result, frame->result_count, CODE_LINE);
+		add_results(as, maps, i, frame->listed, frame->listed_count, CODE_LISTED);
+		if ((unit->pou->sfc || frame->listed_count) && maps->power_count > first)
 			sort_cells(maps->power + first, (size_t)(maps->power_count - first));
 	}
 }

@@ -463,8 +463,11 @@ static void do_body(struct sfc_il *s, int number)
 	sfc_op(s, OP_LD, 0, now);
 	sfc_op(s, OP_ST, 0, was);
 	or_kept(s, called, true, true);
-	if (s->ld.watch) /* once more, so that its power is cleared */
+	if (s->ld.watch) { /* once more, so that its power is cleared */
+		s->ld.mark = IL_WATCHING;
 		sfc_op(s, OP_LD, 0, sfc_literal(s, "TRUE"));
+		s->ld.mark = 0;
+	}
 	sfc_op(s, OP_ST, 0, due);
 	end_calls(s, number);
 	sfc_jump(s, sfc_label(s, "Due", -1));

@@ -15,7 +15,7 @@
 static void add(struct sfc_il *s, struct il_line line)
 {
 	line.line = s->line;
-	line.mark = IL_MADE;
+	line.mark = (uint8_t)(IL_MADE | s->ld.mark);
 	if (!il_add(s->ld.il, line))
 		s->ld.failed = true;
 }
@@ -253,11 +253,13 @@ void sfc_darken(struct sfc_il *s, const struct sfc_body *body)
 
 	if (!s->ld.watch || body->kind == BODY_LIST || body->kind == BODY_NONE)
 		return;
+	s->ld.mark = IL_WATCHING;
 	for (int i = s->note[body->first]; i < unit->power_count &&
 	     unit->power[i].rung - first < (uint32_t)body->count; i++) {
 		darken(s, unit->power[i].in, &any);
 		darken(s, unit->power[i].out, &any);
 	}
+	s->ld.mark = 0;
 }
 
 /* ---- a scan ---- */

@@ -41,6 +41,7 @@ struct translation {
 	struct diag_list *diags;
 	struct unit *unit;      /* one a POU                                  */
 	int unit_count;
+	bool listing;           /* while watched, lists of ladders and charts keep results, too */
 };
 
 /**

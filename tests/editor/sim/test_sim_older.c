@@ -67,8 +67,8 @@ static void run_some(struct run *run, int scans)
 
 static void run_change(struct run *run, const char *text)
 {
-	struct sim_program *program = sim_program_new(g_intern_static_string("-"), text,
-						      strlen(text), NULL);
+	struct sim_program *program = sim_program_read_listed(ladder_new(),
+		g_intern_static_string("-"), text, strlen(text), NULL);
 	struct twin next = { 0 };
 
 	CHECK(program && twin_init(&next, program->program, NULL, run->twin.period_ns) &&
@@ -219,8 +219,8 @@ static void other_rungs(struct random_program *program, guint64 seed,
 
 static bool builds(const char *text)
 {
-	struct sim_program *program = sim_program_new(g_intern_static_string("-"), text,
-						      strlen(text), NULL);
+	struct sim_program *program = sim_program_read_listed(ladder_new(),
+		g_intern_static_string("-"), text, strlen(text), NULL);
 
 	sim_program_unref(program);
 	return program;
@@ -244,7 +244,8 @@ static int play(const char *before, const char *after, guint64 seed)
 	CHECK(ladder_sim_begin(sim, NULL));
 	text = ladder_document_text(document, &len);
 	g_array_set_size(states, 0);
-	run.program = sim_program_new(g_intern_static_string("-"), text, len, NULL);
+	run.program = sim_program_read_listed(ladder_new(), g_intern_static_string("-"), text,
+					      len, NULL);
 	CHECK(twin_init(&run.twin, run.program->program, NULL, ladder_sim_period(sim)));
 	play_some(&run, &random);
 	edited = run.twin.scan;
@@ -478,7 +479,8 @@ static void test_bound(void)
 		g_string_append_printf(text, "  LD Many[%d]\n  MUL 69069\n  ADD %d\n"
 				       "  ST Many[%d]\n", i, 2 * i + 1, i);
 	g_string_append(text, "END_PROGRAM\n");
-	program = sim_program_new(g_intern_static_string("-"), text->str, text->len, NULL);
+	program = sim_program_read_listed(ladder_new(), g_intern_static_string("-"), text->str,
+					  text->len, NULL);
 	CHECK(program && twin_init(&twin, program->program, NULL, SIM_PERIOD));
 	CHECK((eras = sim_eras_new(&twin, program, NULL)) != NULL);
 	twin_act(&twin, &(struct act){ .kind = ACT_START });

@@ -174,8 +174,69 @@ static void older_images_have_cells_alone(void)
 	rig_close(&rig);
 }
 
+/* ---- lists that ladders and charts become ---- */
+
+static const char generated[] =
+	"VAR\n  T : TON;\n  N : INT := 3;\n  Bits : Two;\nEND_VAR\n"
+	"PROGRAM Main LD\nRUNG\n  | NO I0 | NC I1 | COIL Q0 |\n  | NO Q0 ^|\n"
+	"RUNG\n  | NO I1 | [ N > 2 ] | COIL Q1 |\n"
+	"RUNG\n  | NO I0 | TON T PT:=T#1s | COIL Q2 |\n  | NO I1 | Two Bits |\nEND_PROGRAM\n"
+	"FUNCTION_BLOCK Two LD\nVAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Out : BOOL;\nEND_VAR\nVAR\n  Seen : BOOL;\nEND_VAR\n"
+	"RUNG\n  | NO On | S Seen |\nEND_FUNCTION_BLOCK\n"
+	"PROGRAM Chart SFC\n  INITIAL_STEP Start:\n  END_STEP\n  STEP Go:\n    Lamp(N);\n  END_STEP\n"
+	"  TRANSITION FROM Start TO Go:\n    RUNG\n      | NO I0 | NC I1 | COIL TRANSITION |\n"
+	"  END_TRANSITION\n  TRANSITION FROM Go TO Start := I1; END_TRANSITION\n"
+	"  ACTION Lamp:\n    RUNG\n      | NO I0 | COIL Q3 |\n  END_ACTION\nEND_PROGRAM\n";
+
+/* Builds @text once more, with or without results of generated lists. */
+static bool build_again(bool lists, const char *text)
+{
+	static char file[8192];
+
+	snprintf(file, sizeof(file), "RUNGBOARD 1\n%s", text);
+	ladder_watch_lists(rig.ladder, lists);
+	return CHECK(ladder_load_text(rig.ladder, "rig.rung", file, strlen(file)) &&
+		     ladder_build(rig.ladder));
+}
+
+static int count_listed(const struct program *program)
+{
+	int count = 0;
+
+	for (uint32_t i = 0; i < program->power_count; i++)
+		count += program->power[i].row == 0 && program->power[i].col == CODE_LISTED;
+	return count;
+}
+
+/* Only a simulation asks for results of generated lists: the image of a board has none, and is the
+ * same whatever was asked for before. */
+static void boards_keep_no_generated_lists(void)
+{
+	size_t len, again;
+	void *image;
+
+	if (!CHECK(rig_open(&rig, generated, true)))
+		return;
+	CHECK(count_listed(rig.resource.image.program) == 0);
+	image = malloc(rig.resource.image.program->header->size);
+	memcpy(image, ladder_image(rig.ladder, &len), rig.resource.image.program->header->size);
+	if (build_again(true, generated)) {
+		const struct program *program = ladder_program(rig.ladder);
+
+		ladder_image(rig.ladder, &again);
+		CHECK(count_listed(program) > 30 && again > len);
+		CHECK(program->header->section[CODE_TEXT].size ==
+		      ((const struct code_header *)image)->section[CODE_TEXT].size);
+	}
+	if (build_again(false, generated))
+		CHECK(memcmp(ladder_image(rig.ladder, &again), image, len) == 0 && again == len);
+	free(image);
+	rig_close(&rig);
+}
+
 int main(void)
 {
+	boards_keep_no_generated_lists();
 	lines_have_their_results();
 	skipped_lines_have_not_run();
 	instances_have_their_own();
