@@ -594,10 +594,10 @@ static gboolean notified(gpointer data)
 
 /* ---- on and off ---- */
 
-typedef struct sim_program *(*ReadProgram)(struct ladder *, const char *, const char *, gsize,
-					   GError **);
-
-static struct sim_program *build(LadderSim *sim, ReadProgram read_program, GError **error)
+static struct sim_program *build(LadderSim *sim,
+				 struct sim_program *read_program(struct ladder *, const char *,
+								  const char *, gsize, GError **),
+				 GError **error)
 {
 	gsize len;
 	char *text = ladder_document_text(sim->document, &len);

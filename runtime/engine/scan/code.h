@@ -245,7 +245,7 @@ const struct code_power *code_result(const struct program *program, uint32_t pou
 /** code_listed - the same of a list that a ladder or a chart becomes
  * @number: of the instruction, from 1; labels count, inputs and outputs of calls do not
  *
- * Fails: NULL, too, when the image has no such results: ladder_watch_lists(). */
+ * Scan-safe: yes. Fails: NULL, too, when the image has no such results: ladder_watch_lists(). */
 const struct code_power *code_listed(const struct program *program, uint32_t pou,
 				     uint32_t number);
 /** code_run_size - bytes of one value or instance of a run. Scan-safe: yes. */
