@@ -15,6 +15,7 @@
 
 #include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
@@ -115,14 +116,6 @@ static LadderCanvasClass *class_of(LadderCanvas *canvas)
 
 /* ---- messages ---- */
 
-/* GTK ignores the same text. */
-static void announce(LadderCanvas *canvas, const char *text)
-{
-	gtk_accessible_reset_property(GTK_ACCESSIBLE(canvas), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(canvas), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
-				       text, -1);
-}
-
 void canvas_tell(LadderCanvas *canvas, const char *text)
 {
 	struct canvas_own *own = own_of(canvas);
@@ -131,7 +124,7 @@ void canvas_tell(LadderCanvas *canvas, const char *text)
 		g_free(own->refusal);
 		own->refusal = text[0] ? g_strdup(text) : NULL;
 	} else if (text[0] && !state_of(canvas)->entry) {
-		announce(canvas, text);
+		spoken_say(GTK_WIDGET(canvas), text);
 	}
 	g_signal_emit(canvas, signals[TOLD], 0, text);
 }
@@ -432,7 +425,7 @@ static void say_cursor(LadderCanvas *canvas)
 	said = class_of(canvas)->cursor_name(canvas, false);
 	if (said && g_strcmp0(said, cells->said) != 0) {
 		text = class_of(canvas)->cursor_name(canvas, true);
-		announce(canvas, text);
+		spoken_say(GTK_WIDGET(canvas), text);
 		g_free(text);
 	}
 	if (said) {

@@ -168,7 +168,7 @@ static void show_summary(LadderAlarmView *view)
 	const bool on = is_online(view) || ladder_sim_is_on(view->sim);
 	char *text = g_strdup_printf(view->lost && is_online(view) ?
 		_("%u active, %u to acknowledge. Left out because the list is full: %u. "
-		  "Acknowledge alarms to make room") :
+		  "An alarm makes room when it is over and acknowledged") :
 		_("%u active, %u to acknowledge"), active, waiting, (guint)view->lost);
 
 	gtk_label_set_text(view->summary, view->refused ? view->refused :

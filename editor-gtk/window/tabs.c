@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/tabs.h"
 
+#include "editor-gtk/canvas/canvas.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
 #include "editor-gtk/document/type_edit.h"
@@ -616,6 +617,15 @@ static void stay(struct tabs *tabs, AdwTabPage *page)
 			adw_tab_view_set_selected_page(tabs->view, page);
 }
 
+/* A sheet says its place anew when the cursor moves; another widget would keep @text for ever. */
+static void say(struct tabs *tabs, const char *text)
+{
+	GtkWidget *focus = gtk_window_get_focus(tabs->core->window);
+
+	if (focus && LADDER_IS_CANVAS(focus))
+		spoken_say(focus, text);
+}
+
 void tabs_step(struct tabs *tabs, bool redo)
 {
 	LadderDocument *document = tabs->core->document;
@@ -646,6 +656,7 @@ void tabs_step(struct tabs *tabs, bool redo)
 			show(tabs, &changed);
 		text = g_strdup_printf(redo ? _("Redone: %s") : _("Undone: %s"), name);
 		messages_tell(tabs->core->messages, text);
+		say(tabs, text);
 		g_free(text);
 	}
 	g_free(name);

@@ -972,6 +972,9 @@ static void add_parts(LadderWindow *window)
 	window->sim_bar.title = window->title;
 	window->sim_bar.side = GTK_WIDGET(window->side);
 	window->online_bar.edit_mode = window->sim_bar.edit_mode;
+	spoken_choice(window->sim_bar.edit_mode);
+	spoken_choice(window->sim_bar.simulate_mode);
+	spoken_choice(window->online_bar.mode);
 	messages_init(&window->messages, core);
 	below_init(&window->below, core);
 	front_init(&window->front, core);

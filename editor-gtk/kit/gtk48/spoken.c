@@ -66,6 +66,28 @@ void spoken_parts(GtkWidget *root)
 	}
 }
 
+static void say_choice(GtkToggleButton *button)
+{
+	gtk_accessible_update_state(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_STATE_CHECKED,
+		gtk_toggle_button_get_active(button) ? GTK_ACCESSIBLE_TRISTATE_TRUE :
+						       GTK_ACCESSIBLE_TRISTATE_FALSE, -1);
+}
+
+void spoken_choice(GtkToggleButton *button)
+{
+	g_object_set(button, "accessible-role", GTK_ACCESSIBLE_ROLE_RADIO, NULL);
+	g_signal_connect(button, "toggled", G_CALLBACK(say_choice), NULL);
+	say_choice(button);
+}
+
+/* GTK ignores the same text. */
+void spoken_say(GtkWidget *widget, const char *text)
+{
+	gtk_accessible_reset_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
+				       text, -1);
+}
+
 static void hide_empty(GtkLabel *label)
 {
 	gtk_widget_set_visible(GTK_WIDGET(label), *gtk_label_get_text(label));

@@ -5,7 +5,7 @@ finder.py finds widgets, desk.py uses them.
 """
 WHOLE = {7, 11, 29, 37, 43, 48, 56, 61, 62, 90}  # roles of widgets that never hide a part
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
-         'dialog': 16, 'picture': 27, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'panel': 39, 'push button': 43,
+         'dialog': 16, 'picture': 27, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'panel': 39, 'push button': 43, 'radio button': 44,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
 A11Y = 'org.a11y.atspi.'
 EXTENTS = ('Component', 'GetExtents', 'u', 1)  # in the window
@@ -49,5 +49,5 @@ class Node:
         return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
 
     def has(self, state):
-        """States as AtspiStateType counts: 11: focusable, 12: focused, 24: sensitive …"""
+        """States as AtspiStateType counts: 4: checked, 11: focusable, 12: focused, 24: sensitive …"""
         return bool(self.ask('Accessible', 'GetState')[0][0] >> state & 1)

@@ -93,6 +93,11 @@ def window(screen):
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     assert not nameless(editor), nameless(editor)
+    modes = {node.name: node for node in editor.all(role='radio button')}
+    assert sorted(modes) == ['Edit', 'Online', 'Simulate'], modes
+    for key, chosen in ('ctrl+m', 'Simulate'), ('ctrl+m', 'Edit'):
+        editor.keys(key)
+        until(lambda: [name for name, node in sorted(modes.items()) if node.has(4)] == [chosen], chosen)
     for panel in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Alarms', 'Log', 'Board':
         editor.tab(panel)
         assert not nameless(editor), (panel, nameless(editor))
@@ -233,6 +238,10 @@ def edited(screen):
     reader.says('Rung 1, NO, closed while TRUE: %IX0.0, row 1, column A', lambda: editor.keys('Left'))
     reader.says('Rung 1, NC, closed while FALSE: %IX0.0, row 1, column A', lambda: editor.keys('slash'))
     reader.says('Rung 1, empty cell, row 1, column A', lambda: editor.keys('Delete'))
+    for key, what in ('ctrl+z', 'Undone: '), ('ctrl+shift+z', 'Redone: '):
+        before = len(reader.said())
+        editor.keys(key)
+        until(lambda: any(text.startswith(what) for text in reader.said()[before:]), what)
 
 
 def boxes(screen):
