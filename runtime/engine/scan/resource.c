@@ -17,10 +17,10 @@
 
 /* ---- leaving out what has not changed ---- */
 
-#if HAS_STILL
+#ifndef RUNGBOARD_SMALL
 static void begin_image(struct resource *resource, int64_t now_ns, bool watch)
 {
-	struct still *still = resource->still;
+	struct still *still = HAS_STILL ? resource->still : NULL;
 
 	if (!still || !still_begin(still, &resource->image, now_ns + resource->timers_ns,
 				   !watch && !resource->pace.speed))
@@ -29,7 +29,9 @@ static void begin_image(struct resource *resource, int64_t now_ns, bool watch)
 
 static void end_image(struct resource *resource)
 {
-	if (!resource->still || !still_end(resource->still, &resource->image))
+	struct still *still = HAS_STILL ? resource->still : NULL;
+
+	if (!still || !still_end(still, &resource->image))
 		image_end(&resource->image);
 }
 
@@ -37,13 +39,15 @@ static enum fault run_program(struct resource *resource, uint32_t entry, bool wa
 {
 	if (resource->vm.run)
 		return resource->vm.run(&resource->vm, entry, watch);
-	return resource->still && !watch ? still_run(resource->still, &resource->vm, entry) :
-					   vm_run(&resource->vm, entry, watch);
+	if (HAS_STILL && resource->still && !watch)
+		return still_run(resource->still, &resource->vm, entry);
+	return vm_run(&resource->vm, entry, watch);
 }
 
 static void reset_still(struct resource *resource)
 {
-	still_reset(resource->still);
+	if (HAS_STILL)
+		still_reset(resource->still);
 }
 #else
 #define begin_image(resource, now_ns, watch) ((void)(watch), image_begin(&(resource)->image))
