@@ -373,13 +373,13 @@ def paced(screen):
     editor.shot('tasks-speed')
     editor.keys('Escape')
     editor.keys(*['ctrl+t'] * 10)
-    slow = editor.find('Slow: priority 2, every 5 ms, at 0 s, 5 ms … · 3 runs, interrupted 2 times', 'list item')
+    slow = editor.find('Slow: priority 2, every 5 ms, at 0 s, 5 ms … · 3 runs, interrupted 1 time', 'list item')
     x, y, width, height = editor.place(slow)
     editor.click((x + 20, y + height // 2))
     editor.keys('Left')
-    editor.says('At 8 ms: Fast (0.011 ms), then Slow (0.02 ms)')
+    editor.says('At 7 ms: Fast (0.011 ms), then Slow (0.913 ms)')
     editor.keys('Left')
-    until(lambda: any('interrupted' in node.name for node in editor.all('At 7 ms: Fast', 'label')), 'who was interrupted')
+    until(lambda: any('interrupted' in node.name for node in editor.all('At 6 ms: Fast', 'label')), 'who was interrupted')
     editor.shot('tasks-paced')
 
 
