@@ -159,8 +159,7 @@ def given_up(screen):
     path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n%QX0.1  sim  safe=0\n')
     editor = Editor(screen, path)
     open_map(editor)
-    node = cell(editor, '%QX0.0, Safe')
-    before = node.box()
+    before = editor.place(cell(editor, '%QX0.0, Safe'))
     for way in 'Return', 'Tab':
         editor.click(cell(editor, '%QX0.0, Safe'))
         editor.keys('ctrl+a')
@@ -172,7 +171,7 @@ def given_up(screen):
         editor.keys('Escape')
         until(lambda: not editor.all('This is not one of the choices'), 'nothing to be told')
         shows(editor, '%QX0.0, Safe', '0')
-    assert cell(editor, '%QX0.0, Safe').box() == before
+    assert editor.place(cell(editor, '%QX0.0, Safe')) == before
     # The arrow shows the choices; it is back at its place and whole.
     x, y, width, height = editor.place(cell(editor, '%QX0.0, Safe'))
     editor.click((x + width - 12, y + height // 2))
