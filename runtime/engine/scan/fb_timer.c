@@ -7,7 +7,7 @@
  */
 #include "engine/scan/fb.h"
 
-/* Branches only on edges of inputs, as a CPU cannot predict inputs. Without power no
+/* No branch on an input, as a CPU cannot predict inputs. Without power no
  * byte changes; otherwise a retained timer would be stored in every scan. */
 void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 {
@@ -15,8 +15,7 @@ void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 	int64_t goes_on = -(int64_t)(in & fb->running); /* all bits, or none */
 	int64_t elapsed = fb_elapsed(now_ns, fb->start, fb->PT) & goes_on;
 
-	if (in > fb->running)
-		fb->start = now_ns;
+	fb->start = in > fb->running ? now_ns : fb->start;
 	fb->running = in;
 	fb->ET = elapsed;
 	fb->Q = in & (elapsed >= fb->PT);

@@ -61,6 +61,41 @@ static inline void run_copy(uint8_t *m, const uint32_t *pc)
 	put(m, pc[1], value);
 }
 
+/* @size: bytes to copy; 0: the value is widened, or is a text. */
+static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
+{
+	uint8_t *to = m + CODE_OFFSET(pc[1]);
+	const uint8_t *from = m + CODE_OFFSET(pc[2]);
+
+	switch (size) {
+	case 1:
+		*to = *from;
+		break;
+	case 2:
+		memcpy(to, from, 2);
+		break;
+	case 4:
+		memcpy(to, from, 4);
+		break;
+	case 8:
+		memcpy(to, from, 8);
+		break;
+	default:
+		run_copy(m, pc);
+		break;
+	}
+}
+
+/* What copy() wants for one value of each type. Where room is short, all of them are widened. */
+static inline uint32_t plain_size(uint32_t to, uint32_t from)
+{
+#ifdef __OPTIMIZE_SIZE__
+	return 0 * (to + from);
+#else
+	return to != from || to == IEC_STRING ? 0 : 8 - value_spare_bits(to) / 8;
+#endif
+}
+
 /* ---- elements whose index is computed in the scan ---- */
 
 /* Operands of AGET and APUT; ABLOCK has SIZE in between. The indices follow. */
@@ -111,7 +146,7 @@ static inline void clear_value(uint8_t *m, const uint32_t *at)
 
 static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
-	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
+	uint32_t where = CODE_OFFSET(at[BASE]), pair[3] = { 0, at[VALUE], 0 };
 
 	if (!find_element(m, at + ELEMENT, n >> 1, &where))
 		return false;
@@ -119,14 +154,14 @@ static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
 		return true;
 	}
-	copy[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	run_copy(m, copy);
+	pair[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	copy(m, pair, plain_size(CODE_TYPE(at[VALUE]), CODE_TYPE(at[BASE])));
 	return true;
 }
 
 static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
-	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
+	uint32_t where = CODE_OFFSET(at[BASE]), pair[3] = { 0, 0, at[VALUE] };
 
 	if (!find_element(m, at + ELEMENT, n >> 1, &where))
 		return false;
@@ -138,8 +173,8 @@ static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 				  << where % 8);
 		return true;
 	}
-	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	run_copy(m, copy);
+	pair[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	copy(m, pair, plain_size(CODE_TYPE(at[BASE]), CODE_TYPE(at[VALUE])));
 	return true;
 }
 
@@ -305,31 +340,6 @@ void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n)
 }
 #endif
 
-/* @size: bytes to copy; 0: the value is widened, or is a text. */
-static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
-{
-	uint8_t *to = m + CODE_OFFSET(pc[1]);
-	const uint8_t *from = m + CODE_OFFSET(pc[2]);
-
-	switch (size) {
-	case 1:
-		*to = *from;
-		break;
-	case 2:
-		memcpy(to, from, 2);
-		break;
-	case 4:
-		memcpy(to, from, 4);
-		break;
-	case 8:
-		memcpy(to, from, 8);
-		break;
-	default:
-		run_copy(m, pc);
-		break;
-	}
-}
-
 /* ---- two numbers of one type ---- The most frequent functions have instructions of
  * their own, which need no struct fn_args. Results are the same bits as those of the
  * functions. No branch depends on a value, as values change from scan to scan. */
@@ -366,67 +376,68 @@ static inline float compute_real(uint32_t math, float a, float b)
 	return math == MATH_MUL ? a * b : a / b; /* by 0: infinite or NaN */
 }
 
-/* True if it ran without an error, or did not run. */
-static inline bool run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
+/* Both: not 0 if it ran and failed. Their bits are numbers and not bool, and are joined
+ * by & and ^, as a compiler makes a branch of && and of !. */
+static inline uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	float a = single(m + pc[3]), b = single(m + pc[4]);
-	float out = LIKELY(n == MATH_ADD) ? a + b : compute_real(n & 3, a, b);
-	uint32_t bits, old;
-	bool en, good;
+	float out = LIKELY((n & 3) == MATH_ADD) ? a + b : compute_real(n & 3, a, b);
+	uint32_t bits, old, en, good;
 
 	memcpy(&bits, &out, sizeof(bits));
 	good = bits << 1 < 0xff000000u; /* finite */
 	if (LIKELY(n < MATH_ENABLED)) {
-		m[pc[1]] = good;
+		m[pc[1]] = (uint8_t)good;
 		if (LIKELY(good))
 			memcpy(m + pc[2], &bits, sizeof(bits));
-		return good;
+		return good ^ 1u;
 	}
 	en = m[pc[0]];
 	memcpy(&old, m + pc[2], sizeof(old));
 	bits = old ^ ((old ^ bits) & (0u - (en & good)));
 	memcpy(m + pc[2], &bits, sizeof(bits));
-	m[pc[1]] = en & good;
-	return good | !en;
+	m[pc[1]] = (uint8_t)(en & good);
+	return en & (good ^ 1u);
 }
 
-/* False: there is no result, nothing is stored. */
-static inline bool compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
-				 int64_t *out)
+/* 0: there is no result, nothing is stored. */
+static inline uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
+				     int64_t *out)
 {
-	if (math == MATH_ADD) {
+	if (LIKELY(math == MATH_ADD)) {
 		*out = (int64_t)a + b;
-		return true;
+		return 1;
 	}
 	if (math == MATH_SUB) {
 		*out = (int64_t)a - b;
-		return true;
+		return 1;
 	}
 	if (math == MATH_MUL) {
 		*out = (int64_t)a * b;
-		return true;
+		return 1;
 	}
+	*out = 0;
 	if (b == 0 || (b == -1 && a == low))
-		return false;
+		return 0;
 	*out = a / b;
-	return true;
+	return 1;
 }
 
 /* The same for INT and DINT, by their size: overflow wraps and is an error. */
-static inline bool run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
+static inline uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
 {
 	int32_t low = size == 2 ? INT16_MIN : INT32_MIN;
 	int32_t old = whole(m + pc[2], size), bits;
-	int64_t out = 0;
-	bool en = m[pc[0]], good, some;
+	int64_t out;
+	uint32_t en = m[pc[0]], good, some;
 
 	some = compute_whole(n & 3, whole(m + pc[3], size), whole(m + pc[4], size), low,
 			     &out);
-	good = some & (out >= low) & (out <= -1 - (int64_t)low);
+	good = some & (out == (size == 2 ? (int16_t)out : (int32_t)out));
 	bits = old ^ ((old ^ (int32_t)out) & -(int32_t)(en & some));
 	memcpy(m + pc[2], &bits, size);
-	m[pc[1]] = en & good;
-	return good | !en;
+	m[pc[1]] = (uint8_t)(en & good);
+	return en & (good ^ 1u);
 }
 
 /* How two values compare: bit 0: a >= b, bit 1: a <= b; neither: not a number. */
@@ -634,7 +645,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = put_order(m, pc, n, order(m, pc + 1));
 			break;
 		case VM_INT:
-			if (!run_whole(m, pc + 1, n, 2))
+			if (run_whole(m, pc + 1, n, 2))
 				count_error(vm, pc, base);
 			pc += 6;
 			break;
@@ -643,7 +654,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 						       whole(m + pc[2], 2)));
 			break;
 		case VM_DINT:
-			if (!run_whole(m, pc + 1, n, 4))
+			if (run_whole(m, pc + 1, n, 4))
 				count_error(vm, pc, base);
 			pc += 6;
 			break;
@@ -652,7 +663,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 						       whole(m + pc[2], 4)));
 			break;
 		case VM_REAL:
-			if (!LIKELY(run_real(m, pc + 1, n)))
+			if (!LIKELY(!run_real(m, pc + 1, n)))
 				count_error(vm, pc, base);
 			pc += 6;
 			n = *pc >> 8;
