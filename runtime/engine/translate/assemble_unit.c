@@ -314,6 +314,26 @@ static uint32_t result_as(struct list *list, enum iec_type type)
 	return CODE_OPERAND(type, layout_constant(list->as, type, value));
 }
 
+/* The instruction before stores its result at @to itself, and not in a place of its own;
+ * from here on the result is what lies there. False: it does not make the result, or that
+ * is a text, which may have less room there. */
+static bool store_made(struct list *list, uint32_t to)
+{
+	struct assembler *as = list->as;
+	struct il_result *now = &list->now;
+	uint32_t *word = as->open_number < 0 ? NULL : &as->text->word[as->open_number];
+
+	if (!word || now->kind != RESULT_NUMBER || !now->own ||
+	    CODE_TYPE(to) != CODE_TYPE(now->operand) || CODE_TYPE(to) == IEC_STRING ||
+	    CODE_OFFSET(*word) != CODE_OFFSET(now->operand))
+		return false;
+	*word += CODE_OFFSET(to) - CODE_OFFSET(*word);
+	bits_end(as);
+	now->operand = to;
+	now->own = false;
+	return true;
+}
+
 static void store_number(struct list *list, const struct meaning *m)
 {
 	struct il_result *now = &list->now;
@@ -328,6 +348,8 @@ static void store_number(struct list *list, const struct meaning *m)
 		list_copy(list, to, result_as(list, m->type));
 		return;
 	}
+	if (store_made(list, to))
+		return;
 	if (!now->own && result_goes_on(list)) {
 		enum iec_type type = (enum iec_type)CODE_TYPE(now->operand);
 		uint32_t slot = layout_tail(list->as, RUN_VALUES, type);

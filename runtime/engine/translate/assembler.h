@@ -71,6 +71,7 @@ struct assembler {
 	int open_cmp;              /* of a comparison that ends the code; -1  */
 	int open_bit;              /* word with the slot of the bit that the last
 				      instruction makes; -1: it makes none    */
+	int open_number;           /* likewise of a number that it always stores  */
 	struct code_place *place;
 	int place_count;
 	struct code_program *entry;

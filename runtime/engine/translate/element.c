@@ -86,6 +86,7 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 		    uint32_t *ok)
 {
 	uint32_t to;
+	int at;
 
 	if (meaning_is_whole(m)) {
 		to = layout_like(list->as, m);
@@ -95,8 +96,10 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 	to = m->type == IEC_BOOL ? scratch_new(list->as) :
 	     layout_tail(list->as, RUN_VALUES, m->type);
 	*ok = scratch_new(list->as);
+	at = list->as->text->count;
 	emit_value(list, VM_AGET, m,
 		   (uint32_t[]){ en, *ok, CODE_OPERAND(m->type, to) });
+	list->as->open_number = at + 3;
 	return CODE_OPERAND(m->type, to);
 }
 

@@ -17,6 +17,7 @@ void bits_end(struct assembler *as)
 	as->open_lut = -1;
 	as->open_cmp = -1;
 	as->open_bit = -1;
+	as->open_number = -1;
 }
 
 void emit_op(struct assembler *as, enum vm_op op, uint32_t n)

@@ -13,7 +13,8 @@
 static const char declared[] =
 	"VAR\n  A AT %IX0.0 : BOOL;\n  B AT %IX0.1 : BOOL;\n  C AT %IX0.2 : BOOL;\n"
 	"  D AT %IX0.3 : BOOL;\n  X, Y, Z : BOOL;\n  N, M : INT;\n  T : TIME;\n"
-	"  Raw AT %MW4 : INT;\n"
+	"  Raw AT %MW4 : INT;\n  List : ARRAY[0..4] OF INT := [8, 9, 10, 11, 12];\n"
+	"  Texts : ARRAY[0..4] OF STRING[8] := [5('abcd')];\n  Short : STRING[2];\n"
 	"  Delay : TON;\n  Up : CTUD;\nEND_VAR\n";
 
 static char text[200000];
@@ -144,6 +145,51 @@ static void stores_eno_at_once(void)
 
 		CHECK(ladder(&rig, rung[i], false));
 		CHECK_AS(tables(rig.resource.image.program) == most[i], rung[i]);
+		rig_close(&rig);
+	}
+}
+
+static int copies(const struct program *program)
+{
+	int count = 0;
+
+	for (const uint32_t *code = program->text, *end = code + program->text_words; code < end;
+	     code += code_words(code))
+		count += (*code & 0xff) == VM_COPY;
+	return count;
+}
+
+/* A sum goes to where it is stored, and a later line finds it there. A quotient may fail and goes
+ * there by a COPY; so does a text, as it may be cut. */
+static void stores_numbers_at_once(void)
+{
+	static const struct { const char *lines; int copies; int64_t n, m; } row[] = {
+		{ "LD N\nADD 1\nST N\n", 0, 8, 3 },
+		{ "LD N\nADD M\nST M\n", 0, 7, 10 },
+		{ "LD N\nSUB M\nMUL M\nST N\n", 0, 12, 3 },
+		{ "LD N\nADD 1\nST N\nADD N\nST M\n", 0, 8, 16 },
+		{ "LD N\nADD 1\nST N\nLT 100\nST X\n", 0, 8, 3 },
+		{ "LD N\nADD 1\nST N\nST M\n", 1, 8, 8 },
+		{ "LD N\nADD 1\nST N\nADD(M\nADD N\n)\nST M\n", 1, 8, 19 },
+		{ "LD N\nDIV M\nST N\n", 2, 2, 3 },
+		{ "LD N\nADD 32767\nST N\n", 0, -32762, 3 },
+		{ "LD N\nADD 1\nST Raw\nST N\n", 1, 8, 3 },
+		{ "LD List[M]\nST N\n", 0, 11, 3 },
+		{ "LD List[N]\nST M\n", 0, 7, 0 },
+		{ "LD List[M]\nST M\nADD M\nST N\n", 0, 22, 11 },
+		{ "LD Texts[M]\nST Short\nLEN\nST N\n", 3, 4, 3 },
+	};
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
+		struct rig rig;
+
+		CHECK_AS(list(&rig, row[i].lines), row[i].lines);
+		rig_set(&rig, "N", 7);
+		rig_set(&rig, "M", 3);
+		rig_scan(&rig);
+		CHECK_AS(copies(rig.resource.image.program) == row[i].copies, row[i].lines);
+		CHECK_AS(rig_get(&rig, "N") == row[i].n && rig_get(&rig, "M") == row[i].m,
+			 row[i].lines);
 		rig_close(&rig);
 	}
 }
@@ -640,6 +686,7 @@ int main(void)
 	writes_contacts_and_coils();
 	shares_power();
 	stores_eno_at_once();
+	stores_numbers_at_once();
 	nests_as_deep_as_columns();
 	writes_flow_and_boxes();
 	keeps_old_values();
