@@ -8,6 +8,9 @@
 
 #include <string.h>
 
+/* The branch that a compiler places first. */
+#define LIKELY(x) __builtin_expect((x), 1)
+
 /* ---- operands ---- */
 
 static inline bool is_real(uint32_t word)
@@ -86,16 +89,6 @@ static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 	}
 }
 
-/* What copy() wants for one value of each type. Where room is short, all of them are widened. */
-static inline uint32_t plain_size(uint32_t to, uint32_t from)
-{
-#ifdef __OPTIMIZE_SIZE__
-	return 0 * (to + from);
-#else
-	return to != from || to == IEC_STRING ? 0 : 8 - value_spare_bits(to) / 8;
-#endif
-}
-
 /* ---- elements whose index is computed in the scan ---- */
 
 /* Operands of AGET and APUT; ABLOCK has SIZE in between. The indices follow. */
@@ -134,6 +127,87 @@ static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t m
 	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
 }
 
+/* @size: 2 or 4, a constant for the compiler. */
+static inline int32_t whole(const uint8_t *at, size_t size)
+{
+	int16_t half;
+	int32_t both;
+
+	if (size == sizeof(half)) {
+		memcpy(&half, at, sizeof(half));
+		return half;
+	}
+	memcpy(&both, at, sizeof(both));
+	return both;
+}
+
+/* ---- the most frequent element: one index, INT or DINT, and values of one type ----
+ * Left out where room is short: the general way has the same result. */
+
+/* Is the element at *@where? False: there is none, or it is another kind. */
+static inline bool find_often(const uint8_t *m, const uint32_t *at, uint32_t n,
+			      uint32_t *where)
+{
+#ifdef __OPTIMIZE_SIZE__
+	(void)m, (void)at, (void)n, (void)where;
+	return false;
+#else
+	uint32_t index = at[ELEMENT + INDEX], type = CODE_TYPE(index);
+	uint64_t element;
+
+	if (n || CODE_TYPE(at[VALUE]) != CODE_TYPE(at[BASE]) || !m[CODE_OFFSET(at[EN])] ||
+	    (type != IEC_INT && type != IEC_DINT))
+		return false;
+	element = (uint64_t)((int64_t)whole(m + CODE_OFFSET(index), type == IEC_INT ? 2 : 4) -
+			     (int32_t)at[ELEMENT + LOW]);
+	*where = CODE_OFFSET(at[BASE]) + (uint32_t)element * at[ELEMENT + STRIDE];
+	return element < at[ELEMENT + COUNT];
+#endif
+}
+
+/* A number of 2 or 4 bytes; false: another one. */
+static inline bool copy_often(uint8_t *to, const uint8_t *from, uint32_t type)
+{
+	switch (type) {
+	case IEC_INT:
+	case IEC_UINT:
+	case IEC_WORD:
+		memcpy(to, from, 2);
+		return true;
+	case IEC_DINT:
+	case IEC_UDINT:
+	case IEC_DWORD:
+	case IEC_REAL:
+		memcpy(to, from, 4);
+		return true;
+	default:
+		return false;
+	}
+}
+
+/* AGET and APUT of it; false: it is another one, or there is none. */
+static inline bool get_often(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where;
+
+	if (!find_often(m, at, n, &where) ||
+	    !copy_often(m + CODE_OFFSET(at[VALUE]), m + where, CODE_TYPE(at[VALUE])))
+		return false;
+	m[at[OK]] = 1;
+	return true;
+}
+
+static inline bool put_often(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where;
+
+	if (!find_often(m, at, n, &where) ||
+	    !copy_often(m + where, m + CODE_OFFSET(at[VALUE]), CODE_TYPE(at[VALUE])))
+		return false;
+	m[at[OK]] = 1;
+	return true;
+}
+
 static inline void clear_value(uint8_t *m, const uint32_t *at)
 {
 	static const struct iec_string none = { 0, 0 };
@@ -155,7 +229,7 @@ static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 		return true;
 	}
 	pair[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	copy(m, pair, plain_size(CODE_TYPE(at[VALUE]), CODE_TYPE(at[BASE])));
+	run_copy(m, pair);
 	return true;
 }
 
@@ -174,7 +248,7 @@ static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 		return true;
 	}
 	pair[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	copy(m, pair, plain_size(CODE_TYPE(at[BASE]), CODE_TYPE(at[VALUE])));
+	run_copy(m, pair);
 	return true;
 }
 
@@ -271,9 +345,6 @@ static inline void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_
 
 /* ---- calls through the catalogue ---- */
 
-/* The branch that a compiler places first. */
-#define LIKELY(x) __builtin_expect((x), 1)
-
 /* Calls through the catalogue: a row without its function does not link. */
 #define FB(id, ...) static void step_##id(void *fb, int64_t now_ns) \
 	{ fb_##id##_step(fb, now_ns); }
@@ -350,20 +421,6 @@ static float single(const uint8_t *at)
 
 	memcpy(&value, at, sizeof(value));
 	return value;
-}
-
-/* @size: 2 or 4, a constant for the compiler. */
-static inline int32_t whole(const uint8_t *at, size_t size)
-{
-	int16_t half;
-	int32_t both;
-
-	if (size == sizeof(half)) {
-		memcpy(&half, at, sizeof(half));
-		return half;
-	}
-	memcpy(&both, at, sizeof(both));
-	return both;
 }
 
 /* One rounding of the exact result; double and a second rounding give the same. */
@@ -731,6 +788,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto each;
 			break;
 		case VM_AGET:
+			if (LIKELY(get_often(m, pc + 1, n))) {
+				pc += 9;
+				break;
+			}
 			m[pc[2]] = m[pc[1]] && get_element(m, pc + 1, n);
 			if (!m[pc[2]]) {
 				clear_value(m, pc + 1);
@@ -740,6 +801,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 9 + 4 * (n >> 1);
 			break;
 		case VM_APUT:
+			if (LIKELY(put_often(m, pc + 1, n))) {
+				pc += 9;
+				break;
+			}
 			m[pc[2]] = m[pc[1]] && put_element(m, pc + 1, n);
 			if (m[pc[1]] && !m[pc[2]])
 				count_error(vm, pc, base);
