@@ -144,25 +144,26 @@ static inline int32_t whole(const uint8_t *at, size_t size)
 /* ---- the most frequent element: one index, INT or DINT, and values of one type ----
  * Left out where room is short: the general way has the same result. */
 
+#ifdef __OPTIMIZE_SIZE__
+#define HAS_OFTEN false
+#else
+#define HAS_OFTEN true
+#endif
+
 /* Is the element at *@where? False: there is none, or it is another kind. */
 static inline bool find_often(const uint8_t *m, const uint32_t *at, uint32_t n,
 			      uint32_t *where)
 {
-#ifdef __OPTIMIZE_SIZE__
-	(void)m, (void)at, (void)n, (void)where;
-	return false;
-#else
 	uint32_t index = at[ELEMENT + INDEX], type = CODE_TYPE(index);
 	uint64_t element;
 
-	if (n || CODE_TYPE(at[VALUE]) != CODE_TYPE(at[BASE]) || !m[CODE_OFFSET(at[EN])] ||
+	if (!HAS_OFTEN || n || CODE_TYPE(at[VALUE]) != CODE_TYPE(at[BASE]) || !m[CODE_OFFSET(at[EN])] ||
 	    (type != IEC_INT && type != IEC_DINT))
 		return false;
 	element = (uint64_t)((int64_t)whole(m + CODE_OFFSET(index), type == IEC_INT ? 2 : 4) -
 			     (int32_t)at[ELEMENT + LOW]);
 	*where = CODE_OFFSET(at[BASE]) + (uint32_t)element * at[ELEMENT + STRIDE];
 	return element < at[ELEMENT + COUNT];
-#endif
 }
 
 /* A number of 2 or 4 bytes; false: another one. */
