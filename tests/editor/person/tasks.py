@@ -3,6 +3,7 @@
 """tasks - the page of the tasks: cells, rows that come, go and move, a project without a CONFIGURATION, what runs
 when."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -377,7 +378,8 @@ def paced(screen):
     x, y, width, height = editor.place(slow)
     editor.click((x + 20, y + height // 2))
     editor.keys('Left')
-    editor.says('At 7 ms: Fast (0.011 ms), then Slow (0.913 ms)')
+    until(lambda: any(re.match(r'At 7 ms: Fast \(0\.0\d\d ms\), then Slow \(0\.[1-9]\d\d ms\)$', node.name)
+                      for node in editor.all('At 7 ms: Fast (', 'label')), 'how long the runs took')
     editor.keys('Left')
     until(lambda: any('interrupted' in node.name for node in editor.all('At 6 ms: Fast', 'label')), 'who was interrupted')
     editor.shot('tasks-paced')

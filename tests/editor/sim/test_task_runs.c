@@ -25,13 +25,15 @@ static const char tasks[] =
 static const char plain[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
 
-/* Slow counts to 20 in a loop that begins with a safe point. */
+/* Slow counts to 20 in a loop that begins with a safe point. A run of Fast has more than 10 words:
+ * at 1 word/ms it takes longer than 10 periods of 1 ms. */
 static const char pair[] =
-	"RUNGBOARD 1\n\nVAR_GLOBAL\n  N, K : INT;\nEND_VAR\n\nCONFIGURATION Plant\n"
+	"RUNGBOARD 1\n\nVAR_GLOBAL\n  N, K, Sum : INT;\nEND_VAR\n\nCONFIGURATION Plant\n"
 	"  TASK Fast (INTERVAL := T#1ms, PRIORITY := 0);\n"
 	"  TASK Slow (INTERVAL := T#50ms, PRIORITY := 1);\n"
 	"  PROGRAM A WITH Fast : One;\n  PROGRAM B WITH Slow : Two;\nEND_CONFIGURATION\n\n"
-	"PROGRAM One IL\n  LD N\n  ADD 1\n  ST N\nEND_PROGRAM\n\n"
+	"PROGRAM One IL\n  LD N\n  ADD 1\n  ST N\n  LD Sum\n  ADD N\n  ST Sum\n  LD Sum\n"
+	"  MUL 3\n  ST Sum\nEND_PROGRAM\n\n"
 	"PROGRAM Two IL\n  LD 0\n  ST K\nAgain:\n  LD K\n  ADD 1\n  ST K\n  LT 20\n"
 	"  JMPC Again\nEND_PROGRAM\n";
 
