@@ -277,7 +277,7 @@ void control_fill_status(const struct cycle *cycle, struct board_status *status)
 	status->errors = resource->vm.errors;
 	status->lines = (uint32_t)cycle->hal.map->count;
 	status->io_failed = cycle->hal.failed;
-	snprintf(status->board, sizeof(status->board), "%.63s", cycle->board);
+	snprintf(status->board, sizeof(status->board), "%.63s", cycle_board(cycle));
 	snprintf(status->version, sizeof(status->version), "%s", LADDER_VERSION);
 	fill_places(cycle, status);
 	fill_tasks(resource, status);
@@ -301,7 +301,7 @@ void control_status(const struct cycle *cycle, bool wait)
 		put_tasks(&cycle->resource, &block, wait);
 	add_io(&block, &cycle->hal);
 	add_retain(&block, cycle->store);
-	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board,
+	add(&block, "board: %.60s\nprogram: %s\n\n", cycle_board(cycle),
 	    cycle->identity);
 	put(STDOUT_FILENO, block.text, block.len, wait);
 }

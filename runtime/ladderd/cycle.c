@@ -68,13 +68,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 
 void cycle_name(struct cycle *cycle, const char *name, const char *of_map)
 {
-	const char *from = *name ? name : of_map;
-	size_t len = strlen(from);
-
-	if (len >= sizeof(cycle->board))
-		len = sizeof(cycle->board) - 1;
-	memcpy(cycle->board, from, len);
-	cycle->board[len] = '\0';
+	atomic_store_explicit(&cycle->board, *name ? name : of_map, memory_order_release);
 }
 
 static void note(const struct cycle *cycle, enum link_note what, int64_t now_ns)

@@ -17,6 +17,8 @@
 #include "ladderd/wall.h"
 #include "online/service.h"
 
+#include <stdatomic.h>
+
 struct cycle {
 	struct resource resource;
 	struct hal hal;
@@ -26,7 +28,8 @@ struct cycle {
 	struct requests *requests;
 	struct store *store;   /* retained values; NULL: no --retain          */
 	struct link *link;     /* to desks; NULL: no --link                   */
-	char board[64];        /* its name                                    */
+	const char *_Atomic board; /* its name; borrowed                      */
+	char given[64];        /* … by a desk                                 */
 	uint8_t identity_bytes[32]; /* SHA-256 of the program                 */
 	char identity[65];   /* the same in hex                           */
 	int64_t period_ns;   /* from one cycle to the next                  */
@@ -82,8 +85,13 @@ struct options;
 /** cycle_configure - period, limits and name of the board from now on. Scan-safe: between
  * scans, a system call. */
 void cycle_configure(struct cycle *cycle, const struct options *options);
-/** cycle_name - the name of the board; "": that of its map. */
+/** cycle_name - the name of the board is @name; "": @of_map. It borrows them. Scan-safe: yes. */
 void cycle_name(struct cycle *cycle, const char *name, const char *of_map);
+/** cycle_board - the name of the board, for the scan thread. Scan-safe: yes. */
+static inline const char *cycle_board(const struct cycle *cycle)
+{
+	return atomic_load_explicit(&cycle->board, memory_order_relaxed);
+}
 struct standby;
 /**
  * cycle_swap - goes on with the program of @standby, in the state of the present one

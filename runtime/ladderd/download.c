@@ -439,11 +439,10 @@ const struct stored *download_running(struct download *download)
 /* ---- the scan thread ---- */
 
 /* Goes on with the lines of another map. The name of the board is that of the map, unless
- * somebody gave it one. */
+ * somebody gave it one. The link thread, which may read the name meanwhile, frees the map. */
 static void take_lines(struct cycle *cycle, struct hal *lines)
 {
-	const char *was = cycle->hal.map->board;
-	const bool of_map = strncmp(cycle->board, was, sizeof(cycle->board) - 1) == 0;
+	const bool of_map = cycle_board(cycle) == cycle->hal.map->board;
 
 	hal_exchange(&cycle->hal, lines);
 	guarded_lines(&cycle->hal);

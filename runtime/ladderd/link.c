@@ -128,7 +128,8 @@ static int64_t clock_now(void)
 void cycle_configure(struct cycle *cycle, const struct options *options)
 {
 	cycle->late_limit = options->late;
-	cycle_name(cycle, options->name, cycle->hal.map->board);
+	memcpy(cycle->given, options->name, sizeof(cycle->given));
+	cycle_name(cycle, cycle->given, cycle->hal.map->board);
 	monitor_limit(cycle_plan(cycle, options->period_ns, options->watchdog));
 }
 
@@ -1237,7 +1238,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const struct program *program = cycle->resource.image.program;
 	const size_t size = image_memory_size(program);
 	const struct server_setup setup = {
-		.exchange = &link->exchange, .program = program, .board = cycle->board,
+		.exchange = &link->exchange, .program = program, .board = &cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,

@@ -525,7 +525,7 @@ static enum refusal serve_hello(struct asked *asked)
 	wire_put_u8(&asked->out, (uint8_t)asked->nameless->role);
 	wire_put_u8(&asked->out, 0);
 	wire_put_string(&asked->out, LADDER_VERSION);
-	wire_put_string(&asked->out, asked->nameless->cycle->board);
+	wire_put_string(&asked->out, cycle_board(asked->nameless->cycle));
 	return REFUSAL_NONE;
 }
 

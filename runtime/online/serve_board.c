@@ -30,7 +30,7 @@ enum refusal serve_hello(struct asked *asked)
 	wire_put_u8(&asked->out, (uint8_t)asked->session->role);
 	wire_put_u8(&asked->out, (uint8_t)(asked->session - asked->server->session));
 	wire_put_string(&asked->out, LADDER_VERSION);
-	wire_put_string(&asked->out, asked->server->setup.board);
+	wire_put_string(&asked->out, *asked->server->setup.board);
 	return REFUSAL_NONE;
 }
 

@@ -108,7 +108,7 @@ struct server_store {
 struct server_setup {
 	struct exchange *exchange;
 	const struct program *program;
-	const char *board;     /* name of the board; borrowed                 */
+	const char *_Atomic *board; /* its name, which an exchange changes; borrowed */
 	const struct server_log *log;
 	const struct server_conf *conf;
 	const struct server_password *password; /* NULL: there is none    */

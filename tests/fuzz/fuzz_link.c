@@ -228,7 +228,8 @@ static void rig_open(struct rig *rig)
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_clock clock = { read_clock, set_clock };
 	static const struct server_conf conf = { get_setting, change_setting };
-	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
+	static const char *_Atomic board_name = "b";
+	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = &board_name, .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock };
 	size_t size;
 

@@ -896,8 +896,12 @@ def test_many_maps_in_turn():
 test_many_maps_in_turn.as_is = True
 
 
+# The loop of faulty() ends by its budget: on a slow machine, too, before the watchdog writes the safe outputs.
+PATIENT = '--watchdog', '1000'
+
+
 def test_a_fault_brings_the_lines_back():
-    with Board(COUNTS, '--slots', '.') as board:
+    with Board(COUNTS, '--slots', '.', *PATIENT) as board:
         desk = board.client()
         desk.force({'Start': (BOOL, True)})
         until(lambda: levels(board).get('%QX0.0') == ['1'])
@@ -1095,7 +1099,7 @@ COUNTS = TRIED.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nRUNG\n  | NO SYS_A
 
 def test_a_fault_within_its_first_scans_brings_the_old_program_back():
     for scan, back in ((1, 1), (1, 5), (4, 5), (5, 5)):
-        with Board(COUNTS, '--slots', '.') as board:
+        with Board(COUNTS, '--slots', '.', *PATIENT) as board:
             desk, other = board.client(), board.client()
             desk.force({'Start': (BOOL, True)})
             until(lambda: desk.read('Motor', 'Slow.ET')[1] > 100000000)
@@ -1525,10 +1529,19 @@ def test_more_alarms_than_the_list_holds_are_counted():
     with Board(many, '--slots', '.', board='BOARD "b"\n%IX0.0 sim\n') as board:
         desk = board.client()
         desk.force({'In': (BOOL, True)})
-        until(lambda: desk.alarms()[1]['lost'])
-        until(lambda: len(desk.alarms()[0]) == 256 and desk.alarms()[1]['lost'] == 45)  # one row is of the force
-        assert desk.ack() == 255
-        assert 'alarms came 45 times and found no room in the list of 256\n' in board.command('alarms')[1]
+
+        def found():
+            rows, head = desk.alarms()
+            return len(rows), sum(it['name'] in names for it in rows), head['lost']
+
+        until(lambda: found()[0] == 256 and sum(found()[1:]) >= 300)  # one row is of the force
+        _rows, own, missing = found()
+        # On a busy machine SYS_WD_LATE comes, too: it has a row, or finds none, as often as it comes.
+        assert (own, missing) == (255, 45) or desk.status()['missed'], (own, missing)
+        assert own <= desk.ack() <= own + 1
+        shown = board.command('alarms')[1]
+        lost = re.search(r'alarms came (\d+) times and found no room in the list of 256\n', shown)
+        assert lost and int(lost[1]) >= missing, shown
 
 
 def test_a_retained_alarm_is_the_same_one_after_a_start():
@@ -2263,8 +2276,17 @@ def memory_of(pid):
     return found
 
 
+def uses(library):
+    return library in subprocess.run(['ldd', BUILD + '/ladderd'], capture_output=True, text=True, check=False).stdout
+
+
 def has_crypt():
-    return 'libcrypt' in subprocess.run(['ldd', BUILD + '/ladderd'], capture_output=True, text=True, check=False).stdout
+    return uses('libcrypt')
+
+
+def not_by_tsan(why):
+    if uses('libtsan'):
+        raise Skip('ladderd with the thread sanitizer: ' + why)
 
 
 def test_a_password_guards_the_upload():
@@ -2350,6 +2372,7 @@ test_who_guesses_makes_nobody_else_wait.root = True
 
 
 def test_a_password_leaves_no_trace():
+    not_by_tsan('its memory is too large to be read')
     if not has_crypt():
         raise Skip('ladderd without libcrypt')
     with slots() as board:
@@ -3320,6 +3343,7 @@ END_PROGRAM
 
 def test_tasks_that_interrupt_are_in_the_record():
     """Sum depends on the place where each run of Fast interrupted Slow."""
+    not_by_tsan('it keeps signals back until the next system call')
     with Board(WAIT, '--watchdog', '1000') as board:
         desk = board.client()
         until(lambda: desk.status()['tasks'][1]['interrupted'] > 30)

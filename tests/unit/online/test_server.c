@@ -180,6 +180,7 @@ static const struct server_store disk = {
 	.begin = begin, .verify = verify, .open_lines = open_lines, .close_lines = close_lines,
 	.store = store, .keep = keep, .drop = drop, .swapped = swapped,
 };
+static const char *_Atomic board_name = "bench";
 static const struct server_log events = { .add = log_add, .next = log_next };
 
 static bool bench_open(struct bench *bench, enum trouble trouble)
@@ -203,7 +204,7 @@ static bool bench_open(struct bench *bench, enum trouble trouble)
 	exchange_init(&bench->exchange, &bench->host, bench->views, image_memory_size(program));
 	resource_start(&bench->rig.resource);
 	bench->server = server_new(&(struct server_setup){
-		.exchange = &bench->exchange, .program = program, .board = "bench", .log = &events,
+		.exchange = &bench->exchange, .program = program, .board = &board_name, .log = &events,
 		.store = &disk, .wait = wait_for_scan, .amend = amend, .context = bench,
 	});
 	return bench->server && server_open(bench->server, ROLE_ENG, "desk", 1) == 0;
