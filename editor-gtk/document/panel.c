@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/document/panel.h"
 
+#include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
@@ -198,6 +199,10 @@ struct panel_column {
 	int need;     /* px for the longest text so far: widths settle          */
 	int whole;    /* the same, of a text that is wider than COLUMN_MOST, too */
 	int set;      /* given last; another one is a person's                  */
+	int field;    /* as @text, of a check box, too                          */
+	int leaves;   /* 1: the first to leave a narrow list; 0: it stays       */
+	bool away;    /* it left                                                */
+	enum { FREE, SHOWN, HIDDEN } chosen; /* by a person                     */
 };
 
 /* The longest text of the rows in a column; "": none. Borrowed. */
@@ -221,6 +226,14 @@ static const char *longest(struct panel_list *list, int text)
 	return found;
 }
 
+/* Where a column expands, its texts may end in an ellipsis first: it gets what is left over. */
+static int most_of(const struct panel_column *column)
+{
+	const bool expands = gtk_column_view_column_get_expand(column->column);
+
+	return expands && column->width ? column->width : COLUMN_MOST;
+}
+
 static void measure(struct panel_list *list)
 {
 	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(list->view), NULL);
@@ -235,7 +248,7 @@ static void measure(struct panel_list *list)
 		pango_layout_get_pixel_size(layout, &width, NULL);
 		if (each->bold)
 			width = panel_heading_width(GTK_WIDGET(list->view), longest(list, each->text));
-		each->need = MAX(each->need, MIN(width + each->room, COLUMN_MOST));
+		each->need = MAX(each->need, MIN(width + each->room, most_of(each)));
 		each->whole = MAX(each->whole, width + each->room);
 	}
 	g_object_unref(layout);
@@ -245,7 +258,7 @@ static void measure(struct panel_list *list)
 static bool is_ours(const struct panel_column *column)
 {
 	return column->width &&
-	       gtk_column_view_column_get_fixed_width(column->column) == column->set;
+	       list_column_width(column->column) == column->set;
 }
 
 /* Px that a column may be narrower: its wish less what its texts need. */
@@ -268,7 +281,7 @@ static int share(int own, int px, int all)
 
 static int wish_of(const struct panel_column *column)
 {
-	const int now = gtk_column_view_column_get_fixed_width(column->column);
+	const int now = list_column_width(column->column);
 
 	if (column->width && !is_ours(column))
 		return now;
@@ -323,7 +336,7 @@ static struct widths widths_of(struct panel_list *list)
 	for (guint i = 0; i < list->columns->len; i++) {
 		const struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
 
-		if (!gtk_column_view_column_get_visible(each->column))
+		if (each->leaves ? each->away : !gtk_column_view_column_get_visible(each->column))
 			continue;
 		of.all += wish_of(each);
 		of.lack += lack_of(each);
@@ -374,10 +387,163 @@ static void show_headings(struct panel_list *list)
 	}
 }
 
+/* ---- columns that leave ---- */
+
+static bool has_focus(struct panel_list *list, const struct panel_column *column)
+{
+	int field;
+
+	return cells_focused(list->view, &field) && field == column->field;
+}
+
+/* The next column to leave; NULL: none. @empty: only one without any text. */
+static struct panel_column *next_to_leave(struct panel_list *list, bool empty)
+{
+	struct panel_column *next = NULL;
+
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		if (each->leaves && !each->away && each->chosen == FREE &&
+		    (!next || each->leaves < next->leaves) &&
+		    !(empty && *longest(list, each->field)) && !has_focus(list, each))
+			next = each;
+	}
+	return next;
+}
+
+static void come_back(struct panel_list *list)
+{
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		each->away = each->leaves && each->chosen == HIDDEN;
+	}
+}
+
+/* Columns leave while texts are cut, those without any text first. Returns what those that stay
+ * need. */
+static struct widths leave(struct panel_list *list)
+{
+	struct panel_column *next = NULL;
+	struct widths of;
+
+	do {
+		of = widths_of(list);
+		if (list->page == 0 || of.all - of.slack <= list->page)
+			break;
+		next = next_to_leave(list, true);
+		if (!next)
+			next = next_to_leave(list, false);
+		if (next)
+			next->away = true;
+	} while (next);
+	return of;
+}
+
+static GAction *action_of(struct panel_list *list, const struct panel_column *column)
+{
+	char name[16];
+
+	g_snprintf(name, sizeof(name), "text%d", column->field);
+	return g_action_map_lookup_action(G_ACTION_MAP(list->actions), name);
+}
+
+/* Hides those that left, shows those that came back. The button is there while there is something
+ * to choose. */
+static void show_columns(struct panel_list *list)
+{
+	bool choice = false;
+
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		if (!each->leaves)
+			continue;
+		list_show_column(each->column, !each->away);
+		g_simple_action_set_state(G_SIMPLE_ACTION(action_of(list, each)),
+					  g_variant_new_boolean(!each->away));
+		choice = choice || each->away || each->chosen != FREE;
+	}
+	if (list->button)
+		gtk_widget_set_visible(list->button, choice);
+}
+
+static void fit(struct panel_list *list);
+
+static void column_chosen(GSimpleAction *action, GVariant *unused, struct panel_list *list)
+{
+	(void)unused;
+	for (guint i = 0; list->columns && i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		if (each->leaves && action_of(list, each) == G_ACTION(action))
+			each->chosen = each->away ? SHOWN : HIDDEN;
+	}
+	if (list->fitted)
+		fit(list);
+}
+
+static void may_leave(struct panel_list *list, struct panel_column *column, GMenu *menu)
+{
+	const char *title = gtk_column_view_column_get_title(column->column);
+	char *name = g_strdup_printf("text%d", column->field);
+	char *detailed = g_strconcat("columns.", name, NULL);
+	char *line = g_strdelimit(g_strdup(title), "\n", ' ');
+	GSimpleAction *action = g_simple_action_new_stateful(name, NULL, g_variant_new_boolean(TRUE));
+
+	g_signal_connect(action, "activate", G_CALLBACK(column_chosen), list);
+	g_action_map_add_action(G_ACTION_MAP(list->actions), G_ACTION(action));
+	g_menu_append(menu, line, detailed);
+	g_object_unref(action);
+	g_free(line);
+	g_free(detailed);
+	g_free(name);
+}
+
+void panel_list_may_leave(struct panel_list *list, const int *texts, int count,
+			  GtkMenuButton *button)
+{
+	GMenu *menu = g_menu_new();
+
+	list->actions = g_simple_action_group_new();
+	gtk_widget_insert_action_group(GTK_WIDGET(list->view), "columns", G_ACTION_GROUP(list->actions));
+	gtk_widget_insert_action_group(GTK_WIDGET(button), "columns", G_ACTION_GROUP(list->actions));
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		for (int j = 0; j < count; j++)
+			if (texts[j] == each->field)
+				each->leaves = j + 1;
+		if (each->leaves)
+			may_leave(list, each, menu);
+	}
+	for (guint i = 0; i < list->columns->len; i++)
+		gtk_column_view_column_set_header_menu(
+			g_array_index(list->columns, struct panel_column, i).column, G_MENU_MODEL(menu));
+	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	gtk_widget_set_visible(GTK_WIDGET(button), FALSE);
+	g_set_weak_pointer(&list->button, GTK_WIDGET(button));
+	g_object_unref(menu);
+}
+
+/* The widgets may keep the actions a little longer. */
+static void forget_actions(struct panel_list *list)
+{
+	for (guint i = 0; list->actions && i < list->columns->len; i++) {
+		const struct panel_column *each =
+			&g_array_index(list->columns, struct panel_column, i);
+
+		if (each->leaves)
+			g_signal_handlers_disconnect_by_data(action_of(list, each), list);
+	}
+	g_clear_object(&list->actions);
+}
+
 /* Each column has the width that it wishes, or more for its texts. Where that is more than the
  * list has, or the texts of one that expands lack room, all give up what their texts do not need,
- * then headings have two lines. If then all headings can be seen where long texts end in an
- * ellipsis, they do. */
+ * then headings have two lines, then columns leave. If then all headings can be seen where long
+ * texts end in an ellipsis, they do. */
 static void fit(struct panel_list *list)
 {
 	struct widths of;
@@ -385,10 +551,15 @@ static void fit(struct panel_list *list)
 
 	measure(list);
 	set_low(list, false);
+	come_back(list);
 	of = widths_of(list);
 	if (list->page > 0 && of.all - of.slack > list->page) {
 		set_low(list, true);
 		of = widths_of(list);
+	}
+	if (list->actions) {
+		of = leave(list);
+		show_columns(list);
 	}
 	if (list->page > 0) {
 		over = CLAMP(of.all + of.lack - list->page, 0, of.slack);
@@ -399,11 +570,11 @@ static void fit(struct panel_list *list)
 	show_headings(list);
 	for (guint i = 0; i < list->columns->len; i++) {
 		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
-		const int now = gtk_column_view_column_get_fixed_width(each->column);
+		const int now = list_column_width(each->column);
 		const int less = share(slack_of(each), over, of.slack) +
 				 share(spare_of(each), cut, of.spare);
 
-		if (!each->width || now != each->set)
+		if (!each->width || now != each->set || each->away)
 			continue;
 		each->set = wish_of(each) - less;
 		if (each->set != now)
@@ -465,7 +636,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 		.room = flags & PANEL_LABEL ? LABEL_ROOM : flags & PANEL_BUTTON ? BUTTON_ROOM :
 			CELL_ROOM,
 		.bold = flags & PANEL_BOLD, .width = width ? MAX(width, least) : 0, .least = least, .line = least,
-		.low = low, .set = MAX(width, least) };
+		.low = low, .set = MAX(width, least),
+		.field = flags & PANEL_ICON ? -1 : text };
 
 	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));
 	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
@@ -543,6 +715,8 @@ void panel_list_clear(struct panel_list *list)
 	if (list->fitted)
 		g_signal_handlers_disconnect_by_data(list->fitted, list);
 	g_clear_weak_pointer(&list->fitted);
+	g_clear_weak_pointer(&list->button);
+	forget_actions(list);
 	g_clear_pointer(&list->columns, g_array_unref);
 	g_clear_object(&list->selection);
 	g_clear_object(&list->filtered);

@@ -25,6 +25,8 @@ struct panel_list {
 	GtkAdjustment *across; /* of it                                        */
 	int page;              /* px that it shows; 0: unknown                 */
 	bool low;              /* headings have two lines                      */
+	GSimpleActionGroup *actions; /* of the columns that may leave; NULL: none do */
+	GtkWidget *button;     /* of their menu, weak                          */
 	guint fit;             /* sets the widths when it elapses              */
 	gulong followed;       /* panel_list_follow(); 0: not                  */
 };
@@ -65,6 +67,12 @@ GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
 				    unsigned int flags, int width,
 				    GtkListItemFactory *factory);
+/** panel_list_may_leave - the columns of these texts leave a list that is too narrow for all texts,
+ * the first one first, those without any text before the others. The menu of each
+ * heading and of @button, which is visible while one is away, shows and hides them. Once, after
+ * the last column was added. */
+void panel_list_may_leave(struct panel_list *list, const int *texts, int count,
+			  GtkMenuButton *button);
 /** panel_heading_width - px that the heading of a column of @view needs; a column with a
  * fixed width must not be narrower, in any language. */
 int panel_heading_width(GtkWidget *view, const char *name);

@@ -17,7 +17,7 @@
 struct _LadderIomapView {
 	GtkBox parent;
 	GtkTextBuffer *buffer;
-	GtkWidget *stack, *tools, *board, *lacks, *lacks_label, *message;
+	GtkWidget *stack, *tools, *columns, *board, *lacks, *lacks_label, *message;
 	struct panel_list list;
 	struct panel_watch *watch;
 	struct panel_cells cells;
@@ -552,7 +552,7 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/iomap_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderIomapView, name)
-	CHILD(stack); CHILD(tools); CHILD(board); CHILD(lacks); CHILD(lacks_label);
+	CHILD(stack); CHILD(tools); CHILD(columns); CHILD(board); CHILD(lacks); CHILD(lacks_label);
 	CHILD(message);
 #undef CHILD
 	panel_bind_list(widget, LadderIomapView);
@@ -572,6 +572,8 @@ static void add_columns(LadderIomapView *view)
 		{ IO_DEBOUNCE, 76 }, { IO_SAFE, 76 }, { IO_DRIVE, 110 },
 		{ IO_COMMENT, 110 },
 	};
+	static const int leaving[] = { IO_DRIVE, IO_PULL, IO_DEBOUNCE, IO_ACTIVE_LOW, IO_COMMENT,
+				       IO_SAFE };
 
 	panel_list_column(&view->list, "", 0, PANEL_ICON, 0);
 	panel_cells_add(&view->list, &view->cells, IO_ADDRESS, 0, 96);
@@ -580,6 +582,8 @@ static void add_columns(LadderIomapView *view)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field, 0,
 				column[i].width);
 	panel_list_column(&view->list, _("State"), IOMAP_STATE, PANEL_EXPAND, 150);
+	panel_list_may_leave(&view->list, leaving, G_N_ELEMENTS(leaving),
+			     GTK_MENU_BUTTON(view->columns));
 }
 
 static void ladder_iomap_view_init(LadderIomapView *view)

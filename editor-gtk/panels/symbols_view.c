@@ -27,7 +27,7 @@ enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2, SYMBOLS_EXPORTS = 1 << 20, SYMBOLS
 
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *scopes, *kind, *access, *search;
+	GtkWidget *box, *scopes, *kind, *access, *search, *columns;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
@@ -509,6 +509,7 @@ static void bind_children(GtkWidgetClass *class)
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, kind);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, access);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, columns);
 	panel_bind_list(class, LadderSymbolsView);
 	panel_bind_message(class, LadderSymbolsView);
 	gtk_widget_class_bind_template_callback(class, scope_changed);
@@ -590,6 +591,8 @@ static void add_columns(LadderSymbolsView *view)
 		{ FIELD_INITIAL, 120 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
 		{ FIELD_COMMENT, 180 },
 	};
+	static const int leaving[] = { SYMBOLS_USES, SYMBOLS_ACCESS, FIELD_CONSTANT, FIELD_RETAIN,
+				       SYMBOLS_SCOPE, FIELD_INITIAL };
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .checks = CHECKS,
 		.name = field_name, .set = set_field, .is_fixed = is_fixed,
@@ -605,6 +608,8 @@ static void add_columns(LadderSymbolsView *view)
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_cells_add(&view->list, &view->cells, SYMBOLS_ACCESS, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
+	panel_list_may_leave(&view->list, leaving, G_N_ELEMENTS(leaving),
+			     GTK_MENU_BUTTON(view->columns));
 }
 
 /* The labels are translated. */

@@ -45,6 +45,13 @@ void list_drop_row(GtkTreeExpander *expander)
 	gtk_tree_expander_set_list_row(expander, NULL);
 }
 
+int list_column_width(GtkColumnViewColumn *column)
+{
+	return gtk_column_view_column_get_visible(column) ?
+	       gtk_column_view_column_get_fixed_width(column) :
+	       GPOINTER_TO_INT(g_object_get_data(G_OBJECT(column), "width"));
+}
+
 void list_show_column(GtkColumnViewColumn *column, bool shown)
 {
 	const int width = gtk_column_view_column_get_fixed_width(column);

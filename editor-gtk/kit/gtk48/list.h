@@ -37,6 +37,8 @@ void list_drop_row(GtkTreeExpander *expander);
 /** list_show_column - shows or hides a column, which keeps its fixed width for when it is shown
  * again. While it is hidden, gtk_column_view_column_get_fixed_width() is -1. */
 void list_show_column(GtkColumnViewColumn *column, bool shown);
+/** list_column_width - its fixed width, also while list_show_column() hides it. */
+int list_column_width(GtkColumnViewColumn *column);
 /** list_tab_stop_new - a container in which Tab leaves @child, a list, and arrows go from row to
  * row. */
 GtkWidget *list_tab_stop_new(GtkWidget *child);

@@ -115,6 +115,25 @@ def small(screen):
     editor.find('Find an element')
 
 
+def columns(screen):
+    """1024x700: the symbols have no room for all columns; the menu brings one back, by keys alone"""
+    path = new_file(screen, GOOD)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.command('Symbols')
+    editor.find('Columns')
+    assert not editor.all('Motor, Constant')
+    editor.shot('looks-columns')
+    until(lambda: any(node.has(12) for node in editor.all('Columns')) or editor.keys('Tab'), 'the menu')
+    editor.keys('Return')
+    editor.find('Constant', 'menu item')
+    editor.shot('looks-columns-menu')
+    until(lambda: editor.find('Constant', 'menu item').has(12) or editor.keys('Down'), 'the column')
+    editor.keys('Return')
+    until(lambda: editor.all('Lamp, Constant', 'check box'), 'the column Constant')
+    editor.shot('looks-columns-back')
+
+
 def high(screen):
     """high contrast in the dark: the sheet is black, also outside of rungs"""
     editor = draw(screen, 'looks-high', ADW_DEBUG_COLOR_SCHEME='prefer-dark', ADW_DEBUG_HIGH_CONTRAST='1')
@@ -171,7 +190,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = large_letters.size = last_tab.size = '1024x700x24'
+small.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, last_tab, large_letters, large, sharp])
+main([light, dark, high, small, columns, last_tab, large_letters, large, sharp])
