@@ -230,6 +230,34 @@ static bool has_name(struct project *project, int table, const char *name)
 	return ladder_name_fault(name) != DIAG_COUNT;
 }
 
+static const char *table_name(const struct project *project, int table)
+{
+	const int structure = table - 1 - project->pou_count;
+
+	if (table < 1 || structure >= project->structure_count)
+		return "";
+	return project_text(project, structure < 0 ? project->pou[table - 1].name :
+						     project->structure[structure].name);
+}
+
+char *symbol_table_name(LadderDocument *document, int table)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return g_strdup(project ? table_name(project, table) : "");
+}
+
+int symbol_table_find(LadderDocument *document, const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+	const int count = project ? 1 + project->pou_count + project->structure_count : 0;
+
+	for (int table = 0; table < count; table++)
+		if (name_equal(table_name(project, table), name))
+			return table;
+	return -1;
+}
+
 int symbol_find(LadderDocument *document, int table, const char *name, int index)
 {
 	struct project *project = ladder_document_project(document);

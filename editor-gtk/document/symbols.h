@@ -98,6 +98,11 @@ bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why);
 /** symbol_delete - deletes it, used or not. */
 bool symbol_delete(LadderDocument *document, int table, int index, char **why);
+/** symbol_table_name - the name of the POU or structure whose table of xref/xref.h this is; "": the
+ * globals. The number is another one after a POU was added before it. Owns: the caller. */
+char *symbol_table_name(LadderDocument *document, int table);
+/** symbol_table_find - the table of that name; -1: there is none. */
+int symbol_table_find(LadderDocument *document, const char *name);
 /** symbol_find - the index of a declaration of a table of xref/xref.h; -1: none. @index: where it was
  * last; rows of a list are older than the document after an edit. -1: unknown. */
 int symbol_find(LadderDocument *document, int table, const char *name, int index);

@@ -24,8 +24,8 @@ struct dialog {
 	GtkWindow *window;
 	LadderDocument *document;
 	struct init_form *form;
-	int table, rows;
-	char *name;
+	int rows;
+	char *owner, *name;       /* of the variable, and what declares it: symbol_table_name() */
 	struct panel_list list;   /* only its view and selection are used       */
 	struct panel_cells cells;
 	GtkTreeListModel *tree;   /* belongs to the selection                   */
@@ -171,11 +171,6 @@ static bool is_fixed(const LadderPanelRow *row, int field)
 
 /* ---- the end ---- */
 
-static int index_of(const struct dialog *dialog)
-{
-	return symbol_find(dialog->document, dialog->table, dialog->name, -1);
-}
-
 /* The first row in @rows, or below them, with a text that was refused; NULL: none. */
 static LadderPanelRow *find_refused(GListModel *rows)
 {
@@ -229,6 +224,7 @@ static bool enter_refused(struct dialog *dialog)
 static void apply(GtkWidget *window, const char *action, GVariant *unused)
 {
 	struct dialog *dialog = g_object_get_data(G_OBJECT(window), "dialog");
+	const int table = symbol_table_find(dialog->document, dialog->owner);
 	char *text, *why = NULL;
 	bool good = true;
 
@@ -238,7 +234,8 @@ static void apply(GtkWidget *window, const char *action, GVariant *unused)
 		return;
 	text = init_node_text(dialog->form, init_form_root(dialog->form));
 	if (init_form_is_changed(dialog->form))
-		good = symbol_set(dialog->document, dialog->table, index_of(dialog),
+		good = symbol_set(dialog->document, table,
+				  symbol_find(dialog->document, table, dialog->name, -1),
 				  FIELD_INITIAL, text, &why);
 	if (good)
 		gtk_window_close(GTK_WINDOW(window));
@@ -262,6 +259,7 @@ static void dialog_free(gpointer data)
 	g_clear_weak_pointer(&dialog->from);
 	init_form_free(dialog->form);
 	g_object_unref(dialog->document);
+	g_free(dialog->owner);
 	g_free(dialog->name);
 	g_free(dialog);
 }
@@ -509,9 +507,9 @@ void init_dialog_open(GtkWidget *from, LadderDocument *document, int table, cons
 	char *why = NULL;
 
 	dialog->document = g_object_ref(document);
-	dialog->table = table;
+	dialog->owner = symbol_table_name(document, table);
 	dialog->name = g_strdup(name);
-	dialog->form = init_form_new(document, table, index_of(dialog), &why);
+	dialog->form = init_form_new(document, table, symbol_find(document, table, name, -1), &why);
 	if (!dialog->form) {
 		gtk_widget_activate_action(from, "win.tell", "s", why);
 		g_free(why);

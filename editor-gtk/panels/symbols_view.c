@@ -33,6 +33,8 @@ struct _LadderSymbolsView {
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
 	int table;              /* the table that is shown; -1: all            */
+	char *scope;            /* its symbol_table_name(); NULL: all           */
+	int tables;             /* of the project when it was shown             */
 	struct panel_message message;
 	bool busy;              /* a drop-down is being filled: ignore its signal */
 	bool turning;           /* the kind of the symbol is being changed     */
@@ -51,6 +53,16 @@ static void tell(LadderSymbolsView *view, char *text)
 const char *ladder_symbols_view_message(LadderSymbolsView *view)
 {
 	return gtk_label_get_text(view->message.label);
+}
+
+/* @table: -1: all. */
+static void set_table(LadderSymbolsView *view, int table)
+{
+	LadderDocument *document = panel_watch_document(view->watch);
+
+	view->table = table;
+	g_free(view->scope);
+	view->scope = table < 0 || !document ? NULL : symbol_table_name(document, table);
 }
 
 /* ---- rows ---- */
@@ -112,6 +124,22 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	return row;
 }
 
+/* The table has another number after a POU before it is new, and another name after a change of
+ * the name alone. */
+static void follow_table(LadderSymbolsView *view, const struct project *project)
+{
+	const int tables = project ? project->pou_count + project->structure_count : -1;
+	int now = view->table;
+
+	if (!project)
+		return;
+	if (view->scope) {
+		now = symbol_table_find(panel_watch_document(view->watch), view->scope);
+		set_table(view, now < 0 && tables == view->tables ? view->table : now);
+	}
+	view->tables = tables;
+}
+
 static void fill_scopes(LadderSymbolsView *view, struct project *project)
 {
 	GPtrArray *name = g_ptr_array_new();
@@ -124,8 +152,6 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 	for (int i = 0; project && i < project->structure_count; i++)
 		g_ptr_array_add(name, (gpointer)project_text(project,
 							project->structure[i].name));
-	if (view->table + 2 > (int)name->len)
-		view->table = -1;
 	view->busy = true;
 	drop_fill(GTK_DROP_DOWN(view->scopes), name);
 	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->scopes), (guint)(view->table + 1));
@@ -180,6 +206,7 @@ static void refresh(GtkWidget *widget)
 	LadderDocument *document = panel_watch_document(view->watch);
 
 	panel_message_age(&view->message, document);
+	follow_table(view, document ? ladder_document_project(document) : NULL);
 	fill_scopes(view, document ? ladder_document_project(document) : NULL);
 	fill_rows(view);
 }
@@ -206,7 +233,7 @@ bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
 	const int place[] = { table, index };
 
 	if (view->table >= 0 && view->table != table)
-		view->table = -1;
+		set_table(view, -1);
 	refresh(GTK_WIDGET(view));
 	if (panel_list_select(&view->list, is_symbol, place))
 		return true;
@@ -469,7 +496,7 @@ static void scope_changed(GtkDropDown *scopes, GParamSpec *spec, LadderSymbolsVi
 	(void)spec;
 	if (view->busy || !view->watch)
 		return;
-	view->table = (int)gtk_drop_down_get_selected(scopes) - 1;
+	set_table(view, (int)gtk_drop_down_get_selected(scopes) - 1);
 	fill_rows(view); /* changing the scopes within their own signal would recurse */
 }
 
@@ -482,7 +509,7 @@ void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *d
 {
 	if (!panel_watch_set(view->watch, document))
 		return;
-	view->table = -1;
+	set_table(view, -1);
 	refresh(GTK_WIDGET(view));
 }
 
@@ -496,6 +523,7 @@ static void dispose(GObject *object)
 	g_clear_object(&view->chooser);
 	g_clear_pointer(&view->box, gtk_widget_unparent);
 	panel_list_clear(&view->list);
+	g_clear_pointer(&view->scope, g_free);
 	G_OBJECT_CLASS(ladder_symbols_view_parent_class)->dispose(object);
 }
 

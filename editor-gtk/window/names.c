@@ -313,6 +313,7 @@ void names_show_uses_of(struct core *core, const char *name)
 struct named {
 	struct xref_target target;
 	char *name;          /* the current name                              */
+	char *whole;         /* Main.Delay: finds it after another change      */
 	int uses;
 };
 
@@ -321,7 +322,60 @@ struct renaming {
 	struct naming *naming;
 	GArray *choice;      /* of struct named, at least one                 */
 	guint chosen;
+	guint64 version;     /* of the document that @choice has the numbers of */
 };
+
+static struct named *chosen_of(const struct renaming *renaming)
+{
+	return &g_array_index(renaming->choice, struct named, renaming->chosen);
+}
+
+/* Main.Delay. Owns: the caller. */
+static char *whole_name(const struct xref *xref, const struct xref_target *target)
+{
+	char text[2 * LIMIT_NAME + 8];
+
+	xref_name(xref->project, target, NULL, text, sizeof(text));
+	return g_strdup(text);
+}
+
+/* The numbers of @named now; false: it is gone. */
+static bool find_named(const struct xref *xref, struct named *named)
+{
+	bool found = false;
+
+	for (int i = 0; i < xref->count && !found; i++) {
+		const struct xref_use *use = &xref->use[i];
+		char *whole = use->kind == XREF_DECLARED && use->target.what == named->target.what ?
+			whole_name(xref, &use->target) : NULL;
+
+		found = g_strcmp0(whole, named->whole) == 0;
+		if (found)
+			named->target = use->target;
+		g_free(whole);
+	}
+	return found;
+}
+
+/* Finds the names again after another change: a POU or a declaration before them may be new.
+ * False: the chosen one is gone. */
+static bool find_again(struct renaming *renaming)
+{
+	LadderDocument *document = renaming->core->document;
+	struct project *project = ladder_document_project(document);
+	struct xref xref = { 0 };
+	bool found = true;
+
+	if (ladder_document_version(document) == renaming->version)
+		return true;
+	if (!project)
+		return false;
+	if (!xref_make(&xref, project))
+		g_error("out of memory");
+	found = find_named(&xref, chosen_of(renaming));
+	xref_free(&xref);
+	return found;
+}
 
 static void rename_target(struct core *core, const struct named *named, const char *name)
 {
@@ -337,16 +391,13 @@ static void rename_target(struct core *core, const struct named *named, const ch
 	g_free(step);
 }
 
-static const struct named *chosen_of(const struct renaming *renaming)
-{
-	return &g_array_index(renaming->choice, struct named, renaming->chosen);
-}
-
 static char *refusal(gpointer data, const char *name)
 {
-	const struct renaming *renaming = data;
-	const struct named *named = chosen_of(renaming);
+	struct renaming *renaming = data;
+	struct named *named = chosen_of(renaming);
 
+	if (!find_again(renaming))
+		return g_strdup(_("It is not there any more"));
 	if (strcmp(name, named->name) == 0)
 		return NULL;
 	return *name ? rename_refusal(renaming->core->document, &named->target, name) :
@@ -403,9 +454,11 @@ static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renamin
 static void rename_now(gpointer data, const char *name)
 {
 	struct renaming *renaming = data;
-	const struct named *named = chosen_of(renaming);
+	struct named *named = chosen_of(renaming);
 
-	if (strcmp(name, named->name) != 0)
+	if (!find_again(renaming))
+		messages_warn(renaming->core->messages, _("It is not there any more"));
+	else if (strcmp(name, named->name) != 0)
 		rename_target(renaming->core, named, name);
 }
 
@@ -440,7 +493,8 @@ static void ask_name(struct core *core, GArray *choice)
 {
 	struct renaming *renaming = g_new0(struct renaming, 1);
 
-	*renaming = (struct renaming){ .core = core, .choice = choice };
+	*renaming = (struct renaming){ .core = core, .choice = choice,
+		.version = ladder_document_version(core->document) };
 	renaming->naming = naming_new(core->window, _("Rename everywhere"), _("Rename"),
 				      _("New name"), &how, renaming);
 	naming_add(renaming->naming, choice_new(renaming), true);
@@ -464,6 +518,7 @@ static const char *declared_name(const struct xref *xref, const struct xref_targ
 static void named_clear(gpointer named)
 {
 	g_free(((struct named *)named)->name);
+	g_free(((struct named *)named)->whole);
 }
 
 static GArray *choice_start(void)
@@ -487,6 +542,7 @@ static void choice_add(GArray *choice, const struct xref *xref,
 	if (!name)
 		return;
 	named.name = g_strdup(name);
+	named.whole = whole_name(xref, target);
 	for (int i = 0; i < xref->count; i++)
 		named.uses += xref_same(&xref->use[i].target, target);
 	g_array_append_val(choice, named);

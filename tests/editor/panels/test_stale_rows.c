@@ -2,9 +2,11 @@
  *
  * test_stale_rows - the symbol table is updated with a delay after a change: text typed
  * into a row goes to the declaration that the row shows, or is refused; so does a type from the
- * form of an array.
+ * form of an array. The form of initial values and the chosen scope keep their POU when
+ * another one is new before it.
  */
 #include "editor-gtk/document/symbols.h"
+#include "editor-gtk/panels/init_dialog.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/type_cells.h"
 #include "tests/editor/screen.h"
@@ -17,7 +19,7 @@ static const char sample[] =
 	"RUNGBOARD 1\n\n"
 	"VAR\n  Start AT %IX0.0 : BOOL;\n  Spare : INT;\nEND_VAR\n\n"
 	"VAR RETAIN\n  Hours : UDINT;\nEND_VAR\n\n"
-	"PROGRAM Main LD\nRUNG\n  | NO Start | COIL %QX0.4 |\nEND_PROGRAM\n";
+	"PROGRAM Main LD\nVAR\n  Set : ARRAY[1..2] OF INT;\nEND_VAR\nRUNG\n  | NO Start | COIL %QX0.4 |\nEND_PROGRAM\n";
 
 static LadderDocument *document;
 
@@ -113,8 +115,54 @@ static void test_array(LadderSymbolsView *view)
 		 "the form of an array gives the focus back when it closes");
 	last = open_array(view, "Other", &cell);
 	g_signal_emit_by_name(last, "activate");
-	CHECK_AS(!has("ARRAY"), "the form of an array changes no row that came to its place");
+	CHECK_AS(!has("Spare : ARRAY"), "the form of an array changes no row that came to its place");
 	turn(0);
+}
+
+static GtkWidget *open_dialog(LadderSymbolsView *view)
+{
+	GListModel *windows = gtk_window_get_toplevels();
+	GtkWidget *dialog = NULL;
+
+	init_dialog_open(GTK_WIDGET(view), document, 1, "Set");
+	for (guint i = 0; i < g_list_model_get_n_items(windows); i++) {
+		GtkWidget *window = g_list_model_get_item(windows, i);
+
+		dialog = gtk_window_get_modal(GTK_WINDOW(window)) ? window : dialog;
+		g_object_unref(window);
+	}
+	return dialog;
+}
+
+/* Another program adds a POU before Main, whose variable has the name, too. */
+static void test_new_pou(LadderSymbolsView *view)
+{
+	const char *before = strstr(sample, "PROGRAM Main");
+	char *with = g_strdup_printf("%.*sPROGRAM First LD\nVAR\n  Set : ARRAY[1..2] OF INT;\n"
+				     "END_VAR\nRUNG\n  | NO Start | COIL %%QX0.5 |\n"
+				     "END_PROGRAM\n\n%s", (int)(before - sample), sample, before);
+	GtkWidget *scopes = gtk_widget_get_first_child(gtk_widget_get_first_child(
+		gtk_widget_get_first_child(GTK_WIDGET(view))));
+	GtkWidget *dialog, *cell = NULL;
+
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(scopes), 2); /* Main */
+	dialog = open_dialog(view);
+	WAIT((cell = dialog ? gtk_window_get_focus(GTK_WINDOW(dialog)) : NULL) != NULL &&
+	     GTK_IS_TEXT(cell));
+	CHECK(cell);
+	ladder_document_open_text(document, "/tmp/x/test.rung", with, strlen(with), true);
+	ladder_symbols_view_refresh(view);
+	CHECK_AS(gtk_drop_down_get_selected(GTK_DROP_DOWN(scopes)) == 3,
+		 "the scope stays that of Main");
+	gtk_editable_set_text(GTK_EDITABLE(cell), "7");
+	gtk_widget_activate_action(dialog, "init.apply", NULL);
+	turn(0);
+	CHECK_AS(has("Set : ARRAY[1..2] OF INT := [7, 0];") || has("Set : ARRAY[1..2] OF INT := [7];"),
+		 "values are set");
+	CHECK_AS(has("PROGRAM First LD\nVAR\n  Set : ARRAY[1..2] OF INT;"),
+		 "and not those of another POU");
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(scopes), 0);
+	g_free(with);
 }
 
 int main(void)
@@ -144,6 +192,7 @@ int main(void)
 		test_array(view);
 	}
 	CHECK_AS(has(text), "an undo restores the text");
+	test_new_pou(view);
 	g_free(text);
 	gtk_window_destroy(GTK_WINDOW(window));
 	return tap_done();

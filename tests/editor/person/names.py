@@ -264,6 +264,26 @@ def rename(screen):
     assert lines(path, '@print Pump\nStart=0\nStart=1\n') == ['Pump=0', 'Pump=1']
 
 
+def reloaded(screen):
+    """the project is read again while the dialog asks for the name: the same symbol gets it, whatever its number"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    line = question(editor, 'End')
+    assert line.text() == 'Motor'
+    with open(path, 'w') as file:
+        file.write(PROJECT.replace('VAR\n', 'VAR\n  First : INT;\n', 1))
+    until(lambda: editor.all('Reload', 'push button'), 'the banner')[0].press()
+    editor.says('“Motor” is used')
+    until(lambda: [node for node in editor.all('4', 'label') if node.name == '4'], 'the new symbol in the tree')
+    name_it(editor, 'Pump')
+    editor.keys('Return')
+    editor.says('3 places changed')
+    text = editor.save(path)
+    assert 'Motor' not in text and text.count('Pump') == 3 and 'First : INT' in text, text
+    check(path)
+
+
 def find(screen):
     """find a name, go to the coil that drives it"""
     path = new_file(screen, PROJECT)
@@ -404,4 +424,4 @@ def beside(screen):
     assert 'Pump' not in open(path).read()
 
 
-if __name__ == "__main__": main([rename, beside, find, hits, address, refused, jumps, labels, calls, operands])
+if __name__ == "__main__": main([rename, reloaded, beside, find, hits, address, refused, jumps, labels, calls, operands])
