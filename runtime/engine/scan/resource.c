@@ -286,13 +286,17 @@ static void count_called(struct resource *resource)
 	resource->vm.called = 0;
 }
 
-/* Where safe points are, they have counted all but the calls. */
+/* In virtual time with a speed each safe point counts the words up to the next one. */
+static bool counts_points(const struct resource *resource)
+{
+	return resource->vm.at_point && resource->interrupts && resource->interrupts->ran;
+}
+
 static void count_program(struct resource *resource, uint32_t entry)
 {
 	const struct program *program = resource->image.program;
 	const struct code_program *at = &program->entry[entry];
-
-	const bool points = resource->vm.at_point && (program->text[at->text] & 0xff) == VM_POINT;
+	const bool points = counts_points(resource) && (program->text[at->text] & 0xff) == VM_POINT;
 
 	count_called(resource);
 	resource->words += points ? 0 : at->text_words;
@@ -317,6 +321,8 @@ static bool at_point(struct vm *vm, uint32_t words)
 	struct resource *resource =
 		(struct resource *)((char *)vm - offsetof(struct resource, vm));
 
+	if (!counts_points(resource))
+		words = 0;
 	count_called(resource);
 	if (asks(resource)) {
 		run_of(resource)->ahead = words;

@@ -102,11 +102,10 @@ struct resource {
 	uint32_t level;              /* how many are interrupted              */
 	bool standing;               /* the scan stands at a safe point: see interrupts.begin */
 	int64_t asked_ns;            /* the time that interrupts.asks() gave  */
-	uint64_t words;              /* of instructions that ran in this call of
-				      * resource_scan(). Each round of a loop counts where
-				      * there are safe points: not in a program that is
-				      * called, nor in one that no task interrupts. While
-				      * vm.ask is 0, safe points do not count.         */
+	uint64_t words;              /* of the programs that ended in this call of
+				      * resource_scan(), all of each, and those that they
+				      * called. With interrupts.ran, and vm.ask then set,
+				      * safe points count instead, up to the next one   */
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Set once by the caller; a start does not change them. */

@@ -13,22 +13,6 @@
 
 /* ---- words ---- */
 
-/* What an instruction costs beside its own words: as the VM takes it from the budget. */
-static uint64_t beside(const uint32_t *pc)
-{
-	switch (*pc & 0xff) {
-	case VM_BLOCK:
-		return pc[3] / 8;
-	case VM_ABLOCK:
-		return pc[5] / 8;
-	case VM_EACH:
-	case VM_TICK:
-		return 1 + (*pc >> 8);
-	default:
-		return 0;
-	}
-}
-
 /* Back to EACH is no loop: each of its targets runs once at most. */
 static bool goes_back(const uint32_t *base, const uint32_t *pc)
 {
@@ -51,7 +35,7 @@ static struct counted count(const struct program *program, struct counted *entry
 	for (; pc < end; pc += code_words(pc)) {
 		const uint32_t op = *pc & 0xff;
 
-		sum.words += code_words(pc) + beside(pc);
+		sum.words += code_words(pc);
 		if (op == VM_CALL) {
 			const struct counted called = count(program, entry, pc[1]);
 
@@ -96,8 +80,8 @@ static bool measure_way(const struct program *program, struct counted *entry, ui
 				return false;
 			way = 0;
 		}
-		way += code_words(pc) + beside(pc);
-		before += code_words(pc) + beside(pc);
+		way += code_words(pc);
+		before += code_words(pc);
 		if (op == VM_CALL) {
 			const struct counted called = count(program, entry, pc[1]);
 

@@ -473,8 +473,23 @@ static void scan_model(int64_t now, bool first)
 
 static uint64_t interruptions, nested;
 
+/* The words of all runs: a whole program each, however often it was interrupted. */
+static uint64_t words_of_runs(void)
+{
+	const struct program *program = rig.resource.image.program;
+	uint64_t words = 0;
+
+	for (uint32_t i = 0; i < program->task_count; i++)
+		for (uint32_t k = 0; k < program->task[i].count; k++)
+			words += rig.resource.tasks.state[i].runs *
+				 program->entry[program->call[program->task[i].first + k]].text_words;
+	return words;
+}
+
 static bool agree(const struct set *plan, int scans)
 {
+	uint64_t words = 0;
+
 	start_model(plan);
 	engine_ns = 0;
 	for (int i = 0; i < scans; i++) {
@@ -482,12 +497,13 @@ static bool agree(const struct set *plan, int scans)
 		struct seen got;
 
 		saved_count = 0;
-		rig.resource.vm.ask = 1;
+		rig.resource.vm.ask = any(5) > 0; /* the timer did not come */
 		engine_ns = now;
 		model.now.i = (uint8_t)any(256);
 		image_area(&rig.resource.image, AREA_I)[0] = model.now.i;
 		if (!resource_scan(&rig.resource, now))
 			return false;
+		words += rig.resource.words;
 		interruptions += (uint64_t)saved_count;
 		for (int k = 1; k < saved_count; k++)
 			nested += saved[k].task < saved[k - 1].task;
@@ -496,6 +512,11 @@ static bool agree(const struct set *plan, int scans)
 		if (model.wrong || memcmp(&got, &model.now, sizeof(got)) != 0) {
 			printf("# scan %d: %d interruptions, the model found %d\n", i, saved_count,
 			       model.used);
+			return false;
+		}
+		if (words != words_of_runs()) {
+			printf("# scan %d: %llu words, those of the runs are %llu\n", i, (unsigned long long)words,
+			       (unsigned long long)words_of_runs());
 			return false;
 		}
 	}

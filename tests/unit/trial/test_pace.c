@@ -353,6 +353,32 @@ static void rounds(void)
 		}
 }
 
+/* A jump over 50 statements: what it leaves out counts in a task that no task interrupts; in one that
+ * is interrupted, only up to the next safe point. */
+static void jumps_forward(void)
+{
+	static char text[8 * 1024];
+	uint64_t ran, left;
+
+	for (int low = 0; low < 2; low++) {
+		size_t used = (size_t)snprintf(text, sizeof(text), "RUNGBOARD 1\nVAR_GLOBAL\n  Rounds, N : INT;\nEND_VAR\n"
+			"CONFIGURATION Plant\n  TASK T1 (INTERVAL := T#1ms, PRIORITY := %d);\n  TASK T2 (INTERVAL := T#1s, PRIORITY := 1);\n"
+			"  PROGRAM A WITH T1 : Main;\n  PROGRAM B WITH T2 : Low;\nEND_CONFIGURATION\nPROGRAM Low IL\n  LD N\n  ST N\nEND_PROGRAM\n"
+			"PROGRAM Main IL\n  LD Rounds\n  GT 0\n  JMPC Over\n", 2 * low);
+
+		for (int i = 0; i < 50; i++)
+			used += (size_t)snprintf(text + used, sizeof(text) - used, "  LD N\n  ADD 1\n  ST N\n");
+		snprintf(text + used, sizeof(text) - used, "Over:\n  LD Rounds\n  ST N\nEND_PROGRAM\n");
+		CHECK(open_twin(text) && act(ACT_START, 0) && act(ACT_SPEED, (int64_t)PACE_SPEED_MOST));
+		scans(2);
+		ran = words_for(0);
+		left = words_for(1);
+		printf("# %llu words, with the jump %llu\n", (unsigned long long)ran, (unsigned long long)left);
+		CHECK(ran > 300 && (low ? left < 150 : left == ran));
+		close_twin();
+	}
+}
+
 /* A program of nested loops and calls, and its blocks; the model knows how often each loop turns. */
 struct maker {
 	char text[32 * 1024];
@@ -530,6 +556,7 @@ int main(void)
 	watchdogs();
 	sessions();
 	rounds();
+	jumps_forward();
 	loops();
 	return tap_done();
 }
