@@ -54,6 +54,13 @@ END
 # Shorter times, so that the test is.
 make_path("$root/etc/systemd/system/ladderd.service.d");
 spew("$root/etc/systemd/system/ladderd.service.d/short.conf", "[Service]\nTimeoutStopSec=1\nRestartSec=100ms\nWatchdogSec=1\n[Unit]\nStartLimitBurst=20\n");
+# What the unit may open, told by a command in it, which the unit itself would not run: a serial port, and what each unit may.
+spew("$root/etc/systemd/system/ladderd.service.d/open.conf", "[Service]\nExecStartPre=/bin/sh /etc/open.sh\nExecPaths=-/bin/sh -/usr/bin/sh -/usr/bin/dash\n");
+spew("$root/etc/open.sh", <<'END');
+for name in port full; do
+	(: <>/dev/$name) 2>/run/rungboard/$name || :
+done
+END
 symlink '/usr/lib/systemd/system/multi-user.target', "$root/etc/systemd/system/default.target";
 symlink "/dev/null", "$root/etc/systemd/system/$_" for qw(systemd-logind.service console-getty.service getty.target systemd-user-sessions.service);
 symlink '../test.service', "$root/etc/systemd/system/multi-user.target.wants/test.service";
@@ -83,10 +90,16 @@ again() {
 	done
 	return 1
 }
+mknod -m 666 /dev/port c 4 64
+systemd-run -q --wait -p DevicePolicy=closed sh -c ': <>/dev/port' 2>/dev/null || echo 'devices closed'
+(ulimit -r 50 && ulimit -l unlimited) 2>/dev/null && echo 'limits raised'
 systemctl start ladderd; echo "start $? $(get ActiveState)"
+[ ! -s /run/rungboard/port ] || echo 'port closed'
+[ -s /run/rungboard/full ] || echo 'full open'
 guard=$(get MainPID)
 ladderd=$(ladderd_of "$guard")
 read -r name <"/proc/$ladderd/comm"; echo "name $name"
+sed -n 's/^Max \(realtime priority\|locked memory\) *\([a-z0-9]*\).*/\1 \2/p' "/proc/$ladderd/limits"
 sed -n 's/^\(CapEff\|CapBnd\|NoNewPrivs\|Seccomp\):[[:space:]]*/\1 /p' "/proc/$ladderd/status"
 sed -n 's/^Uid:[[:space:]]*\(.*\)/\1/p' "/proc/$ladderd/status" | grep -qw 0 || echo 'uid other'
 ladder board unix:/run/rungboard/link status | sed -n 's/^mode: /mode /p'
@@ -118,6 +131,16 @@ said('uid other', 'as an ordinary user');
 said("$_ 0{16}", "$_: no right of root") for qw(CapEff CapBnd);
 said('NoNewPrivs 1', 'and none can come');
 said('Seccomp 2', 'its system calls are filtered');
+SKIP: {
+	skip 'no limit can be raised here', 2 if $out !~ /^limits raised$/m;
+	said('realtime priority 50', 'it may have a priority in real time');
+	said('locked memory unlimited', 'and lock its memory');
+}
+SKIP: {
+	skip 'no device can be forbidden here', 1 if $out !~ /^devices closed$/m;
+	said('port closed', 'a device that it does not need is forbidden');
+}
+said('full open', 'what each unit may open it may');
 said('mode RUN', 'a desk reaches it in its folder of /run');
 said('events', 'it stores in its folder of /var/lib');
 said('killed 0 active 0', 'ladderd is killed: the service goes on');

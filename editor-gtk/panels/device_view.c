@@ -80,12 +80,17 @@ static GtkLabel *label_at(GtkGrid *grid, int column, int row)
 	GtkWidget *label = gtk_grid_get_child_at(grid, column, row);
 
 	if (!label) {
+		g_autoptr(PangoAttrList) whole = pango_attr_list_new();
+
+		/* A name that is wrapped gets no hyphen, which could be one of its letters. */
+		pango_attr_list_insert(whole, pango_attr_insert_hyphens_new(FALSE));
 		label = gtk_label_new("");
+		gtk_label_set_attributes(GTK_LABEL(label), whole);
 		gtk_label_set_xalign(GTK_LABEL(label), 0);
 		gtk_label_set_wrap(GTK_LABEL(label), TRUE);
 		gtk_label_set_wrap_mode(GTK_LABEL(label), PANGO_WRAP_WORD_CHAR);
 		gtk_label_set_selectable(GTK_LABEL(label), TRUE);
-		gtk_widget_set_valign(label, GTK_ALIGN_START);
+		gtk_widget_set_valign(label, GTK_ALIGN_BASELINE);
 		gtk_grid_attach(grid, label, column, row, 1, 1);
 	}
 	return GTK_LABEL(label);

@@ -457,6 +457,8 @@ static void startup(GtkApplication *application)
 	popover_init();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
+	/* A text that the keys reach is not marked as a whole; Ctrl+A does that. */
+	g_object_set(gtk_settings_get_default(), "gtk-label-select-on-focus", FALSE, NULL);
 	draft_on_failure(tell_draft_failed);
 	g_signal_connect(gtk_window_get_toplevels(), "items-changed", G_CALLBACK(windows_changed),
 			 NULL);

@@ -18,6 +18,12 @@
 /* ---- leaving out what has not changed ---- */
 
 #ifndef RUNGBOARD_SMALL
+/* In virtual time with a speed each safe point counts the words up to the next one. */
+static bool counts_points(const struct resource *resource)
+{
+	return resource->vm.at_point && resource->interrupts && resource->interrupts->ran;
+}
+
 static void begin_image(struct resource *resource, int64_t now_ns, bool watch)
 {
 	struct still *still = HAS_STILL ? resource->still : NULL;
@@ -50,6 +56,7 @@ static void reset_still(struct resource *resource)
 		still_reset(resource->still);
 }
 #else
+#define counts_points(resource) false
 #define begin_image(resource, now_ns, watch) ((void)(watch), image_begin(&(resource)->image))
 #define end_image(resource) image_end(&(resource)->image)
 #define run_program(resource, entry, watch) vm_run(&(resource)->vm, entry, watch)
@@ -284,12 +291,6 @@ static void count_called(struct resource *resource)
 {
 	resource->words += resource->vm.called;
 	resource->vm.called = 0;
-}
-
-/* In virtual time with a speed each safe point counts the words up to the next one. */
-static bool counts_points(const struct resource *resource)
-{
-	return resource->vm.at_point && resource->interrupts && resource->interrupts->ran;
 }
 
 static void count_program(struct resource *resource, uint32_t entry)
