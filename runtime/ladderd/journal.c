@@ -40,6 +40,8 @@ static int read_record(struct journal *journal, int fd, uint32_t i)
 
 static void load(struct journal *journal, int fd)
 {
+	static const uint8_t never_written[EVENT_BYTES];
+	unsigned damaged = 0;
 	int error = 0;
 
 	for (uint32_t i = 0; i < EVENT_RING && error <= 0; i++) {
@@ -49,13 +51,19 @@ static void load(struct journal *journal, int fd)
 		if (error < 0)
 			fprintf(stderr, "ladderd: %s: %s; an event cannot be read\n", journal->path,
 				strerror(-error));
-		if (error || !event_open(journal->record, &event) || event.seq % EVENT_RING != i)
+		if (error)
 			continue;
+		if (!event_open(journal->record, &event) || event.seq % EVENT_RING != i) {
+			damaged += memcmp(journal->record, never_written, EVENT_BYTES) != 0;
+			continue;
+		}
 		journal->event[i] = event;
 		if (event.seq > journal->last)
 			journal->last = event.seq;
 	}
 	journal->written = journal->synced = journal->last;
+	if (damaged)
+		fprintf(stderr, "ladderd: %s: damaged events, which are lost: %u\n", journal->path, damaged);
 }
 
 /* Tells it once. */

@@ -194,7 +194,8 @@ my @kinds = (['off', 'gpio line=OUT0 safe=0', 1, 0], ['on', 'gpio line=OUT1 safe
 my $stop_rung = "RUNG\n  | NO Go | STOP |\n";
 my @ways = (
 	['STOP', $stop_rung, sub { input(0, 1) }, 'STOP'],
-	['program fault', "RUNG Again\n  | NO Go | JMP Again |\n", sub { input(0, 1) }, 'FAULT'],
+	# Its loop ends by the budget: on a slow machine, too, before the watchdog ends it.
+	['program fault', "RUNG Again\n  | NO Go | JMP Again |\n", sub { input(0, 1) }, 'FAULT', undef, '--watchdog', 1000],
 	['watchdog', '', sub { reads(2) }, 'FAULT', sub { reads(0) }],
 	['I/O fault', '', sub { reads(1) }, 'FAULT'],
 	['SIGTERM', '', sub { kill 'TERM', $running }, ''],
@@ -212,10 +213,10 @@ my @safe = map { my ($name, $line, $run, $value) = @$_; $value ^ ($line =~ /acti
 sub levels { return join ' ', map { $_->[0] } (lines())[0 .. $#kinds] }
 my $ways_map = spew("$dir/ways.io", "BOARD \"panel\"\n%IX0.0 gpio line=IN0\n$lines");
 for my $way (@ways) {
-	my ($name, $rung_of, $do, $state, $then) = @$way;
+	my ($name, $rung_of, $do, $state, $then, @options) = @$way;
 	my $ways_rung = spew("$dir/ways.rung", "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n${vars}END_VAR\n\nPROGRAM Main LD\n$rungs${rung_of}END_PROGRAM\n");
 	fresh();
-	my $guard_pid = start(named(), '--heartbeat', 1000, '--', $ladderd, $ways_rung, '--io', $ways_map, '--period', '10ms');
+	my $guard_pid = start(named(), '--heartbeat', 1000, '--', $ladderd, $ways_rung, '--io', $ways_map, '--period', '10ms', @options);
 	until_it(sub { levels() eq "@in_run" }) or BAIL_OUT("ladderd does not run: " . err());
 	my @changes = map { $_->[5] } lines();
 	my $pid = child($guard_pid);

@@ -1424,6 +1424,7 @@ def test_events_are_bounded_and_the_newest_stay():
             log.write(b'damage')
         board.start()
         again = board.client().events()
+        assert 'events: damaged events, which are lost: 1\n' in board.read('err')
         numbers = [it['number'] for it in again]
         assert found[500]['number'] not in numbers and numbers == sorted(numbers) and len(numbers) > 2040
 
