@@ -23,8 +23,8 @@
  *                               order: 1 left >= right, 2 left <= right, 3 both; c, dst:
  *                               offsets of BOOLs; types of left and right on top
  *   CMP_REAL CMP_DINT CMP_INT   likewise; left and right are offsets of that type
- *   REAL   en, eno, dst, a, b   n: enum math. Offsets of BOOLs and REALs; in the way
- *   DINT INT                    of FN, of two values of that type
+ *   REAL   en, eno, dst, a, b   n: enum math and flags. Offsets of BOOLs and REALs; in
+ *   DINT INT                    the way of FN, of two values of that type
  *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8 |
  *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
@@ -60,7 +60,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 8u
+#define CODE_VERSION 9u
 #define CODE_AREAS   16
 
 enum code_section_kind {
@@ -217,9 +217,11 @@ struct program {
 
 #define CODE_DIMENSION 4u /* words of an index: its operand, low, count, stride */
 
-/* n of REAL, DINT, INT: the functions of these names. */
-enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_COUNT };
-#define MATH_ENABLED 4u /* flag beside it: en is tested; else it is CODE_TRUE  */
+/* n of REAL, DINT, INT: the functions of these names; no MOD of REAL. */
+enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_MOD, MATH_COUNT };
+#define MATH_OF(n)   ((n) & 7u)
+#define MATH_ENABLED 8u  /* flag beside it: en is tested; else it is CODE_TRUE    */
+#define MATH_LEFT    16u /* flag, not with MATH_ENABLED: dst = a if there is no result */
 
 /**
  * code_open - verifies an image and gives access to it

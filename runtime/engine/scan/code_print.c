@@ -62,11 +62,12 @@ static int print_cmp(const uint32_t *at, uint32_t type, uint32_t n, char *out,
 static int print_math(const uint32_t *at, uint32_t op, uint32_t n, char *out,
 		      size_t size)
 {
-	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV" };
+	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV", "MOD" };
 	uint32_t type = code_type(op);
 
-	return snprintf(out, size, "%-7s %s en b%u %s %s -> %s eno b%u",
-			vm_row((enum vm_op)op)->word, math[n % MATH_COUNT], at[0],
+	return snprintf(out, size, "%-7s %s%s en b%u %s %s -> %s eno b%u",
+			vm_row((enum vm_op)op)->word, math[MATH_OF(n) % MATH_COUNT],
+			n & MATH_LEFT ? " or left" : "", at[0],
 			typed(CODE_OPERAND(type, at[3])).text,
 			typed(CODE_OPERAND(type, at[4])).text,
 			typed(CODE_OPERAND(type, at[2])).text, at[1]);

@@ -331,7 +331,8 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 {
 	bool always = at[0] == CODE_TRUE_AT(&v->program->areas);
 
-	return (n < MATH_COUNT ? always : n - MATH_ENABLED < MATH_COUNT) &&
+	return MATH_OF(n) < (type == IEC_REAL ? MATH_MOD : MATH_COUNT) &&
+	       n < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
 	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }

@@ -146,8 +146,10 @@ static inline int32_t whole(const uint8_t *at, size_t size)
 
 #ifdef __OPTIMIZE_SIZE__
 #define HAS_OFTEN false
+#define INLINE inline
 #else
 #define HAS_OFTEN true
+#define INLINE inline __attribute__((always_inline))
 #endif
 
 /* Is the element at *@where? False: there is none, or it is another kind. */
@@ -436,22 +438,24 @@ static inline float compute_real(uint32_t math, float a, float b)
 
 /* Both: not 0 if it ran and failed. Their bits are numbers and not bool, and are joined
  * by & and ^, as a compiler makes a branch of && and of !. */
-static inline uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
+static INLINE uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	float a = single(m + pc[3]), b = single(m + pc[4]);
-	float out = LIKELY((n & 3) == MATH_ADD) ? a + b : compute_real(n & 3, a, b);
+	float out = LIKELY(MATH_OF(n) == MATH_ADD) ? a + b : compute_real(MATH_OF(n), a, b);
 	uint32_t bits, old, en, good;
 
 	memcpy(&bits, &out, sizeof(bits));
 	good = bits << 1 < 0xff000000u; /* finite */
-	if (LIKELY(n < MATH_ENABLED)) {
+	if (HAS_OFTEN && LIKELY(!(n & MATH_ENABLED))) {
 		m[pc[1]] = (uint8_t)good;
 		if (LIKELY(good))
 			memcpy(m + pc[2], &bits, sizeof(bits));
+		else if (n & MATH_LEFT)
+			memcpy(m + pc[2], &a, sizeof(a));
 		return good ^ 1u;
 	}
 	en = m[pc[0]];
-	memcpy(&old, m + pc[2], sizeof(old));
+	memcpy(&old, m + pc[n & MATH_LEFT ? 3 : 2], sizeof(old));
 	bits = old ^ ((old ^ bits) & (0u - (en & good)));
 	memcpy(m + pc[2], &bits, sizeof(bits));
 	m[pc[1]] = (uint8_t)(en & good);
@@ -459,7 +463,7 @@ static inline uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 }
 
 /* 0: there is no result, nothing is stored. */
-static inline uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
+static INLINE uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
 				     int64_t *out)
 {
 	if (LIKELY(math == MATH_ADD)) {
@@ -475,23 +479,38 @@ static inline uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_
 		return 1;
 	}
 	*out = 0;
+	if (math == MATH_MOD && b == -1) /* nothing remains; MIN % -1 would trap */
+		return 1;
 	if (b == 0 || (b == -1 && a == low))
 		return 0;
-	*out = a / b;
+	*out = math == MATH_DIV ? a / b : a % b;
 	return 1;
 }
 
+static inline uint32_t fits(int64_t value, size_t size)
+{
+	return value == (size == 2 ? (int16_t)value : (int32_t)value);
+}
+
 /* The same for INT and DINT, by their size: overflow wraps and is an error. */
-static inline uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
+static INLINE uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
 {
 	int32_t low = size == 2 ? INT16_MIN : INT32_MIN;
-	int32_t old = whole(m + pc[2], size), bits;
+	int32_t a = whole(m + pc[3], size), old, bits;
 	int64_t out;
-	uint32_t en = m[pc[0]], good, some;
+	uint32_t some = compute_whole(MATH_OF(n), a, whole(m + pc[4], size), low, &out);
+	uint32_t good = some & fits(out, size), en;
 
-	some = compute_whole(n & 3, whole(m + pc[3], size), whole(m + pc[4], size), low,
-			     &out);
-	good = some & (out == (size == 2 ? (int16_t)out : (int32_t)out));
+	if (HAS_OFTEN && !(n & MATH_ENABLED)) {
+		m[pc[1]] = (uint8_t)good;
+		if (LIKELY(some))
+			memcpy(m + pc[2], &out, size); /* its low bytes: little-endian */
+		else if (n & MATH_LEFT)
+			memcpy(m + pc[2], &a, size);
+		return good ^ 1u;
+	}
+	en = m[pc[0]];
+	old = whole(m + pc[n & MATH_LEFT ? 3 : 2], size);
 	bits = old ^ ((old ^ (int32_t)out) & -(int32_t)(en & some));
 	memcpy(m + pc[2], &bits, size);
 	m[pc[1]] = (uint8_t)(en & good);
@@ -651,6 +670,10 @@ static inline void count_back(struct vm *vm, const uint32_t *from, const uint32_
 #define count_back(vm, from, to) ((void)0)
 #endif
 
+/* Loops consist of few instructions, which often follow each other: it saves time to look
+ * whether the next one is that, before the switch does. */
+#define NEXT_OFTEN(pc, op) (HAS_OFTEN && LIKELY((*(pc) & 0xff) == (op)))
+
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 {
 	const struct program *program = vm->program;
@@ -703,22 +726,31 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = put_order(m, pc, n, order(m, pc + 1));
 			break;
 		case VM_INT:
-			if (run_whole(m, pc + 1, n, 2))
+			if (!LIKELY(!run_whole(m, pc + 1, n, 2)))
 				count_error(vm, pc, base);
 			pc += 6;
+			if (NEXT_OFTEN(pc, VM_JMP))
+				goto jump;
 			break;
 		case VM_CMP_INT:
+		compare_int:
 			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 2),
 						       whole(m + pc[2], 2)));
+			if (NEXT_OFTEN(pc, VM_JMPC))
+				goto jump_if;
 			break;
 		case VM_DINT:
-			if (run_whole(m, pc + 1, n, 4))
+			if (!LIKELY(!run_whole(m, pc + 1, n, 4)))
 				count_error(vm, pc, base);
 			pc += 6;
+			if (NEXT_OFTEN(pc, VM_JMP))
+				goto jump;
 			break;
 		case VM_CMP_DINT:
 			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 4),
 						       whole(m + pc[2], 4)));
+			if (NEXT_OFTEN(pc, VM_JMPC))
+				goto jump_if;
 			break;
 		case VM_REAL:
 			if (!LIKELY(!run_real(m, pc + 1, n)))
@@ -764,6 +796,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 2;
 			break;
 		case VM_JMP:
+		jump:
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
@@ -773,8 +806,12 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			/* Back to EACH, for the next active step. */
 			if ((*pc & 0xff) == VM_EACH)
 				goto each;
+			if (NEXT_OFTEN(pc, VM_CMP_INT))
+				goto compare_int;
 			break;
 		case VM_JMPC:
+		jump_if:
+			n = *pc >> 8;
 			if (m[pc[2]] == n) {
 				pc += 3;
 				break;

@@ -102,7 +102,7 @@ static void apply(struct list *list, const struct applied *applied)
 	struct fn_code fn = {
 		.fn = function_of(row, applied->word), .type = list->types[list->at],
 		.en = TRUE_SLOT, .eno = list_sink(list->as, IEC_BOOL),
-		.count = applied->count,
+		.count = applied->count, .left = true,
 	};
 
 	if (list_is_compare(applied->word)) {
@@ -114,11 +114,11 @@ static void apply(struct list *list, const struct applied *applied)
 			      il_stored_type(list->as->translation->scope, list->pou,
 					     list->il, list->at));
 	fn.to = CODE_OPERAND(fn.result, layout_tail(list->as, RUN_VALUES, fn.result));
-	stores = list_always_stores(fn.fn, fn.result);
-	if (!stores)
-		preset(list, fn.result, fn.to, applied->operand[0]);
 	for (uint32_t i = 0; i < fn.count; i++)
 		fn.input[i] = input_word(row, i, applied->operand[i]);
+	stores = list_stores_left(&fn);
+	if (!stores)
+		preset(list, fn.result, fn.to, applied->operand[0]);
 	at = list->as->text->count;
 	list_emit_fn(list, &fn);
 	if (stores && (list->as->text->word[at] & 0xff) != VM_FN)

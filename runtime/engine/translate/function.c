@@ -44,7 +44,7 @@ static enum vm_op op_of(enum iec_type type)
 
 static bool math_of(uint32_t fn, uint32_t *math)
 {
-	static const uint32_t fns[MATH_COUNT] = { FN_ADD, FN_SUB, FN_MUL, FN_DIV };
+	static const uint32_t fns[MATH_COUNT] = { FN_ADD, FN_SUB, FN_MUL, FN_DIV, FN_MOD };
 
 	for (*math = 0; *math < MATH_COUNT; ++*math)
 		if (fns[*math] == fn)
@@ -52,6 +52,7 @@ static bool math_of(uint32_t fn, uint32_t *math)
 	return false;
 }
 
+/* Has it an instruction of its own? */
 static bool is_math(const struct fn_code *fn, uint32_t *math)
 {
 	return op_of(fn->type) != VM_FN && fn->count == 2 &&
@@ -61,10 +62,17 @@ static bool is_math(const struct fn_code *fn, uint32_t *math)
 	       math_of(fn->fn, math);
 }
 
-bool list_always_stores(uint32_t fn, enum iec_type type)
+static bool has_always_result(uint32_t fn, enum iec_type type)
 {
 	return (fn == FN_ADD || fn == FN_SUB || fn == FN_MUL) &&
 	       iec_type_row(type)->class & ANY_INT;
+}
+
+bool list_stores_left(const struct fn_code *fn)
+{
+	uint32_t math;
+
+	return has_always_result(fn->fn, fn->result) || is_math(fn, &math);
 }
 
 /* ---- all ---- */
@@ -78,7 +86,8 @@ void list_emit_fn(struct list *list, const struct fn_code *fn)
 	list_place(list);
 	if (is_short) {
 		emit_op(as, op_of(fn->type), math |
-			(fn->en == CODE_TRUE_AT(as->areas) ? 0 : MATH_ENABLED));
+			(fn->en != CODE_TRUE_AT(as->areas) ? MATH_ENABLED :
+			 fn->left && !has_always_result(fn->fn, fn->type) ? MATH_LEFT : 0));
 	} else {
 		emit_op(as, VM_FN, (uint32_t)fn->type | fn->count << 8 |
 			(uint32_t)fn->result << 16);

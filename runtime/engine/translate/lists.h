@@ -156,11 +156,12 @@ struct fn_code {
 	uint32_t fn;
 	enum iec_type type, result;
 	uint32_t en, eno, to, count, input[LIMIT_FN_INPUTS];
+	bool left; /* without a result `to` gets the first input, if list_stores_left() */
 };
 /** list_emit_fn - the instruction that runs it. */
 void list_emit_fn(struct list *list, const struct fn_code *fn);
-/** list_always_stores - has the function a result of @type for all operands? */
-bool list_always_stores(uint32_t fn, enum iec_type type);
+/** list_stores_left - does the instruction store something for all operands, if @fn->left? */
+bool list_stores_left(const struct fn_code *fn);
 /** list_copy_if - COPY while the BOOL at @en is TRUE. */
 void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
 

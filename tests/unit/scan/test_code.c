@@ -395,7 +395,8 @@ static void refuses_number_operands(void)
 	CHECK(refuses(VM_CMP_INT, 3, CODE_OFFSET(real)) &&
 	      refuses(VM_CMP_INT, 4, CODE_TRUE_AT(usual_areas())));
 	CHECK(refuses(VM_CMP_INT, 0, VM_CMP | 0x77u << 8));
-	CHECK(refuses(VM_REAL, 0, VM_REAL | 8u << 8) && refuses(VM_REAL, 0, VM_DINT));
+	CHECK(refuses(VM_REAL, 0, VM_REAL | 2 * MATH_LEFT << 8) && refuses(VM_REAL, 0, VM_DINT));
+	CHECK(refuses(VM_REAL, 0, VM_REAL | (MATH_MOD | MATH_ENABLED) << 8));
 	CHECK(refuses(VM_REAL, 1, CODE_FALSE_AT(usual_areas())));
 	CHECK(refuses(VM_REAL, 2, CODE_TRUE_AT(usual_areas())));
 	CHECK(refuses(VM_REAL, 3, CODE_OFFSET(dint)) && refuses(VM_REAL, 4, real) &&

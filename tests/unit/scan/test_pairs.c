@@ -12,13 +12,19 @@
 
 #define OLD 77 /* value before the operation                                    */
 
-static const char *const function[] = { "ADD", "SUB", "MUL", "DIV" };
+static const char *const function[] = { "ADD", "SUB", "MUL", "DIV", "MOD" };
 static enum fn_status (*const run[])(struct fn_args *) = {
-	fn_ADD, fn_SUB, fn_MUL, fn_DIV,
+	fn_ADD, fn_SUB, fn_MUL, fn_DIV, fn_MOD,
 };
 static const char *const relation[] = { ">", ">=", "=", "<=", "<", "<>" };
 
 static char source[8000];
+
+/* There is no MOD of REAL. */
+static int functions(bool real)
+{
+	return real ? 4 : 5;
+}
 
 __attribute__((format(printf, 1, 2)))
 static void say(const char *form, ...)
@@ -31,17 +37,20 @@ static void say(const char *form, ...)
 	va_end(args);
 }
 
-/* C, E: while On; D, F: always; R: compared; S: and On; P: or On; N: not, and On. */
+/* C, E: while On; D, F: always; L: by lines of a list; R: compared; S: and On; P: or On; N: not,
+ * and On. */
 static const char *program(const char *type)
 {
+	const int count = functions(strcmp(type, "REAL") == 0);
+
 	source[0] = '\0';
 	say("VAR\n  On : BOOL;\n  A, B : %s;\n", type);
-	for (int i = 0; i < 4; i++)
-		say("  C%d, D%d : %s;\n  E%d, F%d : BOOL;\n", i, i, type, i, i);
+	for (int i = 0; i < count; i++)
+		say("  C%d, D%d, L%d : %s;\n  E%d, F%d : BOOL;\n", i, i, i, type, i, i);
 	for (int i = 0; i < 6; i++)
 		say("  R%d, S%d, P%d, N%d : BOOL;\n", i, i, i, i);
 	say("END_VAR\nPROGRAM Main LD\n");
-	for (int i = 0; i < 4; i++) {
+	for (int i = 0; i < count; i++) {
 		say("RUNG\n  | NO On | %s IN1:=A IN2:=B OUT=>C%d | COIL E%d |\n",
 		    function[i], i, i);
 		say("RUNG\n  | %s IN1:=A IN2:=B OUT=>D%d | COIL F%d |\n", function[i],
@@ -55,6 +64,9 @@ static const char *program(const char *type)
 		say("RUNG\n  | NO On | [ A %s B ] | NOT | COIL N%d |\n", relation[i],
 		    i);
 	}
+	say("END_PROGRAM\nPROGRAM Lines IL\n");
+	for (int i = 0; i < count; i++)
+		say("  LD A\n  %s B\n  ST L%d\n", function[i], i);
 	say("END_PROGRAM\n");
 	return source;
 }
@@ -100,6 +112,12 @@ static bool is_same(enum iec_type type, union iec_value a, union iec_value b)
 	return type == IEC_REAL ? memcmp(&left, &right, sizeof(left)) == 0 : a.i == b.i;
 }
 
+/* Is it what was there before? No function of the values of this test gives that. */
+static bool no_result(enum iec_type type, union iec_value out)
+{
+	return type == IEC_REAL ? out.r == OLD : out.i == OLD;
+}
+
 static bool compare(enum iec_type type, int i, const union iec_value in[2])
 {
 	bool real = type == IEC_REAL;
@@ -116,6 +134,7 @@ static bool agrees(struct rig *rig, enum iec_type type, const union iec_value in
 		   bool en)
 {
 	union iec_value old = { .i = OLD }, out;
+	const int count = functions(type == IEC_REAL);
 	uint32_t errors = rig->resource.vm.errors;
 	bool good = true;
 
@@ -124,18 +143,19 @@ static bool agrees(struct rig *rig, enum iec_type type, const union iec_value in
 	set(rig, "A", in[0]);
 	set(rig, "B", in[1]);
 	rig_set(rig, "On", en);
-	for (int i = 0; i < 4; i++) {
+	for (int i = 0; i < count; i++) {
 		set(rig, (char[]){ 'C', (char)('0' + i), 0 }, old);
 		set(rig, (char[]){ 'D', (char)('0' + i), 0 }, old);
 	}
 	good &= rig_scan(rig);
-	for (int i = 0; i < 4; i++) {
+	for (int i = 0; i < count; i++) {
 		bool eno = expect(type, i, in, &out);
 
-		errors += eno ? 0 : 1u + en;
+		errors += eno ? 0 : 2u + en;
 		good &= get(rig, 'F', i) == eno && get(rig, 'E', i) == (eno && en);
 		good &= is_same(type, value(rig, 'D', i), out);
 		good &= is_same(type, value(rig, 'C', i), en ? out : old);
+		good &= is_same(type, value(rig, 'L', i), no_result(type, out) ? in[0] : out);
 	}
 	for (int i = 0; i < 6; i++) {
 		bool is = compare(type, i, in);
@@ -179,10 +199,12 @@ static int count_of(struct rig *rig, enum vm_op op)
 /* Each box is one instruction, and so is each comparison with the contacts beside it. */
 static void is_short(const char *type, enum vm_op math, enum vm_op cmp)
 {
+	const int count = functions(math == VM_REAL);
 	struct rig rig;
 
 	if (rig_open(&rig, program(type), false)) {
-		CHECK(count_of(&rig, math) == 8);
+		CHECK(count_of(&rig, math) == 3 * count);
+		CHECK_AS(count_of(&rig, VM_COPY) == 0, "a list copies no operand and no result");
 		CHECK(count_of(&rig, cmp) == 24);
 		CHECK(count_of(&rig, VM_CMP) == 0 && count_of(&rig, VM_FN) == 0);
 	}
@@ -270,6 +292,8 @@ static void prints_pairs(void)
 		     "real    SUB en b1 REAL@8 REAL@12 -> REAL@4 eno b2"));
 	CHECK(prints((uint32_t[]){ VM_INT | (MATH_DIV | MATH_ENABLED) << 8, 1, 2, 4, 6, 8 },
 		     "int     DIV en b1 INT@6 INT@8 -> INT@4 eno b2"));
+	CHECK(prints((uint32_t[]){ VM_INT | (MATH_MOD | MATH_LEFT) << 8, 1, 2, 4, 6, 8 },
+		     "int     MOD or left en b1 INT@6 INT@8 -> INT@4 eno b2"));
 	CHECK(prints((uint32_t[]){ VM_CMP_DINT | 0x77 << 8, 4, 8, 0, 9 },
 		     "cmp     DINT@4 <> DINT@8 -> b9"));
 	CHECK(prints((uint32_t[]){ VM_CMP_REAL | 0xa0 << 8, 4, 8, 3, 9 },

@@ -17,7 +17,9 @@ static void test_good(void)
 	d.text[AT_MATH] = op(VM_DINT, MATH_MUL);
 	d.text[AT_MATH + 1] = own(1);
 	CHECK_AS(judge(&d) == DIAG_COUNT,
-		 "a COPY with a width and a DINT product with an enable are accepted");
+		 "a COPY with a width and a DINT product without an enable are accepted");
+	d.text[AT_MATH] = op(VM_DINT, MATH_MOD | MATH_LEFT);
+	CHECK_AS(judge(&d) == DIAG_COUNT, "a remainder that may leave the left value is accepted");
 	d.place[1].text = WORDS - 1;
 	CHECK_AS(judge(&d) == DIAG_COUNT, "a place at the last word is accepted");
 	d.text_words = d.entry[0].text_words = AT_END;
@@ -169,7 +171,12 @@ static void test_pairs(void)
 	REFUSED(d.text[AT_PAIR + 3] = own(NUMBER));
 	REFUSED(d.text[AT_PAIR + 4] = own(1));
 	REFUSED(d.text[AT_PAIR + 4] = UINT32_MAX);
-	REFUSED(d.text[AT_MATH] = op(VM_DINT, 2 * MATH_ENABLED));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_ENABLED | MATH_LEFT));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_ENABLED | MATH_COUNT));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV | MATH_LEFT));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, 2 * MATH_LEFT); d.text[AT_MATH + 1] = own(1));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_MOD | MATH_LEFT | 1u << 20);
+		d.text[AT_MATH + 1] = own(1));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV); d.text[AT_MATH + 1] = own(0));
 	REFUSED(d.text[AT_MATH] = op(VM_REAL, MATH_ENABLED));

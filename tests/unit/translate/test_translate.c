@@ -159,8 +159,8 @@ static int copies(const struct program *program)
 	return count;
 }
 
-/* A sum goes to where it is stored, and a later line finds it there. A quotient may fail and goes
- * there by a COPY; so does a text, as it may be cut. */
+/* A sum goes to where it is stored, and a later line finds it there. So does a quotient: without one
+ * the left number. A text goes there by a COPY, as it may be cut. */
 static void stores_numbers_at_once(void)
 {
 	static const struct { const char *lines; int copies; int64_t n, m; } row[] = {
@@ -171,7 +171,9 @@ static void stores_numbers_at_once(void)
 		{ "LD N\nADD 1\nST N\nLT 100\nST X\n", 0, 8, 3 },
 		{ "LD N\nADD 1\nST N\nST M\n", 1, 8, 8 },
 		{ "LD N\nADD 1\nST N\nADD(M\nADD N\n)\nST M\n", 1, 8, 19 },
-		{ "LD N\nDIV M\nST N\n", 2, 2, 3 },
+		{ "LD N\nDIV M\nST N\n", 0, 2, 3 },
+		{ "LD N\nDIV M\nMOD 2\nST M\n", 0, 7, 0 },
+		{ "LD N\nSUB 7\nST N\nLD M\nDIV N\nST M\nMOD N\nST N\n", 0, 3, 3 },
 		{ "LD N\nADD 32767\nST N\n", 0, -32762, 3 },
 		{ "LD N\nADD 1\nST Raw\nST N\n", 1, 8, 3 },
 		{ "LD List[M]\nST N\n", 0, 11, 3 },

@@ -868,9 +868,30 @@ static bool add_enable(struct maker *m, const struct sink *call, uint32_t en)
 	return true;
 }
 
+static const char *math_word(uint32_t n)
+{
+	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV", "MOD" };
+
+	return math[MATH_OF(n) % MATH_COUNT];
+}
+
+/* Lines of a list leave the left operand where there is no result. Nothing reads their ENO. */
+static void put_math_lines(struct maker *m, const uint32_t *at, uint32_t type, uint32_t n)
+{
+	char *target = room(m), *left = room(m), *right = room(m);
+
+	if (!((int)operand(m, type, at[2], target) & (int)operand(m, type, at[3], left) &
+	      (int)operand(m, type, at[4], right))) {
+		lose(m, "a sum of values without names");
+		return;
+	}
+	out(m, "LD", left);
+	out(m, math_word(n), right);
+	out(m, "ST", target);
+}
+
 static void put_math(struct maker *m, const uint32_t *at, uint32_t type, uint32_t n)
 {
-	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV" };
 	const struct sink to_call = begin_call(m), *call = &to_call;
 	char *text = room(m);
 	bool good = add_enable(m, call, at[0]);
@@ -881,7 +902,7 @@ static void put_math(struct maker *m, const uint32_t *at, uint32_t type, uint32_
 	add_arg(call, "IN2", " := ", text);
 	good &= add_ends(m, call, at[1], CODE_OPERAND(type, at[2]));
 	if (good)
-		put_call(m, math[n % MATH_COUNT]);
+		put_call(m, math_word(n));
 	else
 		lose(m, "a sum of values without names");
 }
@@ -1483,7 +1504,10 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 	case VM_REAL:
 	case VM_DINT:
 	case VM_INT:
-		put_math(m, at, code_type(op), n);
+		if (n & MATH_LEFT)
+			put_math_lines(m, at, code_type(op), n);
+		else
+			put_math(m, at, code_type(op), n);
 		break;
 	case VM_FN:
 		put_fn(m, at, n);
