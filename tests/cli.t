@@ -129,7 +129,7 @@ ok(!-e 'out.rungc', 'no image was built of bad input');
 for my $path ('nothing-here.rung', '.') {
 	for my $command (qw(check fmt show il code run bench)) {
 		my ($out, $err) = is_run(2, "$command $path", [$command, $path, @{$with{$command} || []}]);
-		like($err, qr/^\Q$path\E: error LD00/, "$command $path: says so");
+		like($err, qr/^\Q$path\E: error LD0(?:0|33)/, "$command $path: says so");
 		unlike($out, qr/good/, "$command $path: no result");
 	}
 }
@@ -583,6 +583,102 @@ like((is_run(2, 'why: no such coil', ['why', 'good.rung', '-', 'Nobody'], ".\n")
 like((is_run(2, 'import of a rung file', ['import', 'good.rung']))[1], qr/^good\.rung: error LD072: .*folder/,
      'import: what it takes');
 is_run(2, 'why: no script', ['why', 'good.rung', 'none.script', 'Motor']);
+
+
+# ---- plain IEC text ----
+mkdir 'iec' or die;
+mkdir 'iec/blocks' or die;
+put('iec/main.il', <<'END');
+PROGRAM Main
+VAR Band : Bound; n : INT; END_VAR
+  CAL Band(IN := n)
+  LD  n
+  ADD Step
+  ST  n
+END_PROGRAM
+END
+put('iec/blocks/limit.iec', <<'END');
+(* a block *)
+FUNCTION_BLOCK Bound
+VAR_INPUT
+  IN : INT;
+END_VAR
+VAR_OUTPUT
+  Q : BOOL;
+END_VAR
+  LD    IN
+  GT    Most
+  ST    Q
+END_FUNCTION_BLOCK
+
+VAR_GLOBAL CONSTANT
+  Most : INT := 3;
+  Step : INT := 2;
+END_VAR
+END
+my @parts = ('iec/main.il', 'iec/blocks/limit.iec');
+for my $order ([@parts], [reverse @parts], ['iec'], ['iec/blocks', 'iec/main.il']) {
+	my $name = join ' ', @$order;
+	my ($out) = is_run(0, "check $name", ['check', @$order]);
+	is($out, join(', ', @$order) . ": good\n", "$name: one project");
+	($out) = is_run(0, "trace $name", ['trace', @$order, '-'], ". x3\n");
+	like($out, qr/^3 t=30 Most=3 Step=2 Band\.IN=4 Band\.Q=1 n=6$/m, "$name: every variable by name");
+}
+is((is_run(1, 'one part alone', ['check', 'iec/main.il']))[1],
+   qq{iec/main.il:2:12: error LD118: "Bound" is not a known type\n}, 'one part lacks the other');
+($out) = is_run(0, 'xref of a folder', ['xref', 'iec', 'Step']);
+is($out, "Step\tdeclared\tiec/blocks/limit.iec:16\nStep\tread\tiec/main.il:5\tMain\n", 'xref names both files');
+is_run(0, 'build of a folder', ['build', 'iec', '-o', 'iec.rungc']);
+is_run(0, 'show of a folder', ['show', 'iec']);
+is_run(0, 'run of a folder', ['run', 'iec', '--scans', '2']);
+is_run(0, 'bench of a folder', ['bench', 'iec', '--scans', '5']);
+is_run(0, 'code of two files', ['code', @parts]);
+is_run(0, 'diff of a folder', ['diff', 'iec', 'iec']);
+($out) = is_run(0, 'il of a folder', ['il', 'iec']);
+put('iec.rung', $out);
+is_run(0, 'il: a rung file', ['check', 'iec.rung']);
+is_run(0, 'and the same program', ['diff', 'iec', 'iec.rung']);
+($out) = is_run(1, 'fmt --check of a folder', ['fmt', '--check', 'iec']);
+is($out, "iec/main.il\n", 'fmt --check names the file that would change');
+is_run(0, 'fmt of a folder', ['fmt', 'iec']);
+is(get('iec/main.il'), <<'END', 'fmt keeps the form of the file');
+PROGRAM Main
+VAR
+  Band : Bound;
+  n    : INT;
+END_VAR
+  CAL   Band(IN := n)
+  LD    n
+  ADD   Step
+  ST    n
+END_PROGRAM
+END
+put('iec/main.scn', qq{scenario "counts"\n  at 50ms expect n > 5\n});
+put('alone.il', "PROGRAM Main\nVAR n : INT; END_VAR\nLD n\nADD 1\nST n\nEND_PROGRAM\n");
+put('alone.scn', qq{scenario "counts"\n  at 50ms expect n > 3\n});
+($out) = is_run(0, 'test of plain text', ['test', 'alone.scn', 'alone.il']);
+like($out, qr/^ok 1 - alone\.scn: counts\nok 2/, 'the scenario finds the program beside it');
+for my $text ("\xef\xbb\xbf" . get('alone.il'), get('alone.il') =~ s/\n/\r\n/gr, get('alone.il') =~ s/ /\t/gr) {
+	put('other.il', $text);
+	is((is_run(0, 'a byte order mark, CR LF, tabs', ['check', 'other.il']))[1], '', 'are nothing to tell');
+}
+put('wide.il', "\xff\xfe" . join '', map { "$_\0" } split //, get('alone.il'));
+like((is_run(1, 'UTF-16', ['check', 'wide.il']))[1], qr/LD142: this is UTF-16 text/, 'UTF-16 is told');
+mkdir 'none' or die;
+like((is_run(2, 'a folder without a program', ['check', 'none']))[1], qr/^none: error LD033: /, 'is told');
+like((is_run(1, 'a rung file among them', ['check', 'iec', 'alone.il', 'iec/main.il']))[1], qr/iec\/main\.il:1: error LD302: /,
+     'a name that is declared twice');
+put('rung.txt', get('good.rung'));
+like((is_run(1, 'a rung file beside others', ['check', 'alone.il', 'rung.txt']))[1], qr/rung\.txt:\d+:\d+: error LD032: /,
+     'a rung file is a project of its own');
+put('windows.il', get('alone.il') =~ s/PROGRAM/(* \xb0C *)\nPROGRAM/r);
+like((is_run(1, 'fmt of Windows-1252', ['fmt', 'windows.il']))[1], qr/^windows\.il: error LD034: /m, 'is not written');
+for my $text ("\0" x 10000, "PROGRAM" . "\0" x 10, 'PROGRAM', 'PROGRAM A VAR', "PROGRAM A\n{never closed", 'PROGRAM ' . 'x' x 1_000_000,
+              "(*" x 100_000, "<TcPlcObject", "<TcPlcObject>" . "<a>" x 1000, "<TcPlcObject><POU><Declaration><![CDATA[", "<TcPlcObject a='", "(* \@NEST *)\n_LD_BODY",
+              "PROGRAM A " x 10_000, "\x1f\x8b\x08", "\x7fELF" . "\xff" x 1_000_000) {
+	put('hostile.st', $text);
+	is_run(1, 'hostile bytes: ' . (substr($text, 0, 20) =~ s/[^ -~]/?/gr), ['check', 'hostile.st']);
+}
 
 chdir '/';
 done_testing();

@@ -17,6 +17,7 @@
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 #include "engine/exchange/classic/sfc_ladder.h"
+#include "engine/exchange/iec_file/iec_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -41,7 +42,7 @@ struct ladder {
 
 struct ladder *ladder_new(void)
 {
-	static const struct advice desk = { mend_line, expect_nearest, check_tokens };
+	static const struct advice desk = { mend_line, expect_nearest, iec_file_text, check_tokens };
 	struct ladder *ladder = ladder_new_terse();
 
 	if (ladder)
@@ -198,11 +199,62 @@ static bool open_image(struct ladder *ladder, const char *file,
 	return diag_add(&ladder->diags, place, "byte %zu", where);
 }
 
-static bool load_bytes(struct ladder *ladder, const char *file,
-		       const void *bytes, size_t len)
+/* Reads text into a new project. */
+static bool read_project(struct ladder *ladder, const struct text_file *files, int count)
 {
 	struct text_source source = { .load = load_include, .context = ladder };
 	bool good;
+
+	ladder->project = project_new(files->name);
+	if (!ladder->project)
+		return no_memory(ladder, files->name);
+	ladder->project->advice = ladder->advice;
+	good = text_read_files(ladder->project, files, count, &source, &ladder->diags);
+	if (ladder->project->arena.failed)
+		good = no_memory(ladder, files->name);
+	arena_reset(&ladder->scratch);
+	return good && (ladder->leaves ||
+			settle_project(ladder->project, &ladder->scratch, &ladder->diags));
+}
+
+/* The same with what a desk makes of the files; @made gets the texts, which the caller frees. */
+static bool read_made(struct ladder *ladder, struct text_file *files, int count, char **made)
+{
+	bool good = true;
+
+	for (int i = 0; i < count && ladder->advice; i++) {
+		size_t len = 0;
+
+		good &= ladder->advice->text(files[i].name, files[i].text, files[i].len, &made[i],
+					     &len, &ladder->diags);
+		if (made[i])
+			files[i] = (struct text_file){ files[i].name, made[i], len, true };
+	}
+	return good && read_project(ladder, files, count);
+}
+
+static bool read_texts(struct ladder *ladder, const struct text_file *files, int count)
+{
+	char **made = calloc((size_t)count, sizeof(*made));
+	struct text_file *read = calloc((size_t)count, sizeof(*read));
+	bool good;
+
+	if (made && read) {
+		memcpy(read, files, (size_t)count * sizeof(*read));
+		good = read_made(ladder, read, count, made);
+	} else {
+		good = no_memory(ladder, files->name);
+	}
+	for (int i = 0; made && i < count; i++)
+		free(made[i]);
+	free(made);
+	free(read);
+	return good;
+}
+
+static bool load_bytes(struct ladder *ladder, const char *file,
+		       const void *bytes, size_t len)
+{
 
 	if (bytes && is_image(bytes, len)) {
 		ladder->loaded = malloc(len);
@@ -218,17 +270,7 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 			return false;
 		ladder->foreign->loaded = true;
 	}
-	ladder->project = project_new(file);
-	if (!ladder->project)
-		return no_memory(ladder, file);
-	ladder->project->advice = ladder->advice;
-	good = text_read(ladder->project, file, bytes, len, &source,
-			 &ladder->diags);
-	if (ladder->project->arena.failed)
-		good = no_memory(ladder, file);
-	arena_reset(&ladder->scratch);
-	return good && (ladder->leaves ||
-			settle_project(ladder->project, &ladder->scratch, &ladder->diags));
+	return read_texts(ladder, &(struct text_file){ file, bytes, len, false }, 1);
 }
 
 static void place_foreign(struct ladder *ladder)
@@ -271,6 +313,50 @@ bool ladder_load(struct ladder *ladder, const char *path)
 		       ladder->diags.errors == 0;
 	place_foreign(ladder);
 	free(bytes);
+	return ladder->good;
+}
+
+/* All that can be read; the others have their message. */
+static int read_named(struct ladder *ladder, const char *const *paths, int count,
+		      struct text_file *files)
+{
+	int read = 0;
+
+	for (int i = 0; i < count; i++) {
+		const char *name = arena_copy(&ladder->arena, paths[i], strlen(paths[i]));
+
+		if (!name)
+			return no_memory(ladder, "") ? 0 : read;
+		files[read].name = name;
+		files[read].text = file_read(name, LIMIT_TEXT, &files[read].len, &ladder->diags);
+		read += files[read].text != NULL;
+	}
+	return read;
+}
+
+bool ladder_load_files(struct ladder *ladder, const char *const *paths, int count)
+{
+	struct text_file *files;
+	int read;
+
+	if (count == 1)
+		return ladder_load(ladder, paths[0]);
+	unload(ladder);
+	diag_init(&ladder->diags);
+	ladder->unreadable = !count;
+	if (!count)
+		return diag_add(&ladder->diags, (struct diag){ .id = DIAG_EMPTY_FOLDER,
+							       .file = paths[0] }, "%s", "");
+	files = calloc((size_t)count, sizeof(*files));
+	if (!files)
+		return no_memory(ladder, paths[0]);
+	read = read_named(ladder, paths, count, files);
+	ladder->unreadable = read < count;
+	ladder->good = read == count && read_texts(ladder, files, count) &&
+		       ladder->diags.errors == 0;
+	while (read > 0)
+		free((void *)files[--read].text);
+	free(files);
 	return ladder->good;
 }
 
@@ -611,6 +697,12 @@ char *ladder_write(struct ladder *ladder, size_t *len)
 {
 	return ladder->good && ladder->project ?
 	       text_write(ladder->project, len) : NULL;
+}
+
+char *ladder_write_source(struct ladder *ladder, int number, size_t *len)
+{
+	return ladder->good && ladder->project ?
+	       text_write_source(ladder->project, number, len) : NULL;
 }
 
 struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t len,

@@ -83,12 +83,20 @@ void ladder_set_files(struct ladder *ladder, const struct ladder_files *files);
 struct ladder_files ladder_files(const struct ladder *ladder);
 
 /**
- * ladder_load - reads a rung file or a code image
+ * ladder_load - reads a rung file, plain IEC text or a code image
  * @path: its first bytes, not its name, decide which it is. Must stay valid.
  *
  * On failure nothing is loaded; see ladder_diags(). Scan-safe: no.
  */
 bool ladder_load(struct ladder *ladder, const char *path);
+/**
+ * ladder_load_files - reads several files of plain IEC text as one project
+ * @paths: @count. One alone is read as ladder_load() does and must stay valid. 0: the folder
+ *         @paths[0] has none, which is an error
+ *
+ * Their order means nothing. The rest is as of ladder_load().
+ */
+bool ladder_load_files(struct ladder *ladder, const char *const *paths, int count);
 /** ladder_load_text - the same from memory; @file names it in diagnostics. */
 bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 		      size_t len);
@@ -171,11 +179,15 @@ void ladder_functions(struct project *project, const char *begun, size_t len,
 		      void *context);
 
 /**
- * ladder_write - the canonical text of the project
+ * ladder_write - the canonical text of the project: plain IEC text if it is one such file, else a
+ * rung file
  * @len: gets its length without the closing NUL
  * Owns: the caller, free().   Fails: NULL when memory is out.
  */
 char *ladder_write(struct ladder *ladder, size_t *len);
+/** ladder_write_source - the canonical text of one file of the project, in its own form; @number: of
+ * project.source. Owns and fails as ladder_write. */
+char *ladder_write_source(struct ladder *ladder, int number, size_t *len);
 /**
  * ladder_export_ladder - the project with its charts converted to ladders
  * @diags: gets LD460 for parts that cannot be converted

@@ -61,11 +61,11 @@ static bool add_source(struct bytes *bytes, const char *path, const char *main_p
 
 /* u16 how many, and for each a text, u32 length, bytes. A code image has none, nor has a project
  * of ClassicLadder. */
-static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *path)
+static bool add_sources(struct bytes *bytes, struct ladder *ladder)
 {
 	const struct project *project = ladder_import_project(ladder) ? NULL :
 				       ladder_project(ladder);
-	const uint16_t count = project ? (uint16_t)(1 + project->included_count +
+	const uint16_t count = project ? (uint16_t)(project->source_count + project->included_count +
 						    project->used_count) : 0;
 	const uint8_t head[2] = { (uint8_t)count, (uint8_t)(count >> 8) };
 	bool good = true;
@@ -73,11 +73,12 @@ static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *
 	bytes_add(bytes, head, sizeof(head));
 	if (!project)
 		return true;
-	good = add_source(bytes, path, path);
+	for (int i = 0; i < project->source_count && good; i++)
+		good = add_source(bytes, project->source[i].name, project->source->name);
 	for (int i = 0; i < project->included_count && good; i++)
-		good = add_source(bytes, project->included[i], path);
+		good = add_source(bytes, project->included[i], project->source->name);
 	for (int i = 0; i < project->used_count && good; i++)
-		good = add_source(bytes, project->used[i], path);
+		good = add_source(bytes, project->used[i], project->source->name);
 	return good;
 }
 
@@ -112,7 +113,7 @@ static enum status gather(struct parcel *parcel, const char *path, const char *m
 
 	bytes_add(bytes, image, image_len);
 	bytes_add(bytes, map, parcel->map_len);
-	if (!add_sources(bytes, parcel->machine.ladder, path))
+	if (!add_sources(bytes, parcel->machine.ladder))
 		status = STATUS_WRONG;
 	if (bytes->failed)
 		return report_no_memory(path);

@@ -252,7 +252,7 @@ static void measure_load(struct bench *bench, const char *path)
 	for (int i = 0; i < LOADS; i++) {
 		struct ladder *ladder = ladder_new();
 		int64_t start = tty_now(), loaded, built;
-		bool good = ladder && ladder_load(ladder, path);
+		bool good = ladder && report_read_program(ladder, path);
 
 		loaded = tty_now();
 		good = good && ladder_build(ladder);

@@ -19,7 +19,8 @@ static void print_sum(const char *path, const struct diag_list *diags,
 {
 	int errors = diags->errors, warnings = warnings_of(diags);
 
-	sink_text(out, path);
+	for (; *path; path++)
+		sink_write(out, *path == '\n' ? ", " : path, *path == '\n' ? 2 : 1);
 	if (errors)
 		sink_printf(out, ": %d error%s", errors, errors > 1 ? "s" : "");
 	else
@@ -97,7 +98,7 @@ static enum status check_one(struct call *call, const char *path, const struct w
 	if (!ladder)
 		return report_no_memory(path);
 	arena_init(&arena);
-	if (!ladder_load(ladder, path) || !ladder_build(ladder))
+	if (!report_read_program(ladder, path) || !ladder_build(ladder))
 		status = ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
 	else if (map)
 		status = check_map(ladder, map, &arena);

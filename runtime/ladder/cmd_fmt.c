@@ -28,24 +28,42 @@ static enum status compare(struct call *call, const char *path,
 	return STATUS_NO;
 }
 
-static enum status format_loaded(struct call *call, struct ladder *ladder,
-				 const char *path)
+/* One file of the project. */
+static enum status format_source(struct call *call, struct ladder *ladder, int number)
 {
+	const struct source_file *source = &ladder_project(ladder)->source[number];
 	enum status status;
 	size_t len;
 	char *text;
 
-	if (!ladder_project(ladder)) {
-		report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD,
-					   .file = path }, "%s", "");
+	if (source->foreign) {
+		report_diag((struct diag){ .id = DIAG_NOT_FORMATTED, .file = source->name }, "%s", "");
 		return STATUS_NO;
 	}
-	text = ladder_write(ladder, &len);
+	text = ladder_write_source(ladder, number, &len);
 	if (!text)
-		return report_no_memory(path);
-	status = compare(call, path, text, len);
+		return report_no_memory(source->name);
+	status = compare(call, source->name, text, len);
 	free(text);
 	return status;
+}
+
+static enum status format_loaded(struct call *call, struct ladder *ladder,
+				 const char *path)
+{
+	const struct project *project = ladder_project(ladder);
+	enum status worst = STATUS_GOOD;
+
+	if (!project) {
+		report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path }, "%s", "");
+		return STATUS_NO;
+	}
+	for (int i = 0; i < project->source_count; i++) {
+		enum status status = format_source(call, ladder, i);
+
+		worst = status > worst ? status : worst;
+	}
+	return worst;
 }
 
 static enum status format_one(struct call *call, const char *path)

@@ -349,7 +349,7 @@ static struct ladder *build_plain(const char *path)
 	if (!ladder)
 		return NULL;
 	ladder_classic_task(ladder, true);
-	if (ladder_load(ladder, path) && (ladder_program(ladder) || ladder_build(ladder)))
+	if (report_read_program(ladder, path) && (ladder_program(ladder) || ladder_build(ladder)))
 		return ladder;
 	ladder_free(ladder);
 	return NULL;

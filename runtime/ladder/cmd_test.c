@@ -104,10 +104,12 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	return good;
 }
 
-/* NAME.rung, or if there is none a project of ClassicLadder of that name; NULL: no memory. */
+/* NAME.rung, or if there is none a file of plain IEC text or a project of ClassicLadder of that name;
+ * NULL: no memory. */
 static char *program_of(const char *path)
 {
-	static const char *const ending[] = { ".clprj", ".clp", ".clprjz" };
+	static const char *const ending[] = { ".st", ".iec", ".il", ".exp", ".EXP", ".TcPOU",
+					      ".clprj", ".clp", ".clprjz" };
 	char *program = path_with_ending(path, ".rung");
 	struct stat about;
 
@@ -147,7 +149,8 @@ static void run_file(struct tap *tap, const char *path)
 
 enum status cmd_test(struct call *call)
 {
-	static const char *const programs[] = { ".rung", ".clprj", ".clp", ".clprjz", NULL };
+	static const char *const programs[] = { ".rung", ".st", ".iec", ".il", ".exp", ".EXP",
+						".TcPOU", ".clprj", ".clp", ".clprjz", NULL };
 	struct tap tap = { .call = call };
 	struct paths paths = { 0 };
 	enum status status = STATUS_GOOD;

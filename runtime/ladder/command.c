@@ -5,9 +5,11 @@
  */
 #include "ladder/command.h"
 
+#include "ladder/paths.h"
 #include "ladder/report.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct command_row rows[] = {
@@ -73,6 +75,60 @@ static bool take_option(struct call *call, int argc, char **argv, int *i)
 	return true;
 }
 
+/* Is it one file, or a folder, of a project of plain IEC text? */
+static bool is_part(const char *path)
+{
+	return path_is_folder(path) ? !ladder_is_classic(path) : path_is_plain(path);
+}
+
+/* @count arguments become one, a line each; false: no memory. */
+static bool join_args(struct call *call, char **arg, int count)
+{
+	char **grown = realloc(call->joined, sizeof(*grown) * (size_t)(call->joined_count + 1));
+	size_t size = 1, at = 0;
+	char *text;
+
+	if (!grown)
+		return false;
+	call->joined = grown;
+	for (int i = 0; i < count; i++)
+		size += strlen(arg[i]) + 1;
+	text = malloc(size);
+	if (!text)
+		return false;
+	for (int i = 0; i < count; i++)
+		at += (size_t)snprintf(text + at, size - at, i ? "\n%s" : "%s", arg[i]);
+	call->joined[call->joined_count++] = arg[0] = text;
+	return true;
+}
+
+/* Where a row takes a FILE, several files of plain IEC text, or folders of them, are one project. */
+static bool join_projects(struct call *call)
+{
+	int out = 0;
+
+	if (strncmp(call->row->arguments, "FILE", 4) != 0)
+		return true;
+	for (int i = 0, count; i < call->arg_count; i += count) {
+		for (count = 0; i + count < call->arg_count && is_part(call->arg[i + count]);)
+			count++;
+		if (count > 1 && !join_args(call, &call->arg[i], count))
+			return false;
+		count += !count;
+		call->arg[out++] = call->arg[i];
+	}
+	call->arg_count = out;
+	return true;
+}
+
+void command_end(struct call *call)
+{
+	while (call->joined_count > 0)
+		free(call->joined[--call->joined_count]);
+	free(call->joined);
+	call->joined = NULL;
+}
+
 bool command_parse(struct call *call, int argc, char **argv)
 {
 	bool options = true;
@@ -87,6 +143,10 @@ bool command_parse(struct call *call, int argc, char **argv)
 		} else {
 			call->arg[call->arg_count++] = argv[i];
 		}
+	}
+	if (!join_projects(call)) {
+		report_no_memory("ladder");
+		return false;
 	}
 	if (call->arg_count < call->row->least) {
 		report_usage(call, "this command needs %.30s", call->row->arguments);

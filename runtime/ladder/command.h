@@ -43,7 +43,10 @@ struct given {
 
 struct call {
 	const struct command_row *row;
-	char **arg;            /* the arguments without options               */
+	char **arg;            /* the arguments without options; files of plain IEC text
+				  that make one project are one, each on a line */
+	char **joined;         /* those that are malloc'ed                    */
+	int joined_count;
 	int arg_count;
 	struct given given[COMMAND_GIVEN];
 	int given_count;
@@ -63,6 +66,8 @@ const struct command_row *command_find(const char *name);
  * Fails: false after a message about wrong usage.
  */
 bool command_parse(struct call *call, int argc, char **argv);
+/** command_end - frees what command_parse() made. */
+void command_end(struct call *call);
 /** call_option - the last value of an option; NULL: not given. */
 const char *call_option(const struct call *call, const char *name);
 /** call_flag - whether an option was given. */

@@ -22,6 +22,7 @@ static void ignore_sigpipe(void)
 
 static int finish(struct call *call, enum status status)
 {
+	command_end(call);
 	return report_flush(call) ? (int)status : STATUS_WRONG;
 }
 

@@ -5,6 +5,8 @@
 #include "ladder/paths.h"
 #include "ladder/report.h"
 
+#include "engine/base/ascii.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -75,6 +77,34 @@ static int order(const void *a, const void *b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+bool path_is_plain(const char *path)
+{
+	static const char *const ending[] = { ".st", ".iec", ".il", ".txt", ".exp", ".TcPOU",
+					      ".TcDUT", ".TcGVL" };
+	const size_t len = strlen(path);
+
+	for (size_t i = 0; i < sizeof(ending) / sizeof(*ending); i++) {
+		const size_t tail = strlen(ending[i]);
+
+		if (len > tail && ascii_same(path + len - tail, ending[i], tail))
+			return true;
+	}
+	return false;
+}
+
+bool path_is_folder(const char *path)
+{
+	struct stat status;
+
+	return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* Does a search for @ending take this file? NULL: plain IEC text; what a .txt is shows its content. */
+static bool is_wanted(const char *name, const char *ending)
+{
+	return ending ? has_ending(name, ending) : path_is_plain(name);
+}
+
 static bool search(struct paths *paths, const char *folder, const char *ending,
 		   int depth);
 
@@ -83,15 +113,14 @@ static bool search_name(struct paths *paths, const char *folder,
 {
 	size_t len = strlen(folder);
 	char *path = join(folder, len, len && folder[len - 1] == '/' ? "" : "/", name);
-	struct stat status;
 	bool good = true;
 
 	if (!path)
 		return complain(folder, DIAG_NO_MEMORY, "");
-	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
+	if (path_is_folder(path)) {
 		good = depth >= DEPTH_MAX ||
 		       search(paths, path, ending, depth + 1);
-	} else if (has_ending(name, ending)) {
+	} else if (is_wanted(name, ending)) {
 		return add(paths, path);
 	}
 	free(path);
@@ -116,6 +145,25 @@ static bool search(struct paths *paths, const char *folder, const char *ending,
 	if (paths->count > first)
 		qsort(paths->path + first, (size_t)(paths->count - first),
 		      sizeof(*paths->path), order);
+	return good;
+}
+
+bool paths_project(struct paths *paths, const char *path)
+{
+	bool good = true;
+
+	while (good && *path) {
+		const size_t len = strcspn(path, "\n");
+		char *one = join(path, len, "", "");
+
+		if (!one || !path_is_folder(one)) {
+			good = add(paths, one);
+		} else {
+			good = search(paths, one, NULL, 1);
+			free(one);
+		}
+		path += len + (path[len] == '\n');
+	}
 	return good;
 }
 

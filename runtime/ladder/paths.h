@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * paths - file names with other endings or in other folders, and the files that the
- * arguments of `ladder test` name. Folders are searched at most eight deep; no file is
- * opened.
+ * arguments of `ladder test` and the folders of other commands name. Folders are searched at most
+ * eight deep; no file is opened.
  */
 #ifndef LADDER_PATHS_H
 #define LADDER_PATHS_H
@@ -21,6 +21,19 @@ char *path_with_ending(const char *path, const char *ending);
 /** path_beside - the path of @name in the folder of the file @path; @name itself if it
  * begins with /.   Owns: the caller, free(). NULL: no memory. */
 char *path_beside(const char *path, const char *name);
+
+/** path_is_plain - has @path the ending of plain IEC text, or of what TwinCAT and CODESYS export? */
+bool path_is_plain(const char *path);
+/** path_is_folder - is it one? */
+bool path_is_folder(const char *path);
+
+/**
+ * paths_project - adds the files of a project of plain IEC text
+ * @path: one or more files and folders, each on a line of its own; folders are searched
+ *
+ * Owns: @paths, paths_free(). Fails: false after a diagnostic (no memory).
+ */
+bool paths_project(struct paths *paths, const char *path);
 
 /**
  * paths_collect - adds the files that @path names

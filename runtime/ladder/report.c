@@ -4,6 +4,8 @@
  */
 #include "ladder/report.h"
 
+#include "ladder/paths.h"
+
 #include "engine/base/file.h"
 #include "engine/scan/still.h"
 #include "engine/trial/script.h"
@@ -205,9 +207,29 @@ enum status report_no_text(const char *path)
 	return STATUS_NO;
 }
 
+/* Files of plain IEC text and a folder of them are one project. */
+static bool load_project(struct ladder *ladder, const char *path)
+{
+	struct paths paths = { 0 };
+	bool good = paths_project(&paths, path);
+
+	good = good && ladder_load_files(ladder, paths.count ? (const char *const *)paths.path : &path,
+					 paths.count);
+
+	paths_free(&paths);
+	return good;
+}
+
+bool report_read_program(struct ladder *ladder, const char *path)
+{
+	const bool many = strchr(path, '\n') || (path_is_folder(path) && !ladder_is_classic(path));
+
+	return many ? load_project(ladder, path) : ladder_load(ladder, path);
+}
+
 enum status report_load(struct ladder *ladder, const char *path, bool build)
 {
-	bool good = ladder_load(ladder, path);
+	bool good = report_read_program(ladder, path);
 
 	if (good && build)
 		good = ladder_build(ladder);

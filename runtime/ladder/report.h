@@ -52,6 +52,9 @@ struct sink report_nowhere(void);
 struct ladder *program_new(bool faithful);
 /** program_period - time between scans in ns: @given, or if 0 that of the program. */
 int64_t program_period(const struct ladder *ladder, int64_t given);
+/** report_read_program - loads a program: a file, or a project of plain IEC text as
+ * paths_project() takes it. Fails: false, as ladder_load(), or after a message on standard error. */
+bool report_read_program(struct ladder *ladder, const char *path);
 /**
  * report_load - reads a program and, if @build, checks and translates it
  *

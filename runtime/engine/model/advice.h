@@ -2,9 +2,9 @@
  *
  * advice - services that only programs for people at a desk need.
  *
- * Suggestions for misspelled words, and warnings about the states of charts. The
+ * Suggestions for misspelled words, texts in files of other tools, and warnings about the states of charts. The
  * command line and the editor set them; `ladderd` does not, and is linked without them.
- * No error depends on them.
+ * No error in a rung file depends on them.
  */
 #ifndef MODEL_ADVICE_H
 #define MODEL_ADVICE_H
@@ -46,6 +46,9 @@ struct advice {
 	enum diag_id (*nearest)(const struct project *project, const struct pou *pou,
 				unsigned int kinds, const char *wanted, char *out,
 				size_t size);
+	/* iec_file_text() of exchange/iec_file/iec_file.h */
+	bool (*text)(const char *file, const char *bytes, size_t len, char **out,
+		     size_t *out_len, struct diag_list *diags);
 	/* check_tokens() of check/check_tokens.h */
 	void (*tokens)(struct scope *scope, const struct pou *pou, struct arena *scratch,
 		       struct diag_list *diags);

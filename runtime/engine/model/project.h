@@ -61,6 +61,7 @@ enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 struct pou {
 	uint32_t name;          /* string id                                   */
 	enum pou_language language;
+	bool unsaid;            /* its first line has no language: the body shows it */
 	enum pou_kind kind;
 	enum word word;         /* of a function or block; WORD_COUNT: none    */
 	enum word temp_word;    /* row of its VAR_TEMP; WORD_COUNT: none       */
@@ -114,6 +115,16 @@ struct part {
 	uint32_t text;          /* string id: text from VIEW to END_VIEW; file name */
 	uint32_t comment;       /* above it                                    */
 	uint8_t included;       /* came from another file: not written         */
+	uint16_t source;        /* the file that it, or what includes it, stands in */
+};
+
+/* A file of the project, without those that it names. */
+struct source_file {
+	const char *name;       /* borrowed from the arena                     */
+	uint32_t tail;          /* comments at its end, if it is not the first */
+	bool plain;             /* IEC text without the first line of a rung file */
+	bool read;              /* false: it is none of ours, which was told    */
+	bool foreign;           /* another tool's file: nothing here writes it */
 };
 
 struct project {
@@ -125,7 +136,7 @@ struct project {
 	uint32_t title;         /* PROJECT "…"                                 */
 	uint32_t property[PROPERTY_COUNT]; /* string ids; 0: not given         */
 	uint32_t head;          /* comments above PROJECT or the first part    */
-	uint32_t tail;          /* comments at the end                         */
+	uint32_t tail;          /* comments at the end of the first file       */
 	struct var_table globals;
 	struct access *access;  /* lines of all VAR_ACCESS                     */
 	int access_count;
@@ -140,6 +151,8 @@ struct project {
 	int used_count;
 	const char **included;  /* the same of INCLUDE, also in files that are named */
 	int included_count;
+	struct source_file *source; /* one; plain IEC text may have more       */
+	int source_count;
 	struct part *part;
 	int part_count;
 };

@@ -337,7 +337,7 @@ static void read_resource(struct reader *r, struct config *config)
 				reader_next(r);
 		}
 	}
-	reader_end_line(r);
+	reader_end_head(r);
 	config->resource_comment = buffer_take(r, &r->note);
 	config->resource_at = config->count;
 	read_entries(r, config, true);
@@ -347,7 +347,7 @@ static void read_resource(struct reader *r, struct config *config)
 	}
 	keep_inside(r, config);
 	reader_next(r);
-	reader_end_line(r);
+	reader_end_head(r);
 	config->resource_behind = buffer_take(r, &r->note);
 }
 
@@ -398,7 +398,7 @@ void read_config(struct reader *r, struct config *config)
 	reader_next(r);
 	if (reader_name(r, "name of the configuration", &config->name))
 		reader_next(r);
-	reader_end_line(r);
+	reader_end_head(r);
 	config->comment = buffer_take(r, &r->note);
 	read_entries(r, config, false);
 	if (lex_is(&r->lex, "END_RESOURCE")) {
@@ -413,5 +413,5 @@ void read_config(struct reader *r, struct config *config)
 		return;
 	}
 	reader_next(r);
-	reader_end_line(r);
+	reader_end_head(r);
 }

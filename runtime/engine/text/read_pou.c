@@ -7,6 +7,8 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/ascii.h"
+
 #include <string.h>
 
 static const struct {
@@ -191,6 +193,30 @@ static void begin_sfc(struct reader *r, struct pou *pou)
 		read_evolution(r, pou->sfc, "ORDER", EVOLVE_IN_ORDER);
 }
 
+/* Steps behind the declarations of a POU, to the first token of its body. */
+static void skip_vars(struct lex *lex)
+{
+	while (lex->token.kind == TOKEN_NAME && lex->token.len >= 3 &&
+	       ascii_same(lex->token.text, "VAR", 3) &&
+	       (lex->token.len == 3 || lex->token.text[3] == '_')) {
+		while (!lex_is(lex, "END_VAR") && lex->token.kind != TOKEN_END)
+			lex_next(lex);
+		lex_next(lex);
+	}
+}
+
+/* The language of a POU whose first line has none; the cursor stands behind that. */
+static enum pou_language language_of_body(const struct reader *r)
+{
+	struct lex lex = r->lex;
+
+	lex.comments = lex.newlines = false;
+	if (lex.token.kind == TOKEN_NEWLINE)
+		lex_next(&lex);
+	skip_vars(&lex);
+	return lex_is(&lex, "RUNG") ? LANGUAGE_LD : LANGUAGE_IL;
+}
+
 static void read_first_line(struct reader *r, struct pou *pou, int index)
 {
 	reader_next(r);
@@ -207,13 +233,16 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 		reader_skip_line(r);
 		return;
 	}
+	pou->unsaid = !lex_is(&r->lex, "IL") && !lex_is(&r->lex, "LD") && !lex_is(&r->lex, "SFC");
 	if (lex_is(&r->lex, "IL"))
 		pou->language = LANGUAGE_IL;
+	else if (r->plain && pou->unsaid)
+		pou->language = language_of_body(r);
 	if (lex_is(&r->lex, "SFC"))
 		begin_sfc(r, pou);
 	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
 		reader_next(r);
-	reader_end_line(r);
+	reader_end_head(r);
 }
 
 /* VAR_TEMP is a row without a name. */
@@ -265,7 +294,7 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	if (lex_is(&r->lex, kinds[kind].end)) {
 		reader_next(r);
 		r->place.pou = NULL;
-		reader_end_line(r);
+		reader_end_head(r);
 		return;
 	}
 	if (r->closed)
@@ -305,9 +334,10 @@ static bool read_struct(struct reader *r, struct structure *out)
 	if (!lex_is(&r->lex, "END_STRUCT"))
 		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
 	reader_next(r);
-	if (!reader_is(r, ';'))
+	if (reader_is(r, ';'))
+		reader_next(r);
+	else if (!r->plain) /* other tools write none before END_TYPE */
 		return reader_fail_word(r, DIAG_EXPECTED, ";");
-	reader_next(r);
 	out->comment = buffer_take(r, &r->note);
 	return true;
 }
@@ -373,7 +403,7 @@ void read_types(struct reader *r)
 	reader_add_part(r, part);
 	if (lex_is(&r->lex, "END_TYPE")) {
 		reader_next(r);
-		reader_end_line(r);
+		reader_end_head(r);
 		return;
 	}
 	reader_fail_open(r, &head);

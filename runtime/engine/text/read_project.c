@@ -103,6 +103,7 @@ void reader_add_part(struct reader *r, struct part part)
 				       &project->part_count, sizeof(part));
 
 	part.included = r->outer != NULL;
+	part.source = r->number;
 	if (slot)
 		*slot = part;
 	else
@@ -174,7 +175,7 @@ static void read_global_access(struct reader *r)
 
 /* ---- INCLUDE ---- */
 
-static bool read_file(struct reader *r, const char *text, size_t len);
+static void read_file(struct reader *r, const char *text, size_t len);
 
 /* The name as seen from where this file stands. */
 const char *reader_path(struct reader *r, const char *from, const char *name)
@@ -218,6 +219,7 @@ static void read_included(struct reader *r, const char *path, bool library,
 	inner->library = library || r->library;
 	inner->source = r->source;
 	inner->total = r->total;
+	inner->number = r->number;
 	read_file(inner, text, len);
 	r->no_memory |= inner->no_memory;
 	reader_free(inner);
@@ -425,9 +427,29 @@ static void read_parts(struct reader *r)
 	}
 }
 
+bool text_is_plain(const char *text, size_t len)
+{
+	static const char *const words[] = {
+		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
+	};
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex.comments = true;
+	while (comment_next(&lex))
+		;
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&lex, words[i]))
+			return true;
+	return false;
+}
+
 /* After a wrong first line every other message would be a consequence. */
 static bool has_first_line(struct reader *r, const char *text, size_t len)
 {
+	r->plain = text_is_plain(text, len);
+	if (r->plain)
+		return true;
 	lex_init(&r->lex, text, len);
 	r->lex.newlines = true;
 	r->lex.comments = true;
@@ -447,27 +469,33 @@ static bool has_first_line(struct reader *r, const char *text, size_t len)
 	return true;
 }
 
-static bool read_file(struct reader *r, const char *text, size_t len)
+/* Can it be read? Tells it if not. */
+static bool is_readable(struct reader *r, const char *text, size_t len)
 {
 	if (len > LIMIT_TEXT) /* no line yet: the whole file */
 		return reader_fail_word(r, DIAG_TOO_LARGE, "");
 	if (utf16_text(text, len))
 		return reader_fail_word(r, DIAG_UTF16, "");
-	if (!has_first_line(r, text, len))
-		return false;
-	if (!r->outer)
-		read_words(r, text, len);
+	return has_first_line(r, text, len);
+}
+
+static void read_text(struct reader *r, const char *text, size_t len)
+{
 	char *copy = reader_open(r, text, len);
 
-	if (read_first_line(r)) {
+	if (r->plain || read_first_line(r)) {
 		reader_skip_newlines(r);
-		read_head(r);
+		if (!r->plain)
+			read_head(r);
 		read_parts(r);
-		if (!r->outer)
-			r->project->tail = buffer_take(r, &r->above);
 	}
 	free(copy);
-	return true;
+}
+
+static void read_file(struct reader *r, const char *text, size_t len)
+{
+	if (is_readable(r, text, len))
+		read_text(r, text, len);
 }
 
 /* Out of memory is reported once. */
@@ -480,25 +508,93 @@ static void fail_memory(const struct project *project, const char *file,
 		diag_add(diags, place, "%s", "");
 }
 
+/* A reader of file @number; NULL: no memory. */
+static struct reader *reader_of(struct project *project, int number, const struct text_source *source,
+				size_t *total, struct diag_list *diags)
+{
+	const char *name = project->source[number].name;
+	struct reader *r = name ? reader_new(project, name, diags) : NULL;
+
+	if (!r)
+		return NULL;
+	r->source = source;
+	r->total = total;
+	r->number = (uint16_t)number;
+	r->plain = project->source[number].plain;
+	return r;
+}
+
+/* The names that it declares; false: no memory. */
+static bool look_ahead(struct reader *r, const struct text_file *file, int count)
+{
+	struct source_file *at = &r->project->source[r->number];
+
+	at->foreign = file->foreign;
+	at->read = is_readable(r, file->text, file->len);
+	at->plain = r->plain;
+	if (at->read && count > 1 && !r->plain)
+		reader_fail_word(r, DIAG_MIXED_FILES, "");
+	if (at->read)
+		read_words(r, file->text, file->len);
+	return !r->no_memory;
+}
+
+static bool read_source(struct reader *r, const struct text_file *file)
+{
+	struct project *project = r->project;
+	uint32_t *tail = r->number ? &project->source[r->number].tail : &project->tail;
+
+	if (project->source[r->number].read) {
+		read_text(r, file->text, file->len);
+		*tail = buffer_take(r, &r->above);
+	}
+	return !r->no_memory;
+}
+
+/* First the names of all files, then all that they say. False: no memory. */
+static bool read_files(struct project *project, const struct text_file *files, int count,
+		       const struct text_source *source, struct diag_list *diags)
+{
+	size_t total = 0;
+	bool memory = true;
+
+	for (int i = 0; i < 2 * count && memory; i++) {
+		const struct text_file *file = &files[i % count];
+		struct reader *r = reader_of(project, i % count, source, &total, diags);
+
+		if (i < count)
+			total += file->len;
+		memory = r && (i < count ? look_ahead(r, file, count) : read_source(r, file));
+		reader_free(r);
+	}
+	return memory;
+}
+
+bool text_read_files(struct project *project, const struct text_file *files, int count,
+		     const struct text_source *source, struct diag_list *diags)
+{
+	const int errors = diags->errors;
+	bool memory = true;
+
+	project->source = arena_alloc(&project->arena, (size_t)count * sizeof(*project->source));
+	project->source_count = project->source ? count : 0;
+	for (int i = 0; i < project->source_count; i++)
+		project->source[i].name = arena_copy(&project->arena, files[i].name,
+						     strlen(files[i].name));
+	memory = project->source && read_files(project, files, count, source, diags);
+	if (memory)
+		shape_make(project, diags);
+	fail_memory(project, files->name, !memory, diags);
+	return diags->errors == errors;
+}
+
 bool text_read(struct project *project, const char *file, const char *text,
 	       size_t len, const struct text_source *source,
 	       struct diag_list *diags)
 {
-	const int errors = diags->errors;
-	size_t total = len;
-	const char *name = arena_copy(&project->arena, file, strlen(file));
-	struct reader *r = name ? reader_new(project, name, diags) : NULL;
+	const struct text_file one = { file, text, len, false };
 
-	if (r) {
-		r->source = source;
-		r->total = &total;
-		read_file(r, text, len);
-		if (!r->no_memory)
-			shape_make(project, diags);
-	}
-	fail_memory(project, file, !r || r->no_memory, diags);
-	reader_free(r);
-	return diags->errors == errors;
+	return text_read_files(project, &one, 1, source, diags);
 }
 
 /* A comment after the last rung is kept above it. */

@@ -466,7 +466,7 @@ void reader_close_vars(struct reader *r, const struct token *head)
 {
 	if (lex_is(&r->lex, "END_VAR")) {
 		reader_next(r);
-		reader_end_line(r);
+		reader_end_head(r);
 		return;
 	}
 	if (r->closed)

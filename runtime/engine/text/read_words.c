@@ -27,7 +27,7 @@ static const char *const heads[] = {
 	"FUNCTION", "TYPE", "INCLUDE", "USES",
 };
 
-/* Does a line begin with one of these words? Most files have none and need no second
+/* Does a line begin with one of these words? Most rung files have none and need no second
  * reading. */
 static bool has_heads(const char *text, size_t len)
 {
@@ -150,15 +150,16 @@ static void skip_view(struct lex *lex)
 static void look_into(struct look *look, const char *file, const char *text,
 		      size_t len, int depth)
 {
+	const bool plain = text_is_plain(text, len); /* heads stand anywhere */
 	struct lex lex;
 	bool begins = true; /* a line */
 
-	if (!has_heads(text, len))
+	if (!plain && !has_heads(text, len))
 		return;
 	lex_init(&lex, text, len);
 	lex.newlines = true;
 	while (lex_next(&lex) != TOKEN_END) {
-		bool first = begins;
+		bool first = begins || plain;
 
 		begins = lex.token.kind == TOKEN_NEWLINE;
 		if (!first || lex.token.kind != TOKEN_NAME)
@@ -185,7 +186,7 @@ void read_words(struct reader *r, const char *text, size_t len)
 {
 	struct look *look;
 
-	if (!has_heads(text, len))
+	if (!r->plain && !has_heads(text, len))
 		return;
 	look = calloc(1, sizeof(*look));
 	if (look)

@@ -5,6 +5,7 @@
  * It knows tokens, names, values and parameters. Parts and rungs are read in read_*.c.
  */
 #include "engine/text/reader.h"
+#include "engine/base/ascii.h"
 #include "engine/base/name.h"
 
 #include "engine/model/advice.h"
@@ -397,7 +398,7 @@ static void comment_add(struct reader *r, struct buffer *b, const char *text,
 		slash_close(r, b);
 	if (b->len > 0)
 		buffer_add(r, b, line ? " " : "\n", 1);
-	if (text[1] == '/') {
+	if (*text == '/') {
 		while (is_blank(text[len - 1]))
 			len--;
 		b->slash = text;
@@ -423,7 +424,7 @@ static void add_comments(struct reader *r, struct buffer *b, const char *text, s
 
 	lex_init(&lex, text, len);
 	lex.comments = true;
-	while (lex_next(&lex) == TOKEN_COMMENT)
+	while (comment_next(&lex))
 		comment_add(r, b, lex.token.text, lex.token.len, place);
 }
 
@@ -459,7 +460,7 @@ static void comment_keep(struct reader *r)
 		comment_add(r, &r->note, token->text, len, r->comments);
 		return;
 	case COMMENT_IL:
-		while (token->text[1] == '/' && is_blank(token->text[len - 1]))
+		while (*token->text == '/' && is_blank(token->text[len - 1]))
 			len--;
 		if (!il_add(r->il, (struct il_line){
 				.kind = IL_COMMENT,
@@ -501,14 +502,37 @@ static void fail_bad(struct reader *r)
 		reader_fail_word(r, DIAG_BAD_BYTE, "");
 }
 
+/* The first word of a pragma is its kind. A file warns once of each. */
+static void tell_pragma(struct reader *r)
+{
+	const char *from = r->lex.token.text + 1, *end = r->lex.at - 1;
+	const char *to;
+	uint32_t kind;
+
+	while (from < end && is_blank(*from))
+		from++;
+	for (to = from; to < end && (*to == '_' || (ascii_upper(*to) >= 'A' && ascii_upper(*to) <= 'Z'));)
+		to++;
+	kind = reader_intern(r, from, (size_t)(to - from));
+	for (int i = 0; i < r->pragmas; i++)
+		if (r->pragma[i] == kind)
+			return;
+	if (r->pragmas == PRAGMAS_MOST)
+		return;
+	r->pragma[r->pragmas++] = kind;
+	reader_fail(r, DIAG_PRAGMA, from, (size_t)(to - from));
+}
+
 void reader_next(struct reader *r)
 {
 	for (;;) {
-		enum token_kind kind = lex_next(&r->lex);
+		const bool comment = comment_next(&r->lex);
 
-		if (kind == TOKEN_COMMENT)
+		if (comment && *r->lex.token.text == '{')
+			tell_pragma(r);
+		if (comment)
 			comment_keep(r);
-		else if (kind == TOKEN_BAD)
+		else if (r->lex.token.kind == TOKEN_BAD)
 			fail_bad(r);
 		else
 			return;
@@ -553,6 +577,12 @@ void reader_skip_newlines(struct reader *r)
 {
 	while (r->lex.token.kind == TOKEN_NEWLINE)
 		reader_next(r);
+}
+
+void reader_end_head(struct reader *r)
+{
+	if (!r->plain)
+		reader_end_line(r);
 }
 
 void reader_end_line(struct reader *r)

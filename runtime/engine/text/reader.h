@@ -17,6 +17,8 @@
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
 
+#define PRAGMAS_MOST 16 /* kinds of pragmas that a file warns of */
+
 /* Text that grows. It remembers a `//` comment at its end, which becomes (* … *) if more text
  * follows on the line. */
 struct buffer {
@@ -53,6 +55,11 @@ struct reader {
 	int begun;         /* line of the declaration being read       */
 	int mended;        /* line that was reported with its mended text */
 	bool closed;       /* the mended line is an END_…                 */
+	bool plain;        /* no rung file: IEC text, in which a line has no meaning
+			      outside of instruction lists                 */
+	uint16_t number;   /* of the file in project.source                */
+	uint32_t pragma[PRAGMAS_MOST]; /* string ids: kinds that were told */
+	int pragmas;
 	bool lost;         /* rows follow whose RUNG or PROGRAM is missing */
 	bool across_lines;          /* reader_step passes ends of lines       */
 	bool no_memory;
@@ -98,6 +105,8 @@ bool reader_peek(const struct reader *r, const char *symbol);
 bool reader_at_end(const struct reader *r);
 void reader_skip_line(struct reader *r);
 void reader_skip_newlines(struct reader *r);
+/** reader_end_head - the same behind a heading or an END_…; plain IEC text may go on in this line. */
+void reader_end_head(struct reader *r);
 /** reader_end_line - reports anything before the end of the line. */
 void reader_end_line(struct reader *r);
 

@@ -21,8 +21,26 @@ struct text_source {
 	void *context;
 };
 
+/* A file as it is on the disk. */
+struct text_file {
+	const char *name;  /* for diagnostics                                */
+	const char *text;
+	size_t len;
+	bool foreign;      /* it was made from another tool's file           */
+};
+
 /**
- * text_read - reads a rung file into an empty project
+ * text_read_files - reads files of plain IEC text as one project; one of them may be a rung file
+ * @count: at least 1
+ *
+ * The rest is as of text_read(): names may be used before, and in another file than, their
+ * declaration.
+ */
+bool text_read_files(struct project *project, const struct text_file *files, int count,
+		     const struct text_source *source, struct diag_list *diags);
+
+/**
+ * text_read - reads a rung file, or plain IEC text, into an empty project
  * @source: NULL: INCLUDE is kept, but what it names is not read (ladder fmt)
  *
  * Goes on after an error to find the next. With an error the project must not be
@@ -34,10 +52,20 @@ bool text_read(struct project *project, const char *file, const char *text,
 	       struct diag_list *diags);
 
 /**
- * text_write - the canonical text of a project (parts of included files left out)
+ * text_write - the canonical text of a project (parts of included files left out): plain IEC text
+ * if it is one such file, else a rung file
  * Owns: the caller, free(); NUL-ended, @len without it.   Fails: NULL: no memory.
  */
 char *text_write(const struct project *project, size_t *len);
+
+/**
+ * text_write_source - the canonical text of one file of the project, in the form that it has: a rung
+ * file or plain IEC text
+ * @number: of project.source
+ *
+ * Owns: the caller, free(). Scan-safe: no. Fails: NULL: no memory.
+ */
+char *text_write_source(const struct project *project, int number, size_t *len);
 
 /**
  * text_outline - the canonical text as text_write gives it, and where its parts are
@@ -59,6 +87,10 @@ void text_write_sfc(const struct project *project, const struct pou *pou,
  * Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,
 		   const struct sink *sink);
+
+/** text_is_plain - does @text begin as IEC text without the first line of a rung file: with PROGRAM,
+ * FUNCTION, FUNCTION_BLOCK, TYPE, CONFIGURATION or VAR_GLOBAL, behind comments and pragmas? */
+bool text_is_plain(const char *text, size_t len);
 
 /* For the clipboard, undo and tests: one rung, and one cell. */
 /** text_read_rung - from `RUNG …` rows; malloc'ed, the caller rung_free()s it. */

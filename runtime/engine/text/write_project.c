@@ -17,6 +17,28 @@ void write_id(const struct sink *sink, const struct project *project, uint32_t i
 	sink_write(sink, project_text(project, id), names_len(&project->names, id));
 }
 
+bool comment_next(struct lex *lex)
+{
+	const char *close;
+
+	if (lex_next(lex) == TOKEN_COMMENT)
+		return true;
+	if (!lex_is(lex, "{"))
+		return false;
+	close = memchr(lex->at, '}', (size_t)(lex->end - lex->at));
+	if (!close)
+		return false;
+	for (; lex->at <= close; lex->at++) {
+		if (*lex->at != '\n')
+			continue;
+		lex->line++;
+		lex->line_start = lex->at + 1;
+	}
+	lex->token.kind = TOKEN_COMMENT;
+	lex->token.len = (size_t)(lex->at - lex->token.text);
+	return true;
+}
+
 void write_comments(const struct sink *sink, const struct project *project,
 		    uint32_t comments)
 {
@@ -26,7 +48,7 @@ void write_comments(const struct sink *sink, const struct project *project,
 
 	lex_init(&lex, from, (size_t)(end - from));
 	lex.comments = true;
-	while (lex_next(&lex) == TOKEN_COMMENT) {
+	while (comment_next(&lex)) {
 		sink_write(sink, from, (size_t)(lex.token.text - from));
 		from = lex.token.text;
 	}
@@ -256,8 +278,8 @@ static void write_body(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_BODY, number, false);
 }
 
-/* One POU, from its heading to its end. Scan-safe: no. */
-static void text_write_pou(const struct project *project, const struct pou *pou,
+/* One POU, from its heading to its end. @plain: its file needs no language. Scan-safe: no. */
+static void text_write_pou(const struct project *project, const struct pou *pou, bool plain,
 			   const struct sink *sink)
 {
 	const bool sfc = pou->language == LANGUAGE_SFC;
@@ -269,8 +291,10 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 		sink_text(sink, " : ");
 		project_write_type(project, &pou->vars.var[0], sink);
 	}
-	sink_text(sink, " ");
-	sink_text(sink, pou_language_word(pou->language));
+	if (!plain || !pou->unsaid) {
+		sink_text(sink, " ");
+		sink_text(sink, pou_language_word(pou->language));
+	}
 	if (sfc && sfc_goes_round(pou->sfc)) {
 		sink_text(sink, " ");
 		sink_text(sink, sfc_evolution_words(pou->sfc->evolution));
@@ -286,13 +310,13 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 }
 
 static void write_pou(const struct sink *sink, const struct project *project,
-		      const struct pou *pou)
+		      const struct pou *pou, bool plain)
 {
 	const int number = (int)(pou - project->pou);
 
 	write_above(sink, project, pou->comment);
 	sink_mark(sink, TEXT_POU, number, true);
-	text_write_pou(project, pou, sink);
+	text_write_pou(project, pou, plain, sink);
 	sink_mark(sink, TEXT_POU, number, false);
 }
 
@@ -439,7 +463,7 @@ static void write_config(const struct sink *sink, const struct project *project)
 }
 
 static void write_part(const struct sink *sink, const struct project *project,
-		       const struct part *part)
+		       const struct part *part, bool plain)
 {
 	write_above(sink, project, part->comment);
 	switch (part->kind) {
@@ -450,7 +474,7 @@ static void write_part(const struct sink *sink, const struct project *project,
 		write_access(sink, project, part->index);
 		break;
 	case PART_POU:
-		write_pou(sink, project, &project->pou[part->index]);
+		write_pou(sink, project, &project->pou[part->index], plain);
 		break;
 	case PART_CONFIG:
 		write_config(sink, project);
@@ -483,52 +507,88 @@ static void write_property(const struct sink *sink, const struct project *projec
 	sink_text(sink, "\n");
 }
 
-/* Without a title and properties the reader gives the head to the first part. */
-static void write_project(const struct sink *sink, const struct project *project)
+/* RUNGBOARD 1, title and properties. Returns the comments that belong to the first part: without a
+ * title and properties, those of the head. */
+static uint32_t write_first_lines(const struct sink *sink, const struct project *project)
 {
-	uint32_t head = project->head;
+	const bool has = project_has_head(project);
 
 	sink_text(sink, "RUNGBOARD 1\n");
 	sink_mark(sink, TEXT_TITLE, 0, true);
-	if (project_has_head(project)) {
-		write_above(sink, project, head);
-		head = 0;
-	}
+	if (has)
+		write_above(sink, project, project->head);
 	write_property(sink, project, "PROJECT", project->title);
 	for (int i = 0; i < PROPERTY_COUNT; i++)
 		write_property(sink, project, property_row(i)->word, project->property[i]);
 	sink_mark(sink, TEXT_TITLE, 0, false);
-	for (int i = 0; i < project->part_count; i++) {
-		if (project->part[i].included)
-			continue;
-		sink_text(sink, "\n");
-		sink_mark(sink, TEXT_PART, i, true);
-		write_above(sink, project, head);
-		head = 0;
-		write_part(sink, project, &project->part[i]);
-		sink_mark(sink, TEXT_PART, i, false);
-	}
-	if (!head && !project->tail)
+	return has ? 0 : project->head;
+}
+
+/* Does the text have the form of its file? Several files become one rung file. */
+static bool is_plain(const struct project *project)
+{
+	return project->source_count == 1 && project->source[0].plain;
+}
+
+/* Comments behind all parts, and those of the head if there are no parts. */
+static void write_last(const struct sink *sink, const struct project *project, uint32_t head,
+		       uint32_t tail)
+{
+	if (!head && !tail)
 		return;
 	sink_text(sink, "\n");
 	write_above(sink, project, head);
-	write_above(sink, project, project->tail);
+	write_above(sink, project, tail);
 }
 
-char *text_write(const struct project *project, size_t *len)
+/* @number: of one file, in its own form; -1: of all. */
+static void write_project(const struct sink *sink, const struct project *project, int number)
+{
+	const bool plain = number >= 0 ? project->source[number].plain : is_plain(project);
+	uint32_t head = plain ? 0 : write_first_lines(sink, project);
+	bool begins = plain;
+
+	for (int i = 0; i < project->part_count; i++) {
+		if (project->part[i].included || (number >= 0 && project->part[i].source != number))
+			continue;
+		if (!begins)
+			sink_text(sink, "\n");
+		begins = false;
+		sink_mark(sink, TEXT_PART, i, true);
+		write_above(sink, project, head);
+		head = 0;
+		write_part(sink, project, &project->part[i], plain);
+		sink_mark(sink, TEXT_PART, i, false);
+	}
+	write_last(sink, project, head, number <= 0 ? project->tail : project->source[number].tail);
+	for (int i = 1; number < 0 && i < project->source_count; i++)
+		write_last(sink, project, 0, project->source[i].tail);
+}
+
+static char *write_to_memory(const struct project *project, int number, size_t *len)
 {
 	struct sink_memory memory;
 
 	sink_memory_init(&memory);
 	const struct sink sink = sink_to_memory(&memory);
 
-	write_project(&sink, project);
+	write_project(&sink, project, number);
 	if (memory.failed) {
 		sink_memory_free(&memory);
 		return NULL;
 	}
 	*len = memory.len;
 	return memory.text;
+}
+
+char *text_write(const struct project *project, size_t *len)
+{
+	return write_to_memory(project, -1, len);
+}
+
+char *text_write_source(const struct project *project, int number, size_t *len)
+{
+	return write_to_memory(project, number, len);
 }
 
 #define OUTLINE_DEPTH (8 + LIMIT_MACROS) /* nested parts; deeper parts are not reported */
@@ -588,7 +648,7 @@ char *text_outline(const struct project *project, size_t *len,
 
 	sink_memory_init(&outline.memory);
 	outline.into = sink_to_memory(&outline.memory);
-	write_project(&sink, project);
+	write_project(&sink, project, -1);
 	*len = outline.memory.len;
 	if (outline.memory.failed)
 		sink_memory_free(&outline.memory);

@@ -7,11 +7,15 @@
 #ifndef TEXT_WRITER_H
 #define TEXT_WRITER_H
 
+#include "engine/base/lex.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
 
 /** write_id - the string of @id. */
 void write_id(const struct sink *sink, const struct project *project, uint32_t id);
+/** comment_next - steps to the next token; is it a comment or a pragma, {…}? The token is all of it
+ * then. */
+bool comment_next(struct lex *lex);
 /** write_comments - comments unchanged, each in one piece. */
 void write_comments(const struct sink *sink, const struct project *project,
 		    uint32_t comments);

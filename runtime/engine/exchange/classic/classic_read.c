@@ -393,9 +393,8 @@ static bool read_text(struct classic_reader *reader, const char *text, size_t le
 	if (is_container(text, len))
 		return classic_members(reader, text, len) && read_members(reader);
 	if (!classic_is_numeric(text, len))
-		return classic_fail_at(reader, DIAG_IMPORT_LINE,
-				       (struct classic_place){ "", 1 }, text,
-				       strcspn(text, "\r\n"));
+		return classic_fail_at(reader, DIAG_IS_PACKED, (struct classic_place){ "", 0 },
+				       "gzip", 4);
 	read_bare(reader, text, len);
 	return true;
 }

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iec_file - files of other tools that hold IEC text: what TwinCAT and CODESYS 2.3 export, and text
+ * in Windows-1252.
+ *
+ * The result is plain IEC text with the same lines, so that every message has the place in the
+ * file. A file that holds no IEC text is named for what it is. Nothing here writes such files.
+ */
+#ifndef EXCHANGE_IEC_FILE_IEC_FILE_H
+#define EXCHANGE_IEC_FILE_IEC_FILE_H
+
+#include "engine/base/diag.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/**
+ * iec_file_text - the IEC text in a file
+ * @file:  its name for diagnostics; must live as long as @diags
+ * @out:   gets the text, NUL-ended, @out_len bytes without it; NULL: the bytes are read as they are
+ * @diags: gets what is left out and what cannot be read, with their lines
+ *
+ * Owns: the caller, free() @out. Scan-safe: no.
+ * Fails: false after a diagnostic: this is no IEC text, or no memory.
+ */
+bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, size_t *out_len,
+		struct diag_list *diags);
+#endif
