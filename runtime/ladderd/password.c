@@ -44,7 +44,7 @@ void password_load(struct password *password, const char *folder)
 	}
 	password->hash[len > 0 ? len : 0] = '\0';
 	password->hash[strcspn(password->hash, "\n")] = '\0';
-	if (len <= 0)
+	if (!*password->hash)
 		fprintf(stderr, "ladderd: %s cannot be read: nobody can read the program back\n", path);
 }
 

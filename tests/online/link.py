@@ -972,6 +972,32 @@ def test_the_stored_program_runs_after_a_start():
         assert board.client().status()['program'] != identity and 'has changed' in board.read('err')
 
 
+def test_what_is_no_file_of_ladderd_is_told_and_left_alone():
+    """A folder, a pipe, a link and 3 GB of zeros where ladderd stores: it runs and says so, and follows no link."""
+    with slots('--retain', 'retain') as board:
+        board.write('target', 'of somebody else')
+        for name in ('prog.A', 'prog.B', 'events', 'alarms', 'retain', 'conf', 'ends', 'password'):
+            for make in ((os.mkdir, os.rmdir), (os.mkfifo, os.unlink), (lambda path: os.symlink('target', path), os.unlink),
+                         (lambda path: open(path, 'wb').truncate(3 << 30), os.unlink)):
+                board.stop()
+                path = f'{board.folder}/{name}'
+                if os.path.exists(path):
+                    os.unlink(path)
+                make[0](path)
+                zeros, pipe_or_folder = os.path.isfile(path) and not os.path.islink(path), not os.path.isfile(path)
+                board.start()
+                told = board.read('err')
+                if name == 'retain' and pipe_or_folder:
+                    assert board.daemon.wait(60) == 2 and 'retain: not a file' in told, told
+                else:
+                    assert board.client().status()['mode'] == client.RUN, (name, make)
+                    assert zeros and name in ('events', 'alarms') or re.search(rf'\b{name}\b', told), (name, make, told)
+                    board.stop()
+                if os.path.lexists(path) and (name != 'retain' or pipe_or_folder):
+                    make[1](path)
+                assert board.read('target') == 'of somebody else'
+
+
 def test_a_damaged_slot_gives_the_other_one():
     with slots() as board:
         desk = board.client()
