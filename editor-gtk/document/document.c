@@ -1644,6 +1644,28 @@ void ladder_document_open_text(LadderDocument *document, const char *path,
 	}
 }
 
+bool ladder_document_needs_rung_file(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+	bool drawn = false;
+
+	if (document->text || !project || project->source_count != 1 || !project->source[0].plain)
+		return false;
+	for (int i = 0; i < project->pou_count; i++)
+		drawn |= !project->pou[i].included && (project->pou[i].language == LANGUAGE_LD ||
+						       project->pou[i].language == LANGUAGE_SFC);
+	return drawn || project_has_head(project) || *project_view(project);
+}
+
+/* A file of plain IEC text becomes a rung file with its new name. */
+static void take_form(LadderDocument *document, const char *path)
+{
+	struct project *project = document->text ? NULL : ladder_project(document->ladder);
+
+	if (project && project->source_count == 1 && g_str_has_suffix(path, ".rung"))
+		project->source[0].plain = false;
+}
+
 bool ladder_document_save(LadderDocument *document, const char *path, GError **error)
 {
 	gsize len;
@@ -1652,6 +1674,7 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 
 	path = path ? path : document->path;
 	g_return_val_if_fail(path != NULL, false);
+	take_form(document, path);
 	text = ladder_document_text(document, &len);
 	good = disk_save(path, text, len, error);
 	if (good) {

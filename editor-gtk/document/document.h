@@ -44,6 +44,9 @@ bool ladder_document_open(LadderDocument *document, const char *path, GError **e
  * @path: the file it belongs to, NULL: none; @saved: does the file hold this text? */
 void ladder_document_open_text(LadderDocument *document, const char *path,
 			       const char *text, gsize len, bool saved);
+/** ladder_document_needs_rung_file - is it plain IEC text that has got what only a rung file can hold:
+ * ladders, charts, a title, a view? */
+bool ladder_document_needs_rung_file(LadderDocument *document);
 /**
  * ladder_document_save - to its path, or to another, which becomes its path
  * @path: NULL: its own

@@ -7,6 +7,7 @@
 #include "editor-gtk/window/app.h"
 
 #include "editor-gtk/document/classic.h"
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
 #include "editor-gtk/document/side_file.h"
@@ -141,6 +142,27 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	return window;
 }
 
+/* A folder of IEC text, or a file of another tool, has no path until a person saves it. */
+static LadderWindow *open_plain(AdwApplication *application, LadderWindow *window,
+				const char *path, GError **error)
+{
+	const bool may = plain_file_is(path) || g_file_test(path, G_FILE_TEST_IS_DIR);
+	LadderDocument *document;
+	gsize len = 0;
+	char *text = may ? plain_file_import(path, &len) : NULL;
+
+	if (!text)
+		return open_in(application, window, path, error);
+	document = document_for(window);
+	ladder_document_open_text(document, NULL, text, len, false);
+	window = show_opened(application, window, document);
+	ladder_window_set_origin(window, path);
+	recent_add(path);
+	g_object_unref(document);
+	g_free(text);
+	return window;
+}
+
 /* An I/O map that belongs to no project and that the tree of this window lists. */
 static bool is_listed(LadderWindow *window, const char *path)
 {
@@ -188,8 +210,9 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 	}
 	if (side_file_is(path))
 		return open_beside(application, window, path, error);
-	return classic_is_project(path) ? open_classic(application, window, path, error) :
-					  open_in(application, window, path, error);
+	if (classic_is_project(path))
+		return open_classic(application, window, path, error);
+	return open_plain(application, window, path, error);
 }
 
 static void open_sample(AdwApplication *application, LadderWindow *window, const char *path,

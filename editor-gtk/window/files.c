@@ -5,6 +5,7 @@
 #include "editor-gtk/window/files.h"
 
 #include "editor-gtk/document/classic.h"
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
@@ -41,6 +42,8 @@ static void add_all(GtkFileChooser *chooser)
 	gtk_file_filter_add_pattern(filter, "*.clprj");
 	gtk_file_filter_add_pattern(filter, "*.clprjz");
 	gtk_file_filter_add_pattern(filter, "*.clp");
+	for (int i = 0; plain_file_patterns[i]; i++)
+		gtk_file_filter_add_pattern(filter, plain_file_patterns[i]);
 	gtk_file_chooser_add_filter(chooser, filter);
 	gtk_file_chooser_set_filter(chooser, filter);
 	g_object_unref(filter);
@@ -76,7 +79,7 @@ static bool can_open(const char *path)
 	const char *dot = strrchr(path, '.');
 
 	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || side_file_is(path) ||
-	       classic_is_project(path);
+	       plain_file_is(path) || classic_is_project(path);
 }
 
 static void tell_refused(struct files *files, const GPtrArray *refused)
@@ -239,13 +242,24 @@ static void save_response(GtkNativeDialog *dialog, int response, struct files *f
 	g_free(path);
 }
 
+/* "pump.rung" of "parts/pump.st". */
+static char *rung_name(const char *path)
+{
+	char *base = g_path_get_basename(path), *dot = strrchr(base, '.');
+	char *name = g_strdup_printf("%.*s.rung", (int)(dot ? dot - base : (long)strlen(base)), base);
+
+	g_free(base);
+	return name;
+}
+
 static void ask_path(struct files *files, bool close_when_saved)
 {
 	struct core *core = files->core;
 	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document,
 		_("Save as"), GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
 	const char *path = ladder_document_path(core->document);
-	char *name = path ? g_path_get_basename(path) :
+	char *name = path && ladder_document_needs_rung_file(core->document) ?
+		rung_name(path) : path ? g_path_get_basename(path) :
 		files->origin->classic || origin_sample(files->origin) ?
 		origin_name(files->origin, ".rung") : g_strdup(_("program.rung"));
 
@@ -295,6 +309,9 @@ static bool save_here(struct files *files)
 		tell_bytes(files, _("Save anyway"), "win.save-over");
 	else if (is_locked(files))
 		ask_locked(files);
+	else if (ladder_document_needs_rung_file(files->core->document))
+		warn(files, _("Only a rung file can hold ladders, charts, a title and bookmarks. "
+			      "Save the program as a rung file."), _("Save as…"), "win.save_as");
 	else
 		return save_to(files, NULL);
 	return false;

@@ -5,6 +5,7 @@
 #include "editor-gtk/window/recent.h"
 
 #include "editor-gtk/document/classic.h"
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include <stdbool.h>
@@ -53,7 +54,8 @@ static int newer_first(gconstpointer a, gconstpointer b)
 static bool is_project(const char *path)
 {
 	return g_file_test(path, G_FILE_TEST_EXISTS) &&
-	       (g_str_has_suffix(path, ".rung") || classic_is_project(path));
+	       (g_str_has_suffix(path, ".rung") || plain_file_is(path) ||
+		classic_is_project(path));
 }
 
 /* NULL: not to be listed. Actions take UTF-8 only. */

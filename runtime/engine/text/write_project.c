@@ -541,7 +541,7 @@ static void write_last(const struct sink *sink, const struct project *project, u
 	write_above(sink, project, tail);
 }
 
-/* @number: of one file, in its own form; -1: of all. */
+/* @number: of one file, in its own form; -1: of all. A view is of rung files only. */
 static void write_project(const struct sink *sink, const struct project *project, int number)
 {
 	const bool plain = number >= 0 ? project->source[number].plain : is_plain(project);
@@ -549,7 +549,8 @@ static void write_project(const struct sink *sink, const struct project *project
 	bool begins = plain;
 
 	for (int i = 0; i < project->part_count; i++) {
-		if (project->part[i].included || (number >= 0 && project->part[i].source != number))
+		if (project->part[i].included || (number >= 0 && project->part[i].source != number) ||
+		    (plain && project->part[i].kind == PART_VIEW))
 			continue;
 		if (!begins)
 			sink_text(sink, "\n");

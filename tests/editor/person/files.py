@@ -58,6 +58,37 @@ def classic(screen):
     assert read(project) == before
 
 
+LIST = 'PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\n  LD    n\n  ADD   1\n  ST    n\nEND_PROGRAM\n'
+OBJECT = ('<?xml version="1.0"?>\n<TcPlcObject><POU Name="Main"><Declaration><![CDATA[PROGRAM Main\nVAR\n  n : INT;\n'
+          'END_VAR\n]]></Declaration><Implementation><IL><![CDATA[  LD n\n  ST n\n]]></IL></Implementation></POU></TcPlcObject>\n')
+
+
+def plain(screen):
+    """plain IEC text opens as it is and is saved in its own form; an object of TwinCAT becomes a new document"""
+    path, other = os.path.join(screen.home, 'count.il'), os.path.join(screen.home, 'Main.TcPOU')
+    write(path, LIST)
+    write(other, OBJECT)
+    editor = Editor(screen, path)
+    editor.says('count.il')
+    editor.shot('files-plain')
+    view = next(view for view in editor.all(role='text') if 'LD' in view.text())
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the list')
+    editor.keys('ctrl+End', 'Up')
+    editor.type('  ST    n')
+    editor.keys('Return')
+    editor.keys('ctrl+s')
+    until(lambda: read(path) != LIST, 'it to be saved')
+    assert read(path) == LIST.replace('END_PROGRAM', '  ST    n\nEND_PROGRAM'), read(path)
+    check(path)
+    editor.finish()
+    editor = Editor(screen, other)
+    editor.says('not saved yet')
+    editor.shot('files-twincat')
+    editor.finish()
+    assert read(other) == OBJECT
+
+
 def no_program(screen):
     """an empty and a binary file open as text with their problems; the files are untouched"""
     empty, binary = [os.path.join(screen.home, name) for name in ('empty.rung', 'binary.rung')]
@@ -300,4 +331,4 @@ def closing(screen):
 
 
 one_history.quick = 'editor-gtk/document'
-main([refused, classic, no_program, no_text, foreign, beside, stays_a_link, tab, window, one_history, written_over, closing])
+main([refused, classic, plain, no_program, no_text, foreign, beside, stays_a_link, tab, window, one_history, written_over, closing])

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plain_file - files of plain IEC text that are opened in the editor.
+ *
+ * One file in UTF-8 is a document like a rung file. A folder, and a file of another tool, become
+ * the text of a new document, which is saved under another name.
+ */
+#ifndef EDITOR_PLAIN_FILE_H
+#define EDITOR_PLAIN_FILE_H
+
+#include "editor-gtk/document/document.h"
+
+/* The endings that file dialogs offer; the last is NULL. */
+extern const char *const plain_file_patterns[];
+/** plain_file_is - has @path such an ending? */
+gboolean plain_file_is(const char *path);
+/**
+ * plain_file_import - the text of a folder, or of a file of another tool
+ *
+ * Owns: the caller, g_free(). Fails: NULL: it is none of both, or it has errors; it can be opened
+ * as it is.
+ */
+char *plain_file_import(const char *path, gsize *len);
+#endif
