@@ -90,6 +90,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 		pou->il = *ladder_il(ladder, i);
 		pou->language = LANGUAGE_IL;
 		pou->sfc = NULL;
+		pou->st = NULL;
 		if (!add_temporaries(project, pou, temp, count))
 			return false;
 		for (int k = 0; k < pou->rung_count; k++)

@@ -12,6 +12,7 @@
 #include "engine/check/check_operand.h"
 #include "engine/check/check_sfc.h"
 #include "engine/check/check_sfc_names.h"
+#include "engine/check/check_st.h"
 #include "engine/check/reserved.h"
 #include "engine/check/settle.h"
 #include "engine/model/init.h"
@@ -508,6 +509,20 @@ static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_
 		bad[pou->rung_count] = 1;
 }
 
+/* One with errors is not translated. */
+static void check_text(struct names_check *c, const struct pou *pou, uint8_t *bad)
+{
+	struct operand_check operands = {
+		.scope = c->scope, .project = c->project, .uses = &c->uses,
+		.expr = c->expr, .diags = c->diags, .pou = pou,
+	};
+
+	if (check_st(&operands))
+		return;
+	c->good = false;
+	if (bad)
+		bad[pou->rung_count] = 1;
+}
 
 static unsigned int use_of_operand(enum operand_kind operand)
 {
@@ -632,6 +647,8 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		note_il(c, pou);
 		if (pou->sfc)
 			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
+		else if (pou->st)
+			check_text(c, pou, bad ? bad[i] : NULL);
 		else
 			check_ladder(c, pou, 0, pou->rung_count, false,
 				     bad ? bad[i] : NULL);

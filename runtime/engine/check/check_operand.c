@@ -21,14 +21,27 @@ struct operand_spot {
 	int row, col;
 };
 
+static struct diag operand_place(const struct operand_check *c, enum diag_id id,
+				 struct operand_spot at)
+{
+	struct diag place = { .id = id, .file = c->pou->file,
+			      .pou = project_text(c->project, c->pou->name) };
+
+	if (!c->rung) {
+		st_where(c->pou->st, c->item, c->spot, &place.line, &place.column);
+		return place;
+	}
+	place.line = rung_line(c->rung, at.row + 1);
+	place.rung = c->number;
+	place.row = at.row + 1;
+	place.col = at.col + 1;
+	return place;
+}
+
 static bool operand_report(struct operand_check *c, enum diag_id id, struct operand_spot at,
 		   const char *arg)
 {
-	struct diag place = {
-		.id = id, .file = c->pou->file, .line = rung_line(c->rung, at.row + 1),
-		.pou = project_text(c->project, c->pou->name),
-		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
-	};
+	struct diag place = operand_place(c, id, at);
 	bool good = diag_add(c->diags, place, "%s", arg);
 
 	c->good &= good;
@@ -566,30 +579,20 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	}
 }
 
-static void operand_expression(struct operand_check *c, struct operand_spot at, uint32_t id)
+/* The names of a parsed expression. */
+static void use_expression(struct operand_check *c, struct operand_spot at, struct expr *expr)
 {
-	struct names *names = &c->project->names;
-	const char *text = names_text(names, id);
-	struct expr *expr = c->expr;
-	struct diag place = {
-		.file = c->pou->file, .line = rung_line(c->rung, at.row + 1),
-		.pou = project_text(c->project, c->pou->name),
-		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
-	};
-
-	if (!expr_parse_text(text, names_len(names, id), expr, c->diags,
-			     place)) {
-		c->good = false;
-		return;
-	}
 	if (expr->target)
 		expr->node[expr->root].whole = true;
-	for (int i = 0; i < expr->count; i++)
+	for (int i = 0; i < expr->count; i++) {
+		c->spot = expr->node[i].text;
 		if (expr->node[i].op == EXPR_CALL)
 			check_call(c, at, expr, &expr->node[i]);
+	}
 	for (int i = 0; i < expr->count; i++) {
 		const struct expr_node *part = &expr->node[i];
 
+		c->spot = part->text ? part->text : c->spot;
 		if (part->op == EXPR_NAME)
 			read_whole(c, at, operand_intern(c, part->text, part->len),
 				   part->whole);
@@ -599,8 +602,22 @@ static void operand_expression(struct operand_check *c, struct operand_spot at, 
 		else if (part->op == EXPR_LITERAL)
 			operand_find(c, at, operand_intern(c, part->text, part->len));
 	}
+	c->spot = expr->target ? expr->target : c->spot;
 	if (expr->target)
 		use_target(c, at, expr);
+}
+
+static void operand_expression(struct operand_check *c, struct operand_spot at, uint32_t id)
+{
+	struct names *names = &c->project->names;
+	const char *text = names_text(names, id);
+
+	if (!expr_parse_text(text, names_len(names, id), c->expr, c->diags,
+			     operand_place(c, DIAG_COUNT, at))) {
+		c->good = false;
+		return;
+	}
+	use_expression(c, at, c->expr);
 }
 
 static void check_element(struct operand_check *c, struct operand_spot at,
@@ -666,4 +683,71 @@ bool check_operands(struct operand_check *c)
 		}
 	}
 	return c->good;
+}
+
+/* ---- statements ---- */
+
+bool check_said(struct operand_check *c, enum diag_id id, const char *arg)
+{
+	return operand_report(c, id, (struct operand_spot){ 0, 0 }, arg);
+}
+
+/* A variable or element that stands alone and is written. */
+static void use_place(struct operand_check *c, struct expr *expr, enum operand_use use)
+{
+	const struct operand_spot at = { 0, 0 };
+	const struct expr_node *root = &expr->node[expr->root];
+	uint32_t id;
+
+	if (root->op == EXPR_INDEX) {
+		for (int i = 0; i < expr->count; i++)
+			if (expr->node[i].op == EXPR_NAME)
+				operand_read(c, at, operand_intern(c, expr->node[i].text, expr->node[i].len));
+		use_element(c, at, use_indices(c, at, expr, expr->root), true, true);
+		return;
+	}
+	if (root->op != EXPR_NAME) {
+		operand_report(c, DIAG_WRITE_CONSTANT, at, "");
+		return;
+	}
+	id = operand_intern(c, root->text, root->len);
+	if (use == OPERAND_CHANGED && !operand_is_array(c, id))
+		operand_change(c, at, id);
+	else if (operand_is_array(c, id))
+		operand_write_array(c, at, id);
+	else
+		operand_write(c, at, id, false);
+}
+
+static void use_called(struct operand_check *c, const struct expr_node *node)
+{
+	const struct operand_spot at = { 0, 0 };
+	const uint32_t id = operand_intern(c, node->text, node->len);
+	const struct meaning *m = operand_find(c, at, id);
+
+	if (m && m->kind != MEANING_INSTANCE)
+		operand_refuse(c, DIAG_NOT_INSTANCE, at, id, m);
+	else if (m)
+		uses_add(c->uses, m, USE_READ | USE_CALLED);
+}
+
+bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use)
+{
+	struct expr_node *root = &expr->node[expr->root];
+	const bool before = c->good;
+
+	c->good = true;
+	c->spot = expr->node[0].text;
+	if (use == OPERAND_CALLED) {
+		use_called(c, root);
+	} else if (use == OPERAND_WRITTEN || use == OPERAND_CHANGED) {
+		use_place(c, expr, use);
+	} else {
+		root->whole |= use == OPERAND_WHOLE;
+		use_expression(c, (struct operand_spot){ 0, 0 }, expr);
+	}
+	const bool good = c->good;
+
+	c->good &= before;
+	return good;
 }

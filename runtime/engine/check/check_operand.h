@@ -20,8 +20,10 @@ struct operand_check {
 	struct expr *expr;        /* room for the expression of a cell */
 	struct diag_list *diags;
 	const struct pou *pou;
-	const struct rung *rung;
+	const struct rung *rung;  /* NULL: a statement of pou->st */
 	int number;               /* of the rung, 1-based */
+	const struct st_item *item; /* the statement                          */
+	const char *spot;         /* the place in its text                    */
 	bool condition;           /* of a transition: its coil is TRANSITION   */
 	bool good;                /* false after an error in this rung */
 };
@@ -29,4 +31,17 @@ struct operand_check {
 /** check_operands - all cells of c->rung but labels; notes the uses.
  * Scan-safe: no.   Fails: false (and c->good too) when it added an error. */
 bool check_operands(struct operand_check *c);
+/* What becomes of a part of a statement. */
+enum operand_use {
+	OPERAND_READ,      /* a value                                         */
+	OPERAND_WHOLE,     /* a value, or a structure or array                */
+	OPERAND_WRITTEN,   /* gets a value                                    */
+	OPERAND_CHANGED,   /* VAR_IN_OUT: is read and written                 */
+	OPERAND_CALLED,    /* an instance                                     */
+};
+/** check_part - the names of an expression of c->item; notes the uses. @expr: parsed; what may be
+ * an array is marked in it. Scan-safe: no. Fails: as check_operands(). */
+bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use);
+/** check_said - a message about c->spot. Scan-safe: no. Returns false for an error. */
+bool check_said(struct operand_check *c, enum diag_id id, const char *arg);
 #endif

@@ -14,6 +14,7 @@
 #include "engine/model/il.h"
 #include "engine/model/property.h"
 #include "engine/model/rung.h"
+#include "engine/model/st.h"
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
 
@@ -55,7 +56,7 @@ struct config {
 };
 
 struct advice;
-enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC };
+enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
 struct pou {
@@ -71,6 +72,7 @@ struct pou {
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
+	struct st *st;          /* of ST; NULL: another language               */
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* file it is in; borrowed from the arena      */
@@ -184,7 +186,7 @@ bool project_view_is_last(const struct project *project);
 bool project_set_view(struct project *project, const char *text);
 /** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Static. */
 const char *pou_word(enum pou_kind kind);
-/** pou_language_word - LD, IL, SFC. Static. */
+/** pou_language_word - LD, IL, SFC, ST. Static. */
 const char *pou_language_word(enum pou_language language);
 /** project_is_further - has a PROGRAM line before @entry, of the project's configuration, the
  * same program? Then this instance has data of its own, and is called by its own name.

@@ -93,9 +93,19 @@ static void read_body(struct reader *r, struct pou *pou)
 			read_sfc(r, pou);
 		return;
 	}
-	for (reader_skip_newlines(r); reader_is_vars(r); reader_skip_newlines(r))
+	struct lex before = r->lex;
+
+	for (reader_skip_newlines(r); reader_is_vars(r); reader_skip_newlines(r)) {
 		read_vars(r, &pou->vars, false);
-	read_il(r, pou);
+		before = r->lex;
+	}
+	if (pou->language == LANGUAGE_IL) {
+		read_il(r, pou);
+		return;
+	}
+	buffer_clear(&r->above); /* the comments are a part of the body */
+	r->lex = before;
+	read_st(r, pou);
 }
 
 /* ---- first lines ---- */
@@ -214,7 +224,9 @@ static enum pou_language language_of_body(const struct reader *r)
 	if (lex.token.kind == TOKEN_NEWLINE)
 		lex_next(&lex);
 	skip_vars(&lex);
-	return lex_is(&lex, "RUNG") ? LANGUAGE_LD : LANGUAGE_IL;
+	if (lex_is(&lex, "RUNG"))
+		return LANGUAGE_LD;
+	return st_begins(lex) ? LANGUAGE_ST : LANGUAGE_IL;
 }
 
 static void read_first_line(struct reader *r, struct pou *pou, int index)
@@ -233,14 +245,17 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 		reader_skip_line(r);
 		return;
 	}
-	pou->unsaid = !lex_is(&r->lex, "IL") && !lex_is(&r->lex, "LD") && !lex_is(&r->lex, "SFC");
+	pou->unsaid = !lex_is(&r->lex, "IL") && !lex_is(&r->lex, "LD") && !lex_is(&r->lex, "SFC") &&
+		      !lex_is(&r->lex, "ST");
 	if (lex_is(&r->lex, "IL"))
 		pou->language = LANGUAGE_IL;
+	else if (lex_is(&r->lex, "ST"))
+		pou->language = LANGUAGE_ST;
 	else if (r->plain && pou->unsaid)
 		pou->language = language_of_body(r);
 	if (lex_is(&r->lex, "SFC"))
 		begin_sfc(r, pou);
-	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
+	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "ST"))
 		reader_next(r);
 	reader_end_head(r);
 }

@@ -484,7 +484,7 @@ static void fail_character(struct reader *r, const struct token *token)
 
 /* A comment that is not closed reaches the end of the file: the diagnostic names its first
  * line. */
-static void fail_bad(struct reader *r)
+void reader_fail_bad(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
 	const char first = token->text[0];
@@ -523,17 +523,22 @@ static void tell_pragma(struct reader *r)
 	reader_fail(r, DIAG_PRAGMA, from, (size_t)(to - from));
 }
 
+bool reader_scan(struct reader *r)
+{
+	const bool comment = comment_next(&r->lex);
+
+	if (comment && *r->lex.token.text == '{')
+		tell_pragma(r);
+	return comment;
+}
+
 void reader_next(struct reader *r)
 {
 	for (;;) {
-		const bool comment = comment_next(&r->lex);
-
-		if (comment && *r->lex.token.text == '{')
-			tell_pragma(r);
-		if (comment)
+		if (reader_scan(r))
 			comment_keep(r);
 		else if (r->lex.token.kind == TOKEN_BAD)
-			fail_bad(r);
+			reader_fail_bad(r);
 		else
 			return;
 	}

@@ -94,6 +94,10 @@ void reader_free(struct reader *r);
  */
 char *reader_open(struct reader *r, const char *text, size_t len);
 
+/** reader_fail_bad - reports the invalid token at the cursor. */
+void reader_fail_bad(struct reader *r);
+/** reader_scan - the next token, whatever it is. True: a comment or a pragma. */
+bool reader_scan(struct reader *r);
 /** reader_next - the next token that is no comment. */
 void reader_next(struct reader *r);
 /** reader_step - the same, past ends of lines where they have no meaning. */
@@ -227,6 +231,9 @@ struct rung *read_rung(struct reader *r);
 /** reader_add_rung - the same as the last rung of a POU. */
 void reader_add_rung(struct reader *r, struct pou *pou);
 void read_il(struct reader *r, struct pou *pou);
+/** read_st - Structured Text up to the end of the POU; the cursor is on its first token, comments
+ * and newlines too. */
+void read_st(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);
 /** reader_is_sfc_word - does this word begin or end an item of a chart? */

@@ -274,6 +274,8 @@ static void write_body(const struct sink *sink, const struct project *project,
 	}
 	if (pou->language == LANGUAGE_IL)
 		text_write_il(project, &pou->il, sink);
+	if (pou->st)
+		write_st(sink, pou->st);
 	write_above(sink, project, pou->tail);
 	sink_mark(sink, TEXT_BODY, number, false);
 }

@@ -44,7 +44,9 @@ struct ld {
 	bool watch, failed;
 	bool listing;      /* translation->listing, while watched             */
 	uint8_t mark;      /* of the next instructions: IL_WATCHING, or 0     */
-	const struct rung *rung;
+	const struct rung *rung;  /* NULL: a statement of the POU's text      */
+	const struct st_item *item; /* that statement                         */
+	int line;                 /* of the file, of the next instruction     */
 	struct network network;
 	struct element_state *element;
 	struct net_state *net;
@@ -114,6 +116,19 @@ void ld_box(struct ld *ld, int element);
 void ld_compare(struct ld *ld, int element);
 /** ld_assign - [ … := … ]: stores; sets the element's leaf to ENO. */
 void ld_assign(struct ld *ld, int element);
+/* The expression in ld->expr, of a statement. A part that cannot be computed (a division by 0, an
+ * element that does not exist) leaves everything as it is. */
+/** ld_store - target := expression. */
+void ld_store(struct ld *ld);
+/** ld_value - its value as an operand
+ * @type: that is wanted where it goes; IEC_NONE: any. Gets its type
+ * @good: gets the BOOL that tells whether it could be computed; 0: it always can */
+uint32_t ld_value(struct ld *ld, enum iec_type *type, uint32_t *good);
+/** ld_test - the result is its value, a BOOL: FALSE if it could not be computed. Returns its
+ * type. */
+enum iec_type ld_test(struct ld *ld);
+/** ld_target - the operand of a variable, an element or a whole structure or array. */
+uint32_t ld_target(struct ld *ld);
 /** ld_call - begins a formal call; ld_arg adds to it. */
 void ld_call(struct ld *ld, enum word function);
 void ld_arg(struct ld *ld, bool output, uint32_t pin, uint32_t operand);

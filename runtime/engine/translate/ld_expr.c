@@ -264,7 +264,7 @@ static uint32_t chain_power(struct chain *c)
 	if (!c->en) {
 		uint16_t row = c->ld->row, col = c->ld->col;
 
-		c->en = ld_operand(c->ld, c->net);
+		c->en = c->ld->rung ? ld_operand(c->ld, c->net) : c->ld->true_id;
 		c->ld->row = row; /* an error stops at this cell */
 		c->ld->col = col;
 	}
@@ -584,6 +584,18 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
 				enum iec_type hint, uint32_t target);
 
+/* In a statement the next instructions come from the place of @text. */
+static void chain_at(struct chain *c, const char *text)
+{
+	struct ld *ld = c->ld;
+	int column;
+
+	if (ld->rung || !text)
+		return;
+	st_where(ld->unit->pou->st, ld->item, text, &ld->line, &column);
+	ld->row = ld->col = column > UINT16_MAX ? 0 : (uint16_t)column;
+}
+
 /* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target)
@@ -591,6 +603,7 @@ static struct value chain_compute(struct chain *c, int index, enum iec_type hint
 	const struct expr_node *node = &c->expr->node[index];
 	struct value value = { 0, IEC_NONE };
 
+	chain_at(c, node->text);
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_INDEX:
@@ -676,10 +689,30 @@ void ld_compare(struct ld *ld, int element)
 	state->leaf = ld_store_new(ld);
 }
 
+/* The place that ld->expr assigns to. */
+static uint32_t chain_target(struct chain *c)
+{
+	const struct expr *expr = c->expr;
+
+	chain_at(c, expr->target);
+	if (expr->target_index < 0)
+		return intern_name(c, expr->target, expr->target_len);
+	return compute_element(c, &(struct expr_node){
+		.text = expr->target, .len = (uint16_t)expr->target_len,
+		.left = (int16_t)expr->target_index, .right = (int16_t)expr->target_base,
+		.tail = expr->target_tail });
+}
+
+static bool is_place(const struct expr *expr)
+{
+	return expr->node[expr->root].op == EXPR_NAME || expr->node[expr->root].op == EXPR_INDEX;
+}
+
 void ld_assign(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
+	const struct value none = { 0, IEC_NONE };
 	struct value value;
 	uint32_t target;
 
@@ -687,24 +720,75 @@ void ld_assign(struct ld *ld, int element)
 		return;
 	c.calls = chain_count_calls(ld, ld->expr);
 	ld_place(ld, at->row, at->col);
-	if (ld->expr->target_index >= 0)
-		target = compute_element(&c, &(struct expr_node){
-			.text = ld->expr->target,
-			.len = (uint16_t)ld->expr->target_len,
-			.left = (int16_t)ld->expr->target_index,
-			.right = (int16_t)ld->expr->target_base,
-			.tail = ld->expr->target_tail });
-	else
-		target = intern_name(&c, ld->expr->target, ld->expr->target_len);
+	target = chain_target(&c);
 	ld_freeze(ld, target);
 	value = chain_compute(&c, ld->expr->root, type_of(&c, target), target);
-	if (value.operand != target ||
-	    ld->expr->node[ld->expr->root].op == EXPR_NAME ||
-	    ld->expr->node[ld->expr->root].op == EXPR_INDEX) {
-		struct value none = { 0, IEC_NONE };
-
+	if (value.operand != target || is_place(ld->expr))
 		operate(&c, FN_MOVE, value, none, value.type, target);
-	}
 	ld->element[element].leaf = c.en;
 	ld->element[element].powered = true;
+}
+
+/* ---- statements ---- */
+
+static struct chain statement(struct ld *ld)
+{
+	return (struct chain){ .ld = ld, .expr = ld->expr, .net = NET_RAIL,
+			       .calls = chain_count_calls(ld, ld->expr) };
+}
+
+/* May LD and ST copy it? */
+static bool is_loadable(struct chain *c, uint32_t from, uint32_t to)
+{
+	const struct meaning *a = meaning(c, from), *b = meaning(c, to);
+
+	return a && b && ((!meaning_is_indexed(a) && !meaning_is_indexed(b)) ||
+			  (!meaning_is_whole(a) && !meaning_is_whole(b)));
+}
+
+void ld_store(struct ld *ld)
+{
+	struct chain c = statement(ld);
+	const struct value none = { 0, IEC_NONE };
+	const uint32_t target = chain_target(&c);
+	struct value value = chain_compute(&c, ld->expr->root, type_of(&c, target), target);
+
+	chain_at(&c, ld->expr->target);
+	if (value.operand == target && !is_place(ld->expr))
+		return;
+	if (c.can_fail || !is_loadable(&c, value.operand, target)) {
+		operate(&c, FN_MOVE, value, none, value.type, target);
+		return;
+	}
+	ld_emit(ld, OP_LD, 0, value.operand);
+	ld_emit(ld, OP_ST, 0, target);
+}
+
+uint32_t ld_value(struct ld *ld, enum iec_type *type, uint32_t *good)
+{
+	struct chain c = statement(ld);
+	struct value value = chain_compute(&c, ld->expr->root, *type, 0);
+
+	*type = value.type;
+	*good = c.can_fail ? c.en : 0;
+	return value.operand;
+}
+
+enum iec_type ld_test(struct ld *ld)
+{
+	struct chain c = statement(ld);
+	struct value value = settle(&c, chain_compute(&c, ld->expr->root, IEC_BOOL, 0));
+
+	ld_emit(ld, OP_LD, 0, value.operand);
+	if (c.can_fail)
+		ld_emit(ld, OP_AND, 0, c.en);
+	return value.type;
+}
+
+uint32_t ld_target(struct ld *ld)
+{
+	struct chain c = statement(ld);
+
+	chain_at(&c, ld->expr->node[ld->expr->root].text);
+	return chain_place(&c, ld->expr->root).operand;
 }

@@ -123,7 +123,7 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 	line.rung = ld->number;
 	line.row = ld->row;
 	line.col = ld->col;
-	line.line = (uint32_t)rung_line(ld->rung, ld->row);
+	line.line = (uint32_t)(ld->rung ? rung_line(ld->rung, ld->row) : ld->line);
 	line.mark |= ld->mark;
 	if (!il_add(ld->il, line))
 		ld->failed = true;
@@ -843,7 +843,7 @@ void ld_freeze(struct ld *ld, uint32_t operand)
 	const struct meaning *write = ld_meaning(ld, operand);
 	uint32_t key, last;
 
-	if (!write)
+	if (!write || !ld->rung) /* no element of a rung has read it */
 		return;
 	key = place_key(write);
 	freeze_at(ld, write, key);

@@ -60,6 +60,10 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 bool sfc_to_il(struct translation *translation, struct unit *unit,
 	       const uint8_t *skip, bool watch, struct arena *scratch);
 
+/** st_to_il - the same of Structured Text: the list that runs. Reports parts of statements of a
+ * wrong type. */
+bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch);
+
 /**
  * assemble - the code image of all units
  * @watch: with the instrumented section

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_st - the names in statements; see check_st.h.
+ */
+#include "engine/check/check_st.h"
+
+#include "engine/model/expr_args.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The callee of the call that is being walked. */
+struct callee {
+	const struct word_row *row; /* of an instance; NULL: a subroutine      */
+	int pin;                    /* of the last argument without a name; -1 */
+};
+
+static const struct expr_node *root_of(const struct expr *expr)
+{
+	return &expr->node[expr->root];
+}
+
+/* The variable of FOR: an integer. */
+static void check_counter(struct operand_check *c, struct expr *expr)
+{
+	const struct expr_node *root = root_of(expr);
+	const struct meaning *m;
+	enum diag_id why;
+	char text[LIMIT_ARG];
+
+	if (!check_part(c, expr, OPERAND_WRITTEN))
+		return;
+	check_part(c, expr, OPERAND_READ);
+	if (root->op != EXPR_NAME)
+		return;
+	m = scope_find(c->scope, c->pou,
+		       names_intern(&c->project->names, root->text, root->len), &why);
+	if (!m || iec_type_row(m->type)->class & (CLASS_SIGNED | CLASS_UNSIGNED))
+		return;
+	snprintf(text, sizeof(text), "%.*s" DIAG_AND "%s", root->len < 30 ? root->len : 30, root->text,
+		 iec_type_row(m->type)->word);
+	check_said(c, DIAG_ST_INTEGER, text);
+}
+
+static bool is_subroutine(const struct pou *pou)
+{
+	return pou && pou->kind == POU_SUBROUTINE;
+}
+
+/* True: an instance or a subroutine, whose arguments follow. */
+static bool check_callee(struct operand_check *c, struct expr *expr, struct callee *callee)
+{
+	const struct expr_node *root = root_of(expr);
+	const uint32_t id = names_intern(&c->project->names, root->text, root->len);
+	const struct meaning *m;
+	enum diag_id why;
+
+	*callee = (struct callee){ .pin = -1 };
+	if (is_subroutine(scope_pou(c->scope, c->pou, id)))
+		return true;
+	if (!check_part(c, expr, OPERAND_CALLED))
+		return false;
+	m = scope_find(c->scope, c->pou, id, &why);
+	callee->row = m ? scope_row(c->scope, (enum word)m->word) : NULL;
+	return callee->row != NULL;
+}
+
+/* The pin that an argument goes to; NULL: none, which check_il reports. */
+static const struct word_pin *pin_of(struct callee *callee, const struct st_part *part)
+{
+	int index = callee->pin;
+
+	if (!callee->row)
+		return NULL;
+	if (part->pin.len) {
+		index = word_pin_find(callee->row, part->pin.text, part->pin.len);
+	} else {
+		do
+			index++;
+		while (index < callee->row->pin_count && callee->row->pin[index].dir == PIN_OUT);
+		callee->pin = index;
+	}
+	return index >= 0 && index < callee->row->pin_count ? &callee->row->pin[index] : NULL;
+}
+
+static void check_argument(struct operand_check *c, struct callee *callee, const struct st_part *part,
+			   struct expr *expr)
+{
+	const struct word_pin *pin = pin_of(callee, part);
+	const bool whole = pin && (pin->elements || pin->type == IEC_NONE);
+
+	if (part->role == ST_OUTPUT)
+		check_part(c, expr, OPERAND_WRITTEN);
+	else if (pin && pin->dir == PIN_IN_OUT)
+		check_part(c, expr, OPERAND_CHANGED);
+	else
+		check_part(c, expr, whole ? OPERAND_WHOLE : OPERAND_READ);
+}
+
+/* Is the statement the call of a function, whose result is not used? */
+static bool is_function(struct operand_check *c, const struct expr_node *callee)
+{
+	const enum word word = expr_function(&c->project->words, callee);
+
+	return word != WORD_COUNT;
+}
+
+/* A function as a statement: as an expression. */
+static void check_function(struct operand_check *c)
+{
+	struct st_walk walk;
+	const struct diag place = { .file = c->pou->file,
+				    .pou = project_text(c->project, c->pou->name) };
+
+	st_begin(&walk, c->pou->st, c->item);
+	if (expr_parse(&walk.lex, c->expr, c->diags, place))
+		check_part(c, c->expr, OPERAND_READ);
+	else
+		c->good = false;
+}
+
+static void check_call_parts(struct operand_check *c, struct st_walk *walk, struct diag place)
+{
+	struct callee callee;
+	struct st_part part;
+
+	if (!st_next(walk, &part, c->expr, c->diags, place)) {
+		c->good = false;
+		return;
+	}
+	if (is_function(c, root_of(c->expr))) {
+		check_function(c);
+		return;
+	}
+	if (lex_is(&walk->lex, "(") == false && !is_subroutine(scope_pou(c->scope, c->pou,
+			names_intern(&c->project->names, part.text, root_of(c->expr)->len)))) {
+		char text[LIMIT_ARG];
+
+		snprintf(text, sizeof(text), "%.*s", root_of(c->expr)->len < LIMIT_ARG ?
+			 root_of(c->expr)->len : LIMIT_ARG - 1, part.text);
+		c->spot = part.text;
+		check_said(c, DIAG_ST_NOT_CALLED, text);
+		return;
+	}
+	if (!check_callee(c, c->expr, &callee))
+		return;
+	while (st_next(walk, &part, c->expr, c->diags, place) && part.role != ST_NO_PART)
+		check_argument(c, &callee, &part, c->expr);
+}
+
+static void check_statement(struct operand_check *c)
+{
+	const struct diag place = { .file = c->pou->file,
+				    .pou = project_text(c->project, c->pou->name) };
+	struct st_walk walk;
+	struct st_part part;
+
+	st_begin(&walk, c->pou->st, c->item);
+	if (c->item->kind == ST_CALL) {
+		check_call_parts(c, &walk, place);
+		return;
+	}
+	while (st_next(&walk, &part, c->expr, c->diags, place) && part.role != ST_NO_PART)
+		if (part.role == ST_VARIABLE)
+			check_counter(c, c->expr);
+		else
+			check_part(c, c->expr, part.role == ST_ASSIGNED ? OPERAND_WHOLE : OPERAND_READ);
+}
+
+bool check_st(struct operand_check *c)
+{
+	c->good = true;
+	for (int i = 0; i < c->pou->st->count; i++) {
+		c->item = &c->pou->st->item[i];
+		if (c->item->kind != ST_COMMENT)
+			check_statement(c);
+	}
+	return c->good;
+}

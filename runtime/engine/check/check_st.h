@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_st - the names in statements of Structured Text. Types are left to the translation and to
+ * check_il.
+ */
+#ifndef CHECK_CHECK_ST_H
+#define CHECK_CHECK_ST_H
+
+#include "engine/check/check_operand.h"
+
+/** check_st - all statements of c->pou; c->rung is NULL. Notes the uses. Scan-safe: no.
+ * Fails: false (and c->good too) when it added an error. */
+bool check_st(struct operand_check *c);
+#endif

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * st - the parts of statements of Structured Text; see st.h.
+ */
+#include "engine/model/st.h"
+
+#include <string.h>
+
+static const struct st_form forms[ST_KINDS] = {
+	[ST_ASSIGN] = { "", ";", false, false, false },
+	[ST_CALL] = { "", ";", false, false, false },
+	[ST_IF] = { "IF", "THEN", true, false, true },
+	[ST_ELSIF] = { "ELSIF", "THEN", true, true, true },
+	[ST_ELSE] = { "ELSE", "", true, true, false },
+	[ST_END_IF] = { "END_IF", ";", false, true, false },
+	[ST_CASE] = { "CASE", "OF", true, false, true },
+	[ST_CHOICE] = { "", ":", true, true, false },
+	[ST_END_CASE] = { "END_CASE", ";", false, true, false },
+	[ST_FOR] = { "FOR", "DO", true, false, false },
+	[ST_END_FOR] = { "END_FOR", ";", false, true, false },
+	[ST_WHILE] = { "WHILE", "DO", true, false, true },
+	[ST_END_WHILE] = { "END_WHILE", ";", false, true, false },
+	[ST_REPEAT] = { "REPEAT", "", true, false, false },
+	[ST_UNTIL] = { "UNTIL", "END_REPEAT", false, true, true },
+	[ST_EXIT] = { "EXIT", ";", false, false, false },
+	[ST_CONTINUE] = { "CONTINUE", ";", false, false, false },
+	[ST_RETURN] = { "RETURN", ";", false, false, false },
+	[ST_EMPTY] = { "", ";", false, false, false },
+	[ST_COMMENT] = { "", "", false, false, false },
+};
+
+const struct st_form *st_form(enum st_kind kind)
+{
+	return &forms[kind];
+}
+
+void st_begin(struct st_walk *walk, const struct st *st, const struct st_item *item)
+{
+	*walk = (struct st_walk){ .kind = (enum st_kind)item->kind };
+	lex_init(&walk->lex, st->text + item->at, item->len);
+	walk->lex.line = item->line;
+	walk->lex.line_start = walk->lex.at - (item->column - 1);
+	lex_next(&walk->lex);
+}
+
+void st_where(const struct st *st, const struct st_item *item, const char *at, int *line,
+	      int *column)
+{
+	const char *begin = st->text + item->at, *end = begin + item->len, *next;
+
+	*line = item->line;
+	*column = item->column;
+	if (at < begin || at > end)
+		return;
+	for (; (next = memchr(begin, '\n', (size_t)(at - begin))); begin = next + 1) {
+		++*line;
+		*column = 1;
+	}
+	*column += (int)(at - begin);
+}
+
+bool st_is_choice(struct lex lex)
+{
+	int open = 0;
+
+	for (; lex.token.kind != TOKEN_END; lex_next(&lex)) {
+		if (lex_is(&lex, ";") || lex_is(&lex, ":="))
+			return false;
+		if (lex_is(&lex, ":") && open <= 0)
+			return true;
+		open += lex_is(&lex, "(") || lex_is(&lex, "[");
+		open -= lex_is(&lex, ")") || lex_is(&lex, "]");
+	}
+	return false;
+}
+
+bool st_begins(struct lex lex)
+{
+	int open = 0;
+
+	for (int i = 0; i < ST_KINDS; i++)
+		if (*forms[i].word && lex_is(&lex, forms[i].word))
+			return true;
+	if (op_find(lex.token.text, lex.token.len) == OP_LD)
+		return false;
+	for (; lex.token.kind != TOKEN_END; lex_next(&lex)) {
+		if (open <= 0 && (lex_is(&lex, ";") || lex_is(&lex, ":=")))
+			return true;
+		if (open <= 0 && lex_is(&lex, ":"))
+			return false;
+		open += lex_is(&lex, "(") || lex_is(&lex, "[");
+		open -= lex_is(&lex, ")") || lex_is(&lex, "]");
+	}
+	return false;
+}
+
+/* ---- parts ---- */
+
+static bool st_fail(struct st_walk *walk, struct diag_list *diags, struct diag place, enum diag_id id,
+		    const char *wanted)
+{
+	const struct token *token = &walk->lex.token;
+	const int len = token->len < LIMIT_ARG / 2 ? (int)token->len : LIMIT_ARG / 2;
+
+	place.id = id;
+	place.line = token->line;
+	place.column = token->column;
+	walk->missing = true;
+	return diag_add(diags, place, "%s%s%.*s", wanted, *wanted ? DIAG_AND : "", len, token->text);
+}
+
+/* The expression at the lexer. */
+static bool st_value(struct st_walk *walk, struct expr *expr, struct diag_list *diags,
+		     struct diag place)
+{
+	place.line = walk->lex.token.line;
+	walk->missing = !expr_parse(&walk->lex, expr, diags, place);
+	return !walk->missing;
+}
+
+/* The next part is @role, behind @word. */
+static bool behind(struct st_walk *walk, struct st_part *part, enum st_role role, const char *word,
+		   struct expr *expr, struct diag_list *diags, struct diag place)
+{
+	if (*word && !lex_accept(&walk->lex, word))
+		return st_fail(walk, diags, place, DIAG_EXPECTED, word);
+	part->role = walk->last = role;
+	part->text = walk->lex.token.text;
+	return st_value(walk, expr, diags, place);
+}
+
+/* FOR i := from TO to BY by */
+static bool next_of_for(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			struct diag_list *diags, struct diag place)
+{
+	static const struct { enum st_role before, role; const char *word; } order[] = {
+		{ ST_NO_PART, ST_VARIABLE, "FOR" }, { ST_VARIABLE, ST_FROM, ":=" },
+		{ ST_FROM, ST_TO, "TO" }, { ST_TO, ST_BY, "BY" },
+	};
+
+	for (size_t i = 0; i < sizeof(order) / sizeof(*order); i++)
+		if (order[i].before == walk->last &&
+		    (order[i].role != ST_BY || lex_is(&walk->lex, "BY")))
+			return behind(walk, part, order[i].role, order[i].word, expr, diags, place);
+	return true;
+}
+
+/* 1, 3..5 */
+static bool next_of_choice(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			   struct diag_list *diags, struct diag place)
+{
+	struct lex ahead = walk->lex;
+
+	if (walk->last == ST_LOW && lex_is(&ahead, ".")) {
+		lex_next(&ahead);
+		if (lex_is(&ahead, ".")) {
+			lex_next(&walk->lex);
+			return behind(walk, part, ST_HIGH, ".", expr, diags, place);
+		}
+	}
+	if (walk->last != ST_NO_PART && !lex_is(&walk->lex, ","))
+		return true;
+	return behind(walk, part, ST_LOW, walk->last == ST_NO_PART ? "" : ",", expr, diags, place);
+}
+
+/* `PIN :=` or `PIN =>`, if it stands here. */
+static void take_pin(struct st_walk *walk, struct st_part *part)
+{
+	struct lex ahead = walk->lex;
+
+	part->role = ST_INPUT;
+	if (ahead.token.kind != TOKEN_NAME)
+		return;
+	lex_next(&ahead);
+	if (!lex_is(&ahead, ":=") && !lex_is(&ahead, "=>"))
+		return;
+	part->pin = (struct expr_tail){ walk->lex.token.text, (uint16_t)walk->lex.token.len };
+	if (walk->lex.token.len > LIMIT_NAME)
+		part->pin.len = LIMIT_NAME;
+	part->role = lex_is(&ahead, "=>") ? ST_OUTPUT : ST_INPUT;
+	lex_next(&ahead);
+	walk->lex = ahead;
+}
+
+/* `Delay`, `Motor[3].Delay`: as one name. */
+static bool take_callee(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			struct diag_list *diags, struct diag place)
+{
+	struct lex *lex = &walk->lex;
+	const char *end = lex->token.text + lex->token.len;
+
+	part->text = lex->token.text;
+	if (lex->token.kind != TOKEN_NAME)
+		return st_fail(walk, diags, place, DIAG_EXPECTED, "statement");
+	lex_next(lex);
+	while (lex_is(lex, "[")) {
+		while (!lex_is(lex, "]") && lex->token.kind != TOKEN_END)
+			lex_next(lex);
+		end = lex->token.text + lex->token.len;
+		lex_next(lex);
+		if (!lex_is(lex, ".") || lex_next(lex) != TOKEN_NAME)
+			break;
+		end = lex->token.text + lex->token.len;
+		lex_next(lex);
+	}
+	if (end - part->text > 2 * LIMIT_NAME)
+		return st_fail(walk, diags, place, DIAG_NAME_TOO_LONG, "");
+	expr->node[0] = (struct expr_node){ .op = EXPR_NAME, .text = part->text,
+					    .len = (uint16_t)(end - part->text), .left = -1,
+					    .right = -1 };
+	expr->count = 1;
+	expr->root = 0;
+	expr->target = NULL;
+	return true;
+}
+
+/* Delay(IN := Start, Q => Motor) */
+static bool next_of_call(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			 struct diag_list *diags, struct diag place)
+{
+	struct lex *lex = &walk->lex;
+
+	if (walk->last == ST_NO_PART) {
+		part->role = walk->last = ST_CALLED;
+		return take_callee(walk, part, expr, diags, place);
+	}
+	if (walk->last == ST_CALLED && (!lex_accept(lex, "(") || lex_accept(lex, ")")))
+		return true;
+	if (walk->last != ST_CALLED && lex_accept(lex, ")"))
+		return true;
+	if (walk->last != ST_CALLED && !lex_accept(lex, ","))
+		return st_fail(walk, diags, place, DIAG_EXPECTED, ", or )");
+	take_pin(walk, part);
+	walk->last = part->role;
+	part->text = lex->token.text;
+	return st_value(walk, expr, diags, place);
+}
+
+/* Level := Level + 1 */
+static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *expr,
+		     struct diag_list *diags, struct diag place)
+{
+	const struct token first = walk->lex.token;
+	const struct expr_node *root;
+
+	part->role = walk->last = ST_ASSIGNED;
+	part->text = first.text;
+	place.line = first.line;
+	walk->missing = true;
+	if (!expr_parse_cell(&walk->lex, expr, diags, place))
+		return false;
+	walk->missing = !expr->target;
+	if (expr->target)
+		return true;
+	root = &expr->node[expr->root];
+	place.id = root->op == EXPR_FN && root->fn == FN_EQ ? DIAG_ST_COMPARES : DIAG_ST_NOTHING;
+	place.column = first.column;
+	return diag_add(diags, place, "%.*s", first.len < LIMIT_ARG ? (int)first.len : LIMIT_ARG,
+			first.text);
+}
+
+bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
+	     struct diag_list *diags, struct diag place)
+{
+	*part = (struct st_part){ .role = ST_NO_PART };
+	if (walk->kind == ST_CALL)
+		return next_of_call(walk, part, expr, diags, place);
+	if (walk->kind == ST_FOR)
+		return next_of_for(walk, part, expr, diags, place);
+	if (walk->kind == ST_CHOICE)
+		return next_of_choice(walk, part, expr, diags, place);
+	if (walk->last != ST_NO_PART)
+		return true;
+	if (walk->kind == ST_ASSIGN)
+		return assigned(walk, part, expr, diags, place);
+	if (forms[walk->kind].tests)
+		return behind(walk, part, ST_VALUE, forms[walk->kind].word, expr, diags, place);
+	if (*forms[walk->kind].word)
+		lex_accept(&walk->lex, forms[walk->kind].word);
+	return true;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * write_st - a body of Structured Text in its canonical form: two blanks a block, one blank
+ * around an operator, words of the language in upper case, one statement a line.
+ *
+ * Comments, empty lines and line ends inside a statement stay.
+ */
+#include "engine/text/writer.h"
+
+#include "engine/base/ascii.h"
+
+static const char *const words[] = {
+	"IF", "THEN", "ELSIF", "ELSE", "END_IF", "CASE", "OF", "END_CASE", "FOR", "TO", "BY", "DO",
+	"END_FOR", "WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT", "EXIT", "CONTINUE",
+	"RETURN", "AND", "OR", "XOR", "NOT", "MOD", "TRUE", "FALSE",
+};
+
+static const char *word_of(const struct lex *lex)
+{
+	for (size_t i = 0; lex->token.kind == TOKEN_NAME && i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(lex, words[i]))
+			return words[i];
+	return NULL;
+}
+
+static bool is_one_of(const struct token *token, const char *signs)
+{
+	if (token->kind != TOKEN_SYMBOL || token->len != 1)
+		return false;
+	while (*signs && *signs != token->text[0])
+		signs++;
+	return *signs != '\0';
+}
+
+struct st_style {
+	const struct sink *sink;
+	struct token last;   /* written last; kind TOKEN_END: none            */
+	bool operand;        /* that was an operand, or ) or ]                */
+	bool sign;           /* that was a sign before an operand             */
+};
+
+static bool wants_blank(const struct st_style *style, const struct lex *lex)
+{
+	const struct token *token = &lex->token, *last = &style->last;
+
+	if (last->kind == TOKEN_END || style->sign || is_one_of(last, "([.^") ||
+	    is_one_of(token, ")],;.^:"))
+		return is_one_of(token, ".") && style->operand && !is_one_of(last, "].");
+	if (is_one_of(token, "["))
+		return false;
+	if (is_one_of(token, "("))
+		return !style->operand || is_one_of(last, ")]");
+	return true;
+}
+
+static void write_token(struct st_style *style, const struct lex *lex)
+{
+	const struct token *token = &lex->token;
+	const char *word = word_of(lex);
+	const bool sign = is_one_of(token, "+-") && !style->operand;
+
+	if (wants_blank(style, lex) && !is_one_of(token, "."))
+		sink_text(style->sink, " ");
+	if (word)
+		sink_text(style->sink, word);
+	else
+		sink_write(style->sink, token->text, token->len);
+	style->sign = sign;
+	style->operand = (token->kind != TOKEN_SYMBOL && !word) || is_one_of(token, ")]^") ||
+			 lex_is(lex, "TRUE") || lex_is(lex, "FALSE");
+	style->last = *token;
+}
+
+static void write_indent(const struct sink *sink, int blanks)
+{
+	while (blanks-- > 0)
+		sink_text(sink, " ");
+}
+
+static void write_statement(const struct sink *sink, const struct st *st, const struct st_item *item,
+			    int blanks)
+{
+	struct st_style style = { .sink = sink };
+	struct lex lex;
+
+	lex_init(&lex, st->text + item->at, item->len);
+	lex.newlines = lex.comments = true;
+	while (lex_next(&lex) != TOKEN_END) {
+		if (lex.token.kind == TOKEN_COMMENT) {
+			sink_text(sink, style.last.kind == TOKEN_END ? "" : " ");
+			sink_write(sink, lex.token.text, lex.token.len);
+		} else if (lex.token.kind == TOKEN_NEWLINE) {
+			sink_text(sink, "\n");
+			write_indent(sink, blanks + 4);
+			style.last.kind = TOKEN_END;
+			style.sign = false;
+		} else {
+			write_token(&style, &lex);
+		}
+	}
+}
+
+static void write_end(const struct sink *sink, enum st_kind kind)
+{
+	const char *end = st_form(kind)->end;
+
+	sink_text(sink, ascii_upper(end[0]) >= 'A' ? " " : "");
+	sink_text(sink, end);
+	sink_text(sink, kind == ST_UNTIL ? ";" : "");
+}
+
+void write_st(const struct sink *sink, const struct st *st)
+{
+	for (int i = 0; i < st->count; i++) {
+		const struct st_item *item = &st->item[i];
+		const int blanks = 2 + 2 * item->depth;
+
+		if (item->kind == ST_COMMENT && item->behind) {
+			sink_text(sink, "  ");
+			sink_write(sink, st->text + item->at, item->len);
+		} else {
+			sink_text(sink, i > 0 ? "\n" : "");
+			sink_text(sink, item->gap ? "\n" : "");
+			write_indent(sink, blanks);
+			if (item->kind == ST_COMMENT)
+				sink_write(sink, st->text + item->at, item->len);
+			else
+				write_statement(sink, st, item, blanks);
+			write_end(sink, (enum st_kind)item->kind);
+		}
+	}
+	if (st->count > 0)
+		sink_text(sink, "\n");
+}

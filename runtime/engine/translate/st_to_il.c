@@ -1,0 +1,719 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * st_to_il - Structured Text as an instruction list (docs/st.md).
+ *
+ * Expressions are those of ladders (ld_expr.c); blocks become labels and jumps. A FOR and a CASE
+ * keep what they compute once in temporaries until their end.
+ */
+#include "engine/check/check_il.h"
+#include "engine/model/expr_args.h"
+#include "engine/translate/ladder_unit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* How many temporaries are in use. */
+struct level { int bools, numbers[IEC_TYPE_COUNT]; };
+
+/* A block that is not closed yet. Labels are string ids. */
+struct st_open {
+	enum st_kind kind;
+	uint32_t next;        /* IF: the next ELSIF, ELSE or END_IF; CASE: the next choice */
+	uint32_t out;         /* behind the block                             */
+	uint32_t again;       /* of a loop: its next round                    */
+	uint32_t top;         /* of a loop: its beginning                     */
+	uint32_t variable, by, to; /* of FOR: operands                        */
+	bool once;            /* of FOR: one more step cannot overflow        */
+	int choices;          /* of CASE: so far                              */
+	uint32_t first;       /* of CASE: number of the first label           */
+	struct level level;   /* before it                                    */
+};
+
+/* The call that is being translated. */
+struct st_call {
+	struct il_line line[LIMIT_ARGS]; /* its arguments                     */
+	int count;
+	uint32_t skip;       /* label behind the call; 0: none                */
+};
+
+struct st_il {
+	struct ld ld;
+	struct st_call call;
+	struct translation *translation;
+	const struct pou *pou;
+	struct st_open open[LIMIT_ST_DEPTH];
+	int depth;
+	uint32_t labels;      /* made so far                                  */
+};
+
+/* ---- instructions ---- */
+
+static uint32_t st_label(struct st_il *s, uint32_t number)
+{
+	char text[16];
+	const int len = snprintf(text, sizeof(text), "_S%u", (unsigned)number);
+	const uint32_t id = names_intern(&s->translation->project->names, text, (size_t)len);
+
+	s->ld.failed |= !id;
+	return id;
+}
+
+static uint32_t new_label(struct st_il *s)
+{
+	return st_label(s, ++s->labels);
+}
+
+static void here(struct st_il *s, uint32_t label)
+{
+	ld_emit_line(&s->ld, (struct il_line){ .kind = IL_LABEL, .operand = label });
+}
+
+static void jump(struct st_il *s, uint8_t modifiers, uint32_t label)
+{
+	ld_emit(&s->ld, OP_JMP, modifiers, label);
+}
+
+static void compare(struct st_il *s, enum word fn, uint32_t operand)
+{
+	ld_emit_line(&s->ld, (struct il_line){ .kind = IL_FN, .mark = IL_MADE,
+					       .word = (uint16_t)fn, .operand = operand });
+}
+
+static void copy(struct st_il *s, uint32_t from, uint32_t to)
+{
+	ld_emit(&s->ld, OP_LD, 0, from);
+	ld_emit(&s->ld, OP_ST, 0, to);
+}
+
+static struct level level_of(const struct st_il *s)
+{
+	struct level level = { .bools = s->ld.temps->bools };
+
+	memcpy(level.numbers, s->ld.temps->numbers, sizeof(level.numbers));
+	return level;
+}
+
+static void level_back(struct st_il *s, const struct level *level)
+{
+	s->ld.temps->bools = level->bools;
+	memcpy(s->ld.temps->numbers, level->numbers, sizeof(level->numbers));
+}
+
+static void at_item(struct st_il *s)
+{
+	s->ld.line = s->ld.item->line;
+	s->ld.row = s->ld.col = (uint16_t)(s->ld.item->column > UINT16_MAX ? 0 : s->ld.item->column);
+}
+
+static uint32_t st_intern(struct st_il *s, const char *text, size_t len)
+{
+	const uint32_t id = names_intern(&s->translation->project->names, text, len);
+
+	s->ld.failed |= !id;
+	return id;
+}
+
+/* ---- messages ---- */
+
+static void st_report(struct st_il *s, enum diag_id id, const char *at, const char *arg)
+{
+	struct diag place = { .id = id, .file = s->pou->file,
+			      .pou = project_text(s->translation->project, s->pou->name) };
+
+	st_where(s->pou->st, s->ld.item, at, &place.line, &place.column);
+	diag_add(s->translation->diags, place, "%s", arg);
+}
+
+/* The first name or constant of the expression. */
+static const char *st_said(const struct expr *expr, char *text, size_t size, enum iec_type type)
+{
+	const struct expr_node *node = &expr->node[0];
+
+	for (int i = 1; i < expr->count; i++)
+		if (expr->node[i].text && (!node->text || expr->node[i].text < node->text))
+			node = &expr->node[i];
+	snprintf(text, size, "%.*s" DIAG_AND "%s", node->len < 30 ? node->len : 30, node->text,
+		 iec_type_row(type)->word);
+	return node->text;
+}
+
+static void want_bool(struct st_il *s, enum iec_type type)
+{
+	char text[LIMIT_ARG];
+	const char *at;
+
+	if (type == IEC_BOOL || (type == IEC_NONE && s->ld.expr->count == 1))
+		return; /* of a constant check_il tells */
+	at = st_said(s->ld.expr, text, sizeof(text), type);
+	text[strcspn(text, DIAG_AND)] = '\0';
+	st_report(s, DIAG_NOT_BOOL, at, text);
+}
+
+static void want_integer(struct st_il *s, enum iec_type type)
+{
+	char text[LIMIT_ARG];
+	const char *at;
+
+	if (type == IEC_NONE || iec_type_row(type)->class & (ANY_INT | CLASS_BITS))
+		return;
+	at = st_said(s->ld.expr, text, sizeof(text), type);
+	st_report(s, DIAG_ST_INTEGER, at, text);
+}
+
+/* ---- values that are used again ---- */
+
+/* The present value of @operand in a temporary of its own, unless it is a constant. */
+static uint32_t keep(struct st_il *s, uint32_t operand, enum iec_type type)
+{
+	const struct meaning *m = ld_meaning(&s->ld, operand);
+	uint32_t kept;
+
+	if (!m || m->kind == MEANING_LITERAL || m->constant)
+		return operand;
+	kept = temps_number(s->ld.temps, type);
+	copy(s, operand, kept);
+	return kept;
+}
+
+/* ---- IF, WHILE, REPEAT ---- */
+
+static struct st_open *innermost(struct st_il *s)
+{
+	return &s->open[s->depth - 1];
+}
+
+static struct st_open *push_block(struct st_il *s, enum st_kind kind)
+{
+	struct st_open *open = &s->open[s->depth++];
+
+	*open = (struct st_open){ .kind = kind, .out = new_label(s), .level = level_of(s) };
+	return open;
+}
+
+/* Jumps to @label unless the condition of the statement is TRUE. */
+static void unless(struct st_il *s, struct st_walk *walk, uint32_t label)
+{
+	struct st_part part;
+	const struct level level = level_of(s);
+
+	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+		s->ld.failed = true;
+	want_bool(s, ld_test(&s->ld));
+	jump(s, MOD_C | MOD_N, label);
+	level_back(s, &level);
+}
+
+static void begin_if(struct st_il *s, struct st_walk *walk)
+{
+	struct st_open *open = push_block(s, ST_IF);
+
+	open->next = new_label(s);
+	unless(s, walk, open->next);
+}
+
+/* ELSIF and ELSE of an IF. */
+static void other_if(struct st_il *s, struct st_walk *walk, enum st_kind kind)
+{
+	struct st_open *open = innermost(s);
+
+	jump(s, 0, open->out);
+	here(s, open->next);
+	open->next = kind == ST_ELSIF ? new_label(s) : 0;
+	if (kind == ST_ELSIF)
+		unless(s, walk, open->next);
+}
+
+static void end_if(struct st_il *s)
+{
+	const struct st_open *open = &s->open[--s->depth];
+
+	if (open->next)
+		here(s, open->next);
+	here(s, open->out);
+}
+
+static void begin_while(struct st_il *s, struct st_walk *walk)
+{
+	struct st_open *open = push_block(s, ST_WHILE);
+
+	open->again = new_label(s);
+	here(s, open->again);
+	unless(s, walk, open->out);
+}
+
+static void begin_repeat(struct st_il *s)
+{
+	struct st_open *open = push_block(s, ST_REPEAT);
+
+	open->top = new_label(s);
+	open->again = new_label(s);
+	here(s, open->top);
+}
+
+static void end_repeat(struct st_il *s, struct st_walk *walk)
+{
+	const struct st_open *open = innermost(s);
+
+	here(s, open->again);
+	unless(s, walk, open->top);
+	s->depth--;
+	here(s, open->out);
+}
+
+/* ---- FOR ---- */
+
+static enum iec_type st_type_of(struct st_il *s, uint32_t operand)
+{
+	const struct meaning *m = ld_meaning(&s->ld, operand);
+
+	return m ? m->type : IEC_NONE;
+}
+
+/* The next part of FOR as a value that the body cannot change. */
+static uint32_t for_value(struct st_il *s, struct st_open *open, enum iec_type type)
+{
+	enum iec_type is = type;
+	uint32_t good, operand = ld_value(&s->ld, &is, &good);
+
+	want_integer(s, is);
+	if (good) {
+		ld_emit(&s->ld, OP_LD, 0, good);
+		jump(s, MOD_C | MOD_N, open->out);
+	}
+	return keep(s, operand, is == IEC_NONE ? type : is);
+}
+
+static bool literal_value(struct st_il *s, uint32_t operand, enum iec_type type, int64_t *out)
+{
+	const struct meaning *m = ld_meaning(&s->ld, operand);
+	union iec_value value;
+
+	if (!m || m->kind != MEANING_LITERAL || !literal_fit(&m->literal, type, &value))
+		return false;
+	*out = value.i;
+	return true;
+}
+
+/* Leaves the loop when its variable is beyond the end. */
+static void leave_for(struct st_il *s, const struct st_open *open)
+{
+	int64_t by = 1;
+
+	if (!open->by || literal_value(s, open->by, IEC_LINT, &by)) {
+		ld_emit(&s->ld, OP_LD, 0, open->variable);
+		compare(s, by < 0 ? FN_LT : FN_GT, open->to);
+		jump(s, MOD_C, open->out);
+		return;
+	}
+	const uint32_t up = new_label(s), round = new_label(s), zero = st_intern(s, "0", 1);
+
+	ld_emit(&s->ld, OP_LD, 0, open->by);
+	compare(s, FN_GT, zero);
+	jump(s, MOD_C, up);
+	ld_emit(&s->ld, OP_LD, 0, open->by);
+	compare(s, FN_EQ, zero);
+	jump(s, MOD_C, open->out);
+	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	compare(s, FN_LT, open->to);
+	jump(s, MOD_C, open->out);
+	jump(s, 0, round);
+	here(s, up);
+	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	compare(s, FN_GT, open->to);
+	jump(s, MOD_C, open->out);
+	here(s, round);
+}
+
+/* Can the variable always have the value behind the last one? */
+static bool has_room(struct st_il *s, const struct st_open *open, enum iec_type type)
+{
+	int64_t to, by = 1;
+	struct literal literal = { .type = IEC_NONE };
+	union iec_value value;
+
+	if (!literal_value(s, open->to, type, &to) ||
+	    (open->by && !literal_value(s, open->by, type, &by)) || by > INT32_MAX || by < INT32_MIN ||
+	    to > INT64_MAX / 2 || to < INT64_MIN / 2)
+		return false;
+	literal.value.i = to + by;
+	return literal_fit(&literal, type, &value);
+}
+
+static void begin_for(struct st_il *s, struct st_walk *walk)
+{
+	struct st_open *open = push_block(s, ST_FOR);
+	enum iec_type type = IEC_NONE;
+	struct st_part part;
+	int64_t by;
+
+	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	       part.role != ST_NO_PART) {
+		if (part.role == ST_VARIABLE) {
+			open->variable = ld_target(&s->ld);
+			type = st_type_of(s, open->variable);
+		} else if (part.role == ST_FROM) {
+			copy(s, for_value(s, open, type), open->variable);
+		} else if (part.role == ST_TO) {
+			open->to = for_value(s, open, type);
+		} else {
+			open->by = for_value(s, open, type);
+			if (literal_value(s, open->by, IEC_LINT, &by) && by == 0)
+				st_report(s, DIAG_LOOP_STEP, part.text, "");
+		}
+	}
+	open->once = has_room(s, open, type);
+	open->top = new_label(s);
+	open->again = new_label(s);
+	at_item(s);
+	here(s, open->top);
+	leave_for(s, open);
+}
+
+static void end_for(struct st_il *s)
+{
+	const struct st_open *open = innermost(s);
+	const uint32_t by = open->by ? open->by : st_intern(s, "1", 1);
+	const enum iec_type type = st_type_of(s, open->variable);
+
+	here(s, open->again);
+	if (open->once) {
+		ld_emit(&s->ld, OP_LD, 0, open->variable);
+		compare(s, FN_ADD, by);
+		ld_emit(&s->ld, OP_ST, 0, open->variable);
+	} else {
+		const uint32_t next = temps_number(s->ld.temps, type), eno = temps_bool(s->ld.temps);
+
+		ld_call(&s->ld, FN_ADD);
+		ld_arg(&s->ld, false, st_intern(s, "IN1", 3), open->variable);
+		ld_arg(&s->ld, false, st_intern(s, "IN2", 3), by);
+		ld_arg(&s->ld, true, s->ld.eno_id, eno);
+		ld_arg(&s->ld, true, s->ld.out_id, next);
+		ld_emit(&s->ld, OP_LD, 0, eno);
+		jump(s, MOD_C | MOD_N, open->out);
+		copy(s, next, open->variable);
+	}
+	jump(s, 0, open->top);
+	here(s, open->out);
+	level_back(s, &open->level);
+	s->depth--;
+}
+
+/* ---- CASE ---- */
+
+/* One value or range of a choice jumps to @label. */
+static void test_choice(struct st_il *s, struct st_walk *walk, uint32_t selector, enum iec_type type,
+			uint32_t label)
+{
+	struct st_part part;
+	uint32_t low = 0, good;
+
+	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	       part.role != ST_NO_PART) {
+		enum iec_type is = type;
+		const uint32_t value = ld_value(&s->ld, &is, &good);
+		struct lex ahead = walk->lex;
+		const bool range = part.role == ST_LOW && lex_is(&ahead, ".");
+
+		if (range) {
+			low = value;
+			continue;
+		}
+		ld_emit(&s->ld, OP_LD, 0, selector);
+		if (part.role == ST_HIGH) {
+			compare(s, FN_GE, low);
+			ld_emit(&s->ld, OP_AND, MOD_PAREN, selector);
+			compare(s, FN_LE, value);
+			ld_emit_line(&s->ld, (struct il_line){ .kind = IL_CLOSE });
+		} else {
+			compare(s, FN_EQ, value);
+		}
+		jump(s, MOD_C, label);
+	}
+}
+
+/* The tests of all choices stand first; @at: of the CASE. */
+static void test_choices(struct st_il *s, int at, uint32_t selector, enum iec_type type)
+{
+	const struct st *st = s->pou->st;
+	struct st_open *open = innermost(s);
+	const int depth = st->item[at].depth;
+	bool other = false;
+
+	for (int i = at + 1; i < st->count && !(st->item[i].kind == ST_END_CASE &&
+						st->item[i].depth == depth); i++) {
+		struct st_walk walk;
+
+		other |= st->item[i].kind == ST_ELSE && st->item[i].depth == depth;
+		if (st->item[i].kind != ST_CHOICE || st->item[i].depth != depth + 1)
+			continue;
+		s->ld.item = &st->item[i];
+		at_item(s);
+		st_begin(&walk, st, s->ld.item);
+		test_choice(s, &walk, selector, type, st_label(s, open->first + (uint32_t)open->choices++));
+	}
+	open->next = other ? new_label(s) : 0;
+	jump(s, 0, other ? open->next : open->out);
+}
+
+static void begin_case(struct st_il *s, struct st_walk *walk, int at)
+{
+	const struct st *st = s->pou->st;
+	struct st_open *open = push_block(s, ST_CASE);
+	enum iec_type type = IEC_NONE;
+	uint32_t selector, good;
+	struct st_part part;
+	const int depth = st->item[at].depth;
+
+	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+		s->ld.failed = true;
+	selector = ld_value(&s->ld, &type, &good);
+	want_integer(s, type);
+	if (good) {
+		ld_emit(&s->ld, OP_LD, 0, good);
+		jump(s, MOD_C | MOD_N, open->out);
+	}
+	open->first = s->labels + 1;
+	for (int i = at + 1; i < st->count && !(st->item[i].kind == ST_END_CASE &&
+						st->item[i].depth == depth); i++)
+		s->labels += st->item[i].kind == ST_CHOICE && st->item[i].depth == depth + 1;
+	test_choices(s, at, selector, type == IEC_NONE ? IEC_DINT : type);
+	s->ld.item = &st->item[at];
+	level_back(s, &open->level);
+	open->choices = 0;
+}
+
+static void next_choice(struct st_il *s)
+{
+	struct st_open *open = innermost(s);
+
+	if (open->choices > 0)
+		jump(s, 0, open->out);
+	here(s, st_label(s, open->first + (uint32_t)open->choices++));
+}
+
+static void other_case(struct st_il *s)
+{
+	struct st_open *open = innermost(s);
+
+	jump(s, 0, open->out);
+	here(s, open->next);
+}
+
+static void end_block(struct st_il *s)
+{
+	here(s, s->open[--s->depth].out);
+}
+
+/* ---- calls ---- */
+
+static void skip_unless(struct st_il *s, uint32_t good)
+{
+	struct st_call *call = &s->call;
+
+	if (!good)
+		return;
+	if (!call->skip)
+		call->skip = new_label(s);
+	ld_emit(&s->ld, OP_LD, 0, good);
+	jump(s, MOD_C | MOD_N, call->skip);
+}
+
+static const struct word_pin *pin_at(const struct word_row *row, const struct st_part *part, int *last)
+{
+	int index;
+
+	if (!row)
+		return NULL;
+	if (part->pin.len) {
+		index = word_pin_find(row, part->pin.text, part->pin.len);
+	} else {
+		index = *last;
+		do
+			index++;
+		while (index < row->pin_count && row->pin[index].dir == PIN_OUT);
+		*last = index;
+	}
+	return index >= 0 && index < row->pin_count ? &row->pin[index] : NULL;
+}
+
+/* The value of an argument, in a temporary if it is more than an operand. */
+static uint32_t argument(struct st_il *s, const struct word_pin *pin)
+{
+	const struct expr_node *root = &s->ld.expr->node[s->ld.expr->root];
+	const bool place = root->op == EXPR_NAME || root->op == EXPR_INDEX;
+	enum iec_type type = pin ? pin->type : IEC_NONE;
+	uint32_t good, operand;
+
+	if (pin && place && (pin->dir == PIN_IN_OUT || pin->elements || pin->type == IEC_NONE))
+		return ld_target(&s->ld);
+	operand = ld_value(&s->ld, &type, &good);
+	skip_unless(s, good);
+	return operand;
+}
+
+static void add_argument(struct st_il *s, const struct st_part *part, const struct word_pin *pin)
+{
+	struct st_call *call = &s->call;
+	const char *name = pin && !part->pin.len ? pin->name : part->pin.text;
+	const size_t len = pin && !part->pin.len ? strlen(pin->name) : part->pin.len;
+	struct il_line line = { .kind = part->role == ST_OUTPUT ? IL_ARG_OUT : IL_ARG_IN };
+
+	if (call->count == LIMIT_ARGS) {
+		st_report(s, DIAG_TOO_MANY, part->text, "parameters");
+		return;
+	}
+	if (!pin && !part->pin.len)
+		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
+	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld) : argument(s, pin);
+	line.pin = len ? st_intern(s, name, len) : 0;
+	line.row = s->ld.row;
+	line.line = (uint32_t)s->ld.line;
+	call->line[call->count++] = line;
+}
+
+/* EN := condition: the call is made only while it is TRUE. */
+static bool is_enable(const struct word_row *row, const struct st_part *part)
+{
+	return row && part->pin.len == 2 && word_pin_find(row, part->pin.text, 2) < 0 &&
+	       (part->pin.text[0] | 32) == 'e' && (part->pin.text[1] | 32) == 'n';
+}
+
+static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instance)
+{
+	const struct meaning *m = ld_meaning(&s->ld, instance);
+	const struct word_row *row = m && m->kind == MEANING_INSTANCE ?
+		scope_row(s->translation->scope, (enum word)m->word) : NULL;
+	struct st_call *call = &s->call;
+	struct st_part part;
+	int last = -1;
+
+	*call = (struct st_call){ .count = 0 };
+	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	       part.role != ST_NO_PART) {
+		if (is_enable(row, &part)) {
+			if (!call->skip)
+				call->skip = new_label(s);
+			want_bool(s, ld_test(&s->ld));
+			jump(s, MOD_C | MOD_N, call->skip);
+		} else {
+			add_argument(s, &part, pin_at(row, &part, &last));
+		}
+	}
+	at_item(s);
+	ld_emit(&s->ld, OP_CAL, 0, instance);
+	for (int i = 0; i < call->count; i++) {
+		s->ld.line = (int)call->line[i].line;
+		s->ld.row = s->ld.col = call->line[i].row;
+		ld_emit_line(&s->ld, call->line[i]);
+	}
+	if (call->skip)
+		here(s, call->skip);
+}
+
+static void call_statement(struct st_il *s, struct st_walk *walk)
+{
+	struct st_part part;
+	const struct expr_node *root;
+	enum iec_type type = IEC_NONE;
+	uint32_t good;
+
+	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 })) {
+		s->ld.failed = true;
+		return;
+	}
+	root = &s->ld.expr->node[s->ld.expr->root];
+	if (expr_function(&s->translation->project->words, root) == WORD_COUNT) {
+		call_instance(s, walk, ld_target(&s->ld));
+		return;
+	}
+	/* A function: its result is not used. */
+	st_begin(walk, s->pou->st, s->ld.item);
+	if (expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+		ld_value(&s->ld, &type, &good);
+}
+
+/* ---- the walk ---- */
+
+static void assign(struct st_il *s, struct st_walk *walk)
+{
+	struct st_part part;
+
+	if (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+		ld_store(&s->ld);
+	else
+		s->ld.failed = true;
+}
+
+/* EXIT and CONTINUE: of the innermost loop. */
+static void leave_loop(struct st_il *s, enum st_kind kind)
+{
+	int i = s->depth - 1;
+
+	while (i > 0 && (s->open[i].kind == ST_IF || s->open[i].kind == ST_CASE))
+		i--;
+	jump(s, 0, kind == ST_EXIT ? s->open[i].out : s->open[i].again);
+}
+
+static void end_while(struct st_il *s)
+{
+	jump(s, 0, innermost(s)->again);
+	end_block(s);
+}
+
+static void st_item_to_il(struct st_il *s, int at)
+{
+	const enum st_kind kind = (enum st_kind)s->pou->st->item[at].kind;
+	const bool in_case = s->depth > 0 && innermost(s)->kind == ST_CASE;
+	struct st_walk walk;
+
+	s->ld.item = &s->pou->st->item[at];
+	at_item(s);
+	st_begin(&walk, s->pou->st, s->ld.item);
+	switch (kind) {
+	case ST_ASSIGN: assign(s, &walk); break;
+	case ST_CALL: call_statement(s, &walk); break;
+	case ST_IF: begin_if(s, &walk); break;
+	case ST_ELSIF: other_if(s, &walk, kind); break;
+	case ST_ELSE: in_case ? other_case(s) : other_if(s, &walk, kind); break;
+	case ST_END_IF: end_if(s); break;
+	case ST_CASE: begin_case(s, &walk, at); break;
+	case ST_CHOICE: next_choice(s); break;
+	case ST_END_CASE: end_block(s); break;
+	case ST_FOR: begin_for(s, &walk); break;
+	case ST_END_FOR: end_for(s); break;
+	case ST_WHILE: begin_while(s, &walk); break;
+	case ST_END_WHILE: end_while(s); break;
+	case ST_REPEAT: begin_repeat(s); break;
+	case ST_UNTIL: end_repeat(s, &walk); break;
+	case ST_EXIT:
+	case ST_CONTINUE: leave_loop(s, kind); break;
+	case ST_RETURN: ld_emit(&s->ld, OP_RET, 0, 0); break;
+	case ST_EMPTY:
+	case ST_COMMENT:
+	case ST_KINDS: break;
+	}
+}
+
+bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch)
+{
+	struct st_il *s = arena_alloc(scratch, sizeof(*s));
+
+	if (!s)
+		return false;
+	*s = (struct st_il){
+		.ld = { .translation = translation, .unit = unit, .scratch = scratch, .il = &unit->il },
+		.translation = translation, .pou = unit->pou,
+	};
+	if (!ld_begin(&s->ld))
+		return false;
+	temps_rung(s->ld.temps);
+	for (int i = 0; i < unit->pou->st->count && !s->ld.failed; i++) {
+		const struct level level = level_of(s);
+		const enum st_kind kind = (enum st_kind)unit->pou->st->item[i].kind;
+
+		st_item_to_il(s, i);
+		if (kind == ST_ASSIGN || kind == ST_CALL)
+			level_back(s, &level);
+	}
+	return !s->ld.failed;
+}
