@@ -1090,7 +1090,7 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	GPtrArray *before = change_texts(), *after = change_texts();
 	struct pou *of = project && pou >= 0 && pou < project->pou_count ?
 		&project->pou[pou] : NULL;
-	bool good = of && !document->fixed && of->language != LANGUAGE_IL && !of->included && at >= 0 &&
+	bool good = of && !document->fixed && of->language != LANGUAGE_IL && !of->st && !of->included && at >= 0 &&
 		(!of->sfc || fits_body(of->sfc, at, removed, inserted)) &&
 		removed >= 0 && at + removed <= of->rung_count &&
 		of->rung_count - removed + inserted <= LIMIT_RUNGS &&

@@ -9,6 +9,7 @@
 
 #include "engine/base/lex.h"
 #include "engine/base/name.h"
+#include "engine/model/st.h"
 #include "engine/xref/xref.h"
 
 #include <string.h>
@@ -189,13 +190,14 @@ static char *language_of(const struct pou *pou)
 	case LANGUAGE_LD: return g_strdup(_("Ladder (LD)"));
 	case LANGUAGE_IL: return g_strdup(_("Instruction list (IL)"));
 	case LANGUAGE_SFC: return g_strdup(_("Chart (SFC)"));
+	case LANGUAGE_ST: return g_strdup(_("Structured Text (ST)"));
 	}
 	return NULL;
 }
 
 static char *length_of(const struct pou *pou)
 {
-	const int count = pou->sfc ? pou->sfc->step_count :
+	const int count = pou->sfc ? pou->sfc->step_count : pou->st ? pou->st->count :
 		pou->language == LANGUAGE_LD ? pou->rung_count : pou->il.count;
 	const unsigned long n = (unsigned long)count;
 

@@ -20,8 +20,11 @@ static const char texts[] =
 #include "engine/diag.def"
 ;
 
-static const uint8_t severities[DIAG_COUNT] = {
-#define DIAG(id, code, severity, text) [DIAG_##id] = severity,
+/* All others are errors. */
+static const uint16_t warnings[] = {
+#define OF_SEVERITY_ERROR(id)
+#define OF_SEVERITY_WARNING(id) DIAG_##id,
+#define DIAG(id, code, severity, text) OF_##severity(id)
 #include "engine/diag.def"
 };
 
@@ -123,7 +126,10 @@ const char *diag_code(enum diag_id id)
 
 enum diag_severity diag_severity(enum diag_id id)
 {
-	return id < DIAG_COUNT ? (enum diag_severity)severities[id] : SEVERITY_ERROR;
+	for (size_t i = 0; i < sizeof(warnings) / sizeof(*warnings); i++)
+		if (warnings[i] == id)
+			return SEVERITY_WARNING;
+	return SEVERITY_ERROR;
 }
 
 const char *diag_text(enum diag_id id)

@@ -12,6 +12,7 @@
 #include "engine/model/args.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/loop.h"
+#include "engine/model/st.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +29,7 @@ static struct diag operand_place(const struct operand_check *c, enum diag_id id,
 			      .pou = project_text(c->project, c->pou->name) };
 
 	if (!c->rung) {
-		st_where(c->pou->st, c->item, c->spot, &place.line, &place.column);
+		st_where(&c->project->names, c->item, c->spot, &place.line, &place.column);
 		return place;
 	}
 	place.line = rung_line(c->rung, at.row + 1);

@@ -5,6 +5,7 @@
 #include "engine/check/check_st.h"
 
 #include "engine/model/expr_args.h"
+#include "engine/model/st.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -112,7 +113,7 @@ static void check_function(struct operand_check *c)
 	const struct diag place = { .file = c->pou->file,
 				    .pou = project_text(c->project, c->pou->name) };
 
-	st_begin(&walk, c->pou->st, c->item);
+	st_begin(&walk, &c->project->names, c->item);
 	if (expr_parse(&walk.lex, c->expr, c->diags, place))
 		check_part(c, c->expr, OPERAND_READ);
 	else
@@ -155,7 +156,7 @@ static void check_statement(struct operand_check *c)
 	struct st_walk walk;
 	struct st_part part;
 
-	st_begin(&walk, c->pou->st, c->item);
+	st_begin(&walk, &c->project->names, c->item);
 	if (c->item->kind == ST_CALL) {
 		check_call_parts(c, &walk, place);
 		return;

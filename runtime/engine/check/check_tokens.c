@@ -174,15 +174,15 @@ static void tell_find(struct teller *c, const struct token_find *find)
 		&c->sfc->transition[c->tokens.net.arc[find->arc].transition];
 
 	switch (find->kind) {
-	case FAULT_TWICE:
+	case TOKEN_TWICE:
 		report_way(c, DIAG_SFC_ENTERED_TWICE, step->line, step->column_at,
 			   name_of(c, find->step), find->state, find->arc);
 		break;
-	case FAULT_DEAD:
+	case TOKEN_DEAD:
 		report_way(c, DIAG_SFC_DEAD_END, step->line, step->column_at, "",
 			   find->state, -1);
 		break;
-	case FAULT_LEFT:
+	case TOKEN_LEFT:
 		report_way(c, DIAG_SFC_GROUP, t->line, t->column, "", find->state,
 			   find->arc);
 		break;
@@ -213,13 +213,13 @@ static void tell_strange(struct teller *c)
 static void tell_found(struct teller *c)
 {
 	const struct tokens *t = &c->tokens;
-	int told[FAULT_LEFT + 1] = { 0 };
+	int told[TOKEN_LEFT + 1] = { 0 };
 	char text[40];
 
 	for (int i = 0; i < t->find_count; i++)
 		if (told[t->find[i].kind]++ < SOME)
 			tell_find(c, &t->find[i]);
-	if (t->find_count && !told[FAULT_LEFT])
+	if (t->find_count && !told[TOKEN_LEFT])
 		tell_strange(c);
 	if (!t->gave_up)
 		return;

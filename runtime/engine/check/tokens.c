@@ -276,7 +276,7 @@ static bool look_behind(struct tokens *t, int arc, const uint64_t *after, int st
 
 		if (t->sfc->step[step].kind == STEP_MACRO &&
 		    !(after[WORD(step)] & BIT(step)) && is_filled(t, after, step) &&
-		    !add_find(t, (struct token_find){ FAULT_LEFT, step, arc, state }))
+		    !add_find(t, (struct token_find){ TOKEN_LEFT, step, arc, state }))
 			return false;
 	}
 	return true;
@@ -294,7 +294,7 @@ static bool fire(struct tokens *t, int arc, int state, uint64_t *after)
 		const int step = a->to.step[i];
 
 		if (after[WORD(step)] & BIT(step) &&
-		    !add_find(t, (struct token_find){ FAULT_TWICE, step, arc, state }))
+		    !add_find(t, (struct token_find){ TOKEN_TWICE, step, arc, state }))
 			return false;
 		after[WORD(step)] |= BIT(step);
 		t->reached[step] = 1;
@@ -310,7 +310,7 @@ static bool add_dead(struct tokens *t, int state)
 	for (int i = 0; i < t->sfc->step_count; i++)
 		if (bits[WORD(i)] & BIT(i) && t->first[i] < t->first[i + 1] &&
 		    t->sfc->step[i].kind != STEP_MACRO)
-			return add_find(t, (struct token_find){ FAULT_DEAD, i, -1, state });
+			return add_find(t, (struct token_find){ TOKEN_DEAD, i, -1, state });
 	return true; /* all of it is at its end */
 }
 

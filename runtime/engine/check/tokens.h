@@ -17,13 +17,13 @@
 
 #include <stdint.h>
 
-enum token_fault {
-	FAULT_TWICE, /* a step is entered that is active: step, arc            */
-	FAULT_DEAD,  /* nothing is enabled: step that waits in vain            */
-	FAULT_LEFT,  /* a macro-step is left while more in it is active: arc   */
+enum token_kind {
+	TOKEN_TWICE, /* a step is entered that is active: step, arc            */
+	TOKEN_DEAD,  /* nothing is enabled: step that waits in vain            */
+	TOKEN_LEFT,  /* a macro-step is left while more in it is active: arc   */
 };
 struct token_find {
-	enum token_fault kind;
+	enum token_kind kind;
 	int step, arc;
 	int state;             /* in which it happens                          */
 };

@@ -887,6 +887,12 @@ static bool write_body(const struct project *project, const struct pou *pou,
 {
 	const struct var_table no_vars = { 0 };
 
+	if (pou->st) {
+		sink_text(sink, "PROGRAM\n");
+		text_write_st(project, pou->st, sink);
+		sink_text(sink, "END_PROGRAM\n");
+		return true;
+	}
 	if (pou->language != LANGUAGE_SFC)
 		return pou_print_il(project, pou, &no_vars, NULL, 0, &pou->il, sink);
 	sink_text(sink, "PROGRAM\n");

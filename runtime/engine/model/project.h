@@ -14,7 +14,6 @@
 #include "engine/model/il.h"
 #include "engine/model/property.h"
 #include "engine/model/rung.h"
-#include "engine/model/st.h"
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
 
@@ -56,6 +55,7 @@ struct config {
 };
 
 struct advice;
+struct st;
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
@@ -72,7 +72,7 @@ struct pou {
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
-	struct st *st;          /* of ST; NULL: another language               */
+	struct st *st;          /* of ST (model/st.h); NULL: another language  */
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* file it is in; borrowed from the arena      */

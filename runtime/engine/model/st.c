@@ -34,19 +34,20 @@ const struct st_form *st_form(enum st_kind kind)
 	return &forms[kind];
 }
 
-void st_begin(struct st_walk *walk, const struct st *st, const struct st_item *item)
+void st_begin(struct st_walk *walk, const struct names *names, const struct st_item *item)
 {
 	*walk = (struct st_walk){ .kind = (enum st_kind)item->kind };
-	lex_init(&walk->lex, st->text + item->at, item->len);
+	lex_init(&walk->lex, names_text(names, item->text), names_len(names, item->text));
 	walk->lex.line = item->line;
 	walk->lex.line_start = walk->lex.at - (item->column - 1);
 	lex_next(&walk->lex);
 }
 
-void st_where(const struct st *st, const struct st_item *item, const char *at, int *line,
+void st_where(const struct names *names, const struct st_item *item, const char *at, int *line,
 	      int *column)
 {
-	const char *begin = st->text + item->at, *end = begin + item->len, *next;
+	const char *begin = names_text(names, item->text), *next;
+	const char *end = begin + names_len(names, item->text);
 
 	*line = item->line;
 	*column = item->column;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * st - a body of Structured Text (IEC 61131-3, 3.3): its text, and its statements in order.
+ * st - a body of Structured Text (IEC 61131-3, 3.3): its statements in order, as texts.
  *
- * The text is kept as it was written. A statement is a piece of it; the beginning and the end of a
- * block are statements of their own. st_next() alone knows the parts of a statement: reader, check,
+ * The beginning and the end of a block are statements of their own. A text stays as it was written. st_next() alone knows the parts of a statement: reader, check,
  * translation and cross reference walk them with it.
  */
 #ifndef MODEL_ST_H
 #define MODEL_ST_H
 
+#include "engine/base/names.h"
 #include "engine/model/expr.h"
 
 enum st_kind {
@@ -38,13 +38,11 @@ struct st_item {
 	bool behind;       /* ST_COMMENT: on the line of the item before it   */
 	bool gap;          /* an empty line stands above it                   */
 	uint8_t depth;     /* blocks around it                                */
-	uint32_t at, len;  /* its bytes in the text, without THEN OF DO : ;   */
+	uint32_t text;     /* string id: its text, without THEN OF DO : ;     */
 	int line, column;  /* of its first byte in the file, from 1           */
 };
 
 struct st {
-	const char *text;  /* of the body; in the project's arena             */
-	size_t len;
 	struct st_item *item;
 	int count;
 };
@@ -88,7 +86,7 @@ struct st_walk {
 };
 
 /** st_begin - before the first part of @item. Scan-safe: yes. */
-void st_begin(struct st_walk *walk, const struct st *st, const struct st_item *item);
+void st_begin(struct st_walk *walk, const struct names *names, const struct st_item *item);
 /**
  * st_next - the next part of a statement
  * @walk:  from st_begin(); or, while a text is read, a lexer at its first token, its kind, and 0
@@ -102,7 +100,7 @@ void st_begin(struct st_walk *walk, const struct st *st, const struct st_item *i
 bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
 	     struct diag_list *diags, struct diag place);
 /** st_where - line and column of byte @at of @item's text. Scan-safe: yes. */
-void st_where(const struct st *st, const struct st_item *item, const char *at, int *line,
+void st_where(const struct names *names, const struct st_item *item, const char *at, int *line,
 	      int *column);
 /** st_begins - is the statement at the lexer one of Structured Text, not of an instruction list? It
  * tells by its first word, and by `:=` or `;` in it. Scan-safe: yes. */

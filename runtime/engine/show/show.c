@@ -570,8 +570,21 @@ static int show_sfc(struct draw *draw, const struct pou *pou)
 	return draw_sfc(draw, pou) ? 1 : -1;
 }
 
+static int show_text(struct draw *draw, const struct pou *pou)
+{
+	char *text = pou_print(draw->project, pou);
+	const bool good = text != NULL;
+
+	if (good)
+		sink_text(draw->sink, text);
+	free(text);
+	return good ? 1 : -1;
+}
+
 static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
+	if (pou->st)
+		return rung == 0 ? show_text(draw, pou) : 0;
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
 			return 0;

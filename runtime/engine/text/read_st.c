@@ -16,7 +16,7 @@
 struct st_block {
 	enum st_kind kind;   /* ST_IF, ST_CASE, ST_FOR, ST_WHILE, ST_REPEAT   */
 	struct token head;
-	int item;            /* its first statement                           */
+	struct token second; /* the IF of `ELSE IF` in it; kind TOKEN_END: none */
 	bool other;          /* ELSE was read                                 */
 	bool choice;         /* of CASE: a value was read                     */
 };
@@ -24,7 +24,6 @@ struct st_block {
 struct st_reader {
 	struct reader *r;
 	struct st *st;
-	const char *begin;   /* of the body                                   */
 	struct st_block block[LIMIT_ST_DEPTH];
 	int depth;
 	int lines;           /* newlines since the last item                  */
@@ -70,8 +69,8 @@ static struct st_item *add_item(struct st_reader *s, enum st_kind kind, const st
 	}
 	*item = (struct st_item){
 		.kind = (uint8_t)kind, .gap = s->lines > 1 && st->count > 1,
-		.depth = (uint8_t)s->depth, .at = (uint32_t)(first->text - s->begin),
-		.len = (uint32_t)len, .line = first->line, .column = first->column,
+		.depth = (uint8_t)s->depth, .text = reader_intern(s->r, first->text, len),
+		.line = first->line, .column = first->column,
 	};
 	s->lines = 0;
 	return item;
@@ -103,23 +102,14 @@ static struct st_block *innermost(struct st_reader *s)
 	return s->depth > 0 ? &s->block[s->depth - 1] : NULL;
 }
 
-/* Does `ELSE IF`, on one line, begin the block? */
-static bool is_else_if(const struct st_reader *s, const struct st_block *block)
-{
-	const struct st_item *item = &s->st->item[block->item];
-
-	return block->kind == ST_IF && block->item > 0 && item[-1].kind == ST_ELSE &&
-	       item[-1].line == item->line;
-}
-
 /* Reports the innermost block as open, and closes it. */
 static void drop_block(struct st_reader *s)
 {
 	const struct st_block *block = &s->block[--s->depth];
 
 	for (size_t i = 0; i < PAIRS; i++)
-		if (pairs[i].begin == block->kind && is_else_if(s, block))
-			st_said(s, DIAG_ST_ELSE_IF, &block->head, "");
+		if (pairs[i].begin == block->kind && block->second.kind != TOKEN_END)
+			st_said(s, DIAG_ST_ELSE_IF, &block->second, "");
 		else if (pairs[i].begin == block->kind)
 			said_of(s, DIAG_ST_OPEN, &block->head, pairs[i].begin == ST_REPEAT ?
 				"UNTIL condition END_REPEAT" : pairs[i].word);
@@ -147,8 +137,11 @@ static bool open_block(struct st_reader *s, enum st_kind kind)
 {
 	if (s->depth == LIMIT_ST_DEPTH)
 		return said_of(s, DIAG_TOO_DEEP, &s->r->lex.token, "");
-	s->block[s->depth++] = (struct st_block){ .kind = kind, .head = s->r->lex.token,
-						  .item = s->st->count };
+	const struct st_item *last = s->st->count > 0 ? &s->st->item[s->st->count - 1] : NULL;
+
+	if (kind == ST_IF && last && last->kind == ST_ELSE && last->line == s->r->lex.token.line)
+		s->block[s->depth - 1].second = s->r->lex.token;
+	s->block[s->depth++] = (struct st_block){ .kind = kind, .head = s->r->lex.token };
 	return true;
 }
 
@@ -285,6 +278,11 @@ static bool take_statement(struct st_reader *s, enum st_kind kind, const struct 
 {
 	const char *end = st_form(kind)->end;
 	const struct token stop = lex->token;
+
+	if (kind == ST_EMPTY) {
+		go_behind(s, lex);
+		return true;
+	}
 	const struct lex last = last_token(first, stop.text);
 	const bool closed = *end && lex_is(lex, end);
 
@@ -295,9 +293,8 @@ static bool take_statement(struct st_reader *s, enum st_kind kind, const struct 
 		return said_of(s, DIAG_SYNTAX, &stop, "");
 	if (*end && !closed && !st_form(kind)->closes) /* it is clear what was meant */
 		said_semicolon(s, &last.token);
-	if (kind != ST_EMPTY)
-		add_item(s, kind, &first->token, (size_t)(last.token.text + last.token.len -
-							  first->token.text));
+	add_item(s, kind, &first->token, (size_t)(last.token.text + last.token.len -
+						  first->token.text));
 	if (!closed) {
 		go_behind(s, &last);
 		return true;
@@ -397,15 +394,13 @@ static void read_statement(struct st_reader *s)
 void read_st(struct reader *r, struct pou *pou)
 {
 	struct st_reader *s = arena_alloc(&r->project->arena, sizeof(*s));
-	const char *end;
-	char *text;
 
 	pou->st = arena_alloc(&r->project->arena, sizeof(*pou->st));
 	if (!s || !pou->st) {
 		r->no_memory = true;
 		return;
 	}
-	*s = (struct st_reader){ .r = r, .st = pou->st, .begin = r->lex.token.text };
+	*s = (struct st_reader){ .r = r, .st = pou->st };
 	while (r->lex.token.kind != TOKEN_END && !r->no_memory && !read_ends_block(r)) {
 		if (r->lex.token.kind == TOKEN_NEWLINE) {
 			s->lines++;
@@ -420,9 +415,4 @@ void read_st(struct reader *r, struct pou *pou)
 	}
 	while (s->depth > 0)
 		drop_block(s);
-	end = r->lex.token.text;
-	text = arena_copy(&r->project->arena, s->begin, (size_t)(end - s->begin));
-	r->no_memory |= !text;
-	pou->st->text = text;
-	pou->st->len = (size_t)(end - s->begin);
 }

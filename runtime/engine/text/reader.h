@@ -14,6 +14,7 @@
 #include "engine/model/expr_args.h"
 #include "engine/model/init.h"
 #include "engine/model/project.h"
+#include "engine/model/st.h"
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
 

@@ -83,6 +83,8 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 /** text_write_sfc - a chart without its declarations. Scan-safe: no. */
 void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
+/** text_write_st - Structured Text, a statement a line. Scan-safe: no. */
+void text_write_st(const struct project *project, const struct st *st, const struct sink *sink);
 /** text_write_il - an instruction list; it reads again to the same list, with new line numbers.
  * Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,

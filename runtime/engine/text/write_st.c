@@ -5,9 +5,11 @@
  *
  * Comments, empty lines and line ends inside a statement stay.
  */
+#include "engine/text/text.h"
 #include "engine/text/writer.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/st.h"
 
 static const char *const words[] = {
 	"IF", "THEN", "ELSIF", "ELSE", "END_IF", "CASE", "OF", "END_CASE", "FOR", "TO", "BY", "DO",
@@ -77,13 +79,12 @@ static void write_indent(const struct sink *sink, int blanks)
 		sink_text(sink, " ");
 }
 
-static void write_statement(const struct sink *sink, const struct st *st, const struct st_item *item,
-			    int blanks)
+static void write_statement(const struct sink *sink, const char *text, size_t len, int blanks)
 {
 	struct st_style style = { .sink = sink };
 	struct lex lex;
 
-	lex_init(&lex, st->text + item->at, item->len);
+	lex_init(&lex, text, len);
 	lex.newlines = lex.comments = true;
 	while (lex_next(&lex) != TOKEN_END) {
 		if (lex.token.kind == TOKEN_COMMENT) {
@@ -109,23 +110,27 @@ static void write_end(const struct sink *sink, enum st_kind kind)
 	sink_text(sink, kind == ST_UNTIL ? ";" : "");
 }
 
-void write_st(const struct sink *sink, const struct st *st)
+void text_write_st(const struct project *project, const struct st *st, const struct sink *sink)
 {
+	const struct names *names = &project->names;
+
 	for (int i = 0; i < st->count; i++) {
 		const struct st_item *item = &st->item[i];
+		const char *text = names_text(names, item->text);
+		const size_t len = names_len(names, item->text);
 		const int blanks = 2 + 2 * item->depth;
 
 		if (item->kind == ST_COMMENT && item->behind) {
 			sink_text(sink, "  ");
-			sink_write(sink, st->text + item->at, item->len);
+			sink_write(sink, text, len);
 		} else {
 			sink_text(sink, i > 0 ? "\n" : "");
 			sink_text(sink, item->gap ? "\n" : "");
 			write_indent(sink, blanks);
 			if (item->kind == ST_COMMENT)
-				sink_write(sink, st->text + item->at, item->len);
+				sink_write(sink, text, len);
 			else
-				write_statement(sink, st, item, blanks);
+				write_statement(sink, text, len, blanks);
 			write_end(sink, (enum st_kind)item->kind);
 		}
 	}

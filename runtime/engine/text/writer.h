@@ -31,8 +31,6 @@ void write_rung(const struct sink *sink, const struct project *project,
 /** write_cell - an element, without comment. */
 void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell);
-/** write_st - Structured Text, a statement a line. */
-void write_st(const struct sink *sink, const struct st *st);
 /** write_sfc - a chart: declarations and items, up to the comments before its end. */
 void write_sfc(const struct sink *sink, const struct project *project,
 	       const struct pou *pou);

@@ -11,6 +11,7 @@
 #include "engine/model/expr.h"
 #include "engine/model/loop.h"
 #include "engine/model/network.h"
+#include "engine/model/st.h"
 #include "engine/translate/temps.h"
 
 /* What an element lets through, once it has been evaluated. */

@@ -592,7 +592,7 @@ static void chain_at(struct chain *c, const char *text)
 
 	if (ld->rung || !text)
 		return;
-	st_where(ld->unit->pou->st, ld->item, text, &ld->line, &column);
+	st_where(&ld->translation->project->names, ld->item, text, &ld->line, &column);
 	ld->row = ld->col = column > UINT16_MAX ? 0 : (uint16_t)column;
 }
 

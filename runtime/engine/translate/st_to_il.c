@@ -15,7 +15,7 @@
 /* How many temporaries are in use. */
 struct level { int bools, numbers[IEC_TYPE_COUNT]; };
 
-/* A block that is not closed yet. Labels are string ids. */
+/* A block that is not closed yet. Labels are numbers from 1; 0: none. */
 struct st_open {
 	enum st_kind kind;
 	uint32_t next;        /* IF: the next ELSIF, ELSE or END_IF; CASE: the next choice */
@@ -36,14 +36,21 @@ struct st_call {
 	uint32_t skip;       /* label behind the call; 0: none                */
 };
 
+/* The values of a CASE so far, from the first to the last of each range. */
+struct st_range { int64_t low, high; };
+
 struct st_il {
 	struct ld ld;
+	struct st_range *range;
+	int ranges;
 	struct st_call call;
 	struct translation *translation;
 	const struct pou *pou;
 	struct st_open open[LIMIT_ST_DEPTH];
 	int depth;
 	uint32_t labels;      /* made so far                                  */
+	uint8_t *used;        /* by label: a jump leads there                 */
+	uint32_t used_size;
 };
 
 /* ---- instructions ---- */
@@ -60,17 +67,41 @@ static uint32_t st_label(struct st_il *s, uint32_t number)
 
 static uint32_t new_label(struct st_il *s)
 {
-	return st_label(s, ++s->labels);
+	return ++s->labels;
 }
 
+static void use_label(struct st_il *s, uint32_t label)
+{
+	if (label >= s->used_size) {
+		const uint32_t size = label < 32 ? 64 : 2 * label;
+		uint8_t *grown = arena_grow(s->ld.scratch, s->used, s->used_size, size);
+
+		s->ld.failed |= !grown;
+		s->used = grown ? grown : s->used;
+		s->used_size = grown ? size : s->used_size;
+	}
+	if (label < s->used_size)
+		s->used[label] = 1;
+}
+
+/* Labels that no jump names are left out: a label ends what can be joined. */
 static void here(struct st_il *s, uint32_t label)
 {
-	ld_emit_line(&s->ld, (struct il_line){ .kind = IL_LABEL, .operand = label });
+	if (label < s->used_size && s->used[label])
+		ld_emit_line(&s->ld, (struct il_line){ .kind = IL_LABEL, .operand = st_label(s, label) });
+}
+
+/* A label to which a jump further down leads. */
+static void here_again(struct st_il *s, uint32_t label)
+{
+	use_label(s, label);
+	here(s, label);
 }
 
 static void jump(struct st_il *s, uint8_t modifiers, uint32_t label)
 {
-	ld_emit(&s->ld, OP_JMP, modifiers, label);
+	use_label(s, label);
+	ld_emit(&s->ld, OP_JMP, modifiers, st_label(s, label));
 }
 
 static void compare(struct st_il *s, enum word fn, uint32_t operand)
@@ -120,7 +151,7 @@ static void st_report(struct st_il *s, enum diag_id id, const char *at, const ch
 	struct diag place = { .id = id, .file = s->pou->file,
 			      .pou = project_text(s->translation->project, s->pou->name) };
 
-	st_where(s->pou->st, s->ld.item, at, &place.line, &place.column);
+	st_where(&s->translation->project->names, s->ld.item, at, &place.line, &place.column);
 	diag_add(s->translation->diags, place, "%s", arg);
 }
 
@@ -237,7 +268,7 @@ static void begin_while(struct st_il *s, struct st_walk *walk)
 	struct st_open *open = push_block(s, ST_WHILE);
 
 	open->again = new_label(s);
-	here(s, open->again);
+	here_again(s, open->again);
 	unless(s, walk, open->out);
 }
 
@@ -247,7 +278,7 @@ static void begin_repeat(struct st_il *s)
 
 	open->top = new_label(s);
 	open->again = new_label(s);
-	here(s, open->top);
+	here_again(s, open->top);
 }
 
 static void end_repeat(struct st_il *s, struct st_walk *walk)
@@ -365,7 +396,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk)
 	open->top = new_label(s);
 	open->again = new_label(s);
 	at_item(s);
-	here(s, open->top);
+	here_again(s, open->top);
 	leave_for(s, open);
 }
 
@@ -400,11 +431,33 @@ static void end_for(struct st_il *s)
 
 /* ---- CASE ---- */
 
+/* Reports a value that an earlier choice has. */
+static void note_range(struct st_il *s, const char *at, const char *end, uint32_t low, uint32_t high)
+{
+	struct st_range range, *kept;
+	char text[LIMIT_ARG + 1];
+
+	if (!literal_value(s, low, IEC_LINT, &range.low) || !literal_value(s, high, IEC_LINT, &range.high))
+		return;
+	snprintf(text, sizeof(text), "%.*s", end - at < LIMIT_ARG ? (int)(end - at) : LIMIT_ARG, at);
+	for (int i = 0; i < s->ranges; i++)
+		if (range.low <= s->range[i].high && s->range[i].low <= range.high) {
+			st_report(s, DIAG_ST_CHOICE_TWICE, at, text);
+			return;
+		}
+	kept = arena_push(s->translation->arena, &s->range, &s->ranges, sizeof(*kept));
+	if (kept)
+		*kept = range;
+	else
+		s->ld.failed = true;
+}
+
 /* One value or range of a choice jumps to @label. */
 static void test_choice(struct st_il *s, struct st_walk *walk, uint32_t selector, enum iec_type type,
 			uint32_t label)
 {
 	struct st_part part;
+	const char *at = NULL;
 	uint32_t low = 0, good;
 
 	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
@@ -414,10 +467,12 @@ static void test_choice(struct st_il *s, struct st_walk *walk, uint32_t selector
 		struct lex ahead = walk->lex;
 		const bool range = part.role == ST_LOW && lex_is(&ahead, ".");
 
+		at = part.role == ST_LOW ? part.text : at;
 		if (range) {
 			low = value;
 			continue;
 		}
+		note_range(s, at, walk->lex.token.text, part.role == ST_HIGH ? low : value, value);
 		ld_emit(&s->ld, OP_LD, 0, selector);
 		if (part.role == ST_HIGH) {
 			compare(s, FN_GE, low);
@@ -439,6 +494,8 @@ static void test_choices(struct st_il *s, int at, uint32_t selector, enum iec_ty
 	const int depth = st->item[at].depth;
 	bool other = false;
 
+	s->range = NULL;
+	s->ranges = 0;
 	for (int i = at + 1; i < st->count && !(st->item[i].kind == ST_END_CASE &&
 						st->item[i].depth == depth); i++) {
 		struct st_walk walk;
@@ -448,8 +505,8 @@ static void test_choices(struct st_il *s, int at, uint32_t selector, enum iec_ty
 			continue;
 		s->ld.item = &st->item[i];
 		at_item(s);
-		st_begin(&walk, st, s->ld.item);
-		test_choice(s, &walk, selector, type, st_label(s, open->first + (uint32_t)open->choices++));
+		st_begin(&walk, &s->translation->project->names, s->ld.item);
+		test_choice(s, &walk, selector, type, open->first + (uint32_t)open->choices++);
 	}
 	open->next = other ? new_label(s) : 0;
 	jump(s, 0, other ? open->next : open->out);
@@ -488,7 +545,7 @@ static void next_choice(struct st_il *s)
 
 	if (open->choices > 0)
 		jump(s, 0, open->out);
-	here(s, st_label(s, open->first + (uint32_t)open->choices++));
+	here(s, open->first + (uint32_t)open->choices++);
 }
 
 static void other_case(struct st_il *s)
@@ -627,7 +684,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 		return;
 	}
 	/* A function: its result is not used. */
-	st_begin(walk, s->pou->st, s->ld.item);
+	st_begin(walk, &s->translation->project->names, s->ld.item);
 	if (expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
 		ld_value(&s->ld, &type, &good);
 }
@@ -668,7 +725,7 @@ static void st_item_to_il(struct st_il *s, int at)
 
 	s->ld.item = &s->pou->st->item[at];
 	at_item(s);
-	st_begin(&walk, s->pou->st, s->ld.item);
+	st_begin(&walk, &s->translation->project->names, s->ld.item);
 	switch (kind) {
 	case ST_ASSIGN: assign(s, &walk); break;
 	case ST_CALL: call_statement(s, &walk); break;

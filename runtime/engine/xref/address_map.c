@@ -6,6 +6,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
+#include "engine/model/st.h"
 #include "engine/model/args.h"
 #include "engine/xref/xref.h"
 
@@ -461,6 +462,9 @@ bool xref_addresses(struct xref *out, struct project *project)
 		for (int k = 0; k < pou->rung_count; k++)
 			walk_rung(&walk, pou->rung[k]);
 		walk_list(&walk, &pou->il);
+		for (int k = 0; pou->st && k < pou->st->count; k++)
+			if (pou->st->item[k].kind != ST_COMMENT)
+				scan_whole(&walk, pou->st->item[k].text);
 		if (pou->sfc)
 			walk_sfc(&walk, pou->sfc);
 		mark_table(&walk, &pou->vars, LOCAL, false);

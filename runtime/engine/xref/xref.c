@@ -9,6 +9,7 @@
 #include "engine/base/lex.h"
 #include "engine/check/access.h"
 #include "engine/check/scope.h"
+#include "engine/model/st.h"
 #include "engine/model/args.h"
 #include "engine/model/init.h"
 #include "engine/model/loop.h"
@@ -28,6 +29,7 @@ struct xref_walk {
 	const struct pou *pou;   /* scope of names; NULL: globals             */
 	struct xref_use place;   /* the present place                         */
 	uint32_t *slot;          /* the text that is scanned                  */
+	const struct st_item *item; /* the statement it is; NULL: none        */
 	struct xref_label *label; /* by folded name                           */
 	uint32_t labels;
 	int body;                /* for labels: each POU has one, a chart many */
@@ -102,6 +104,12 @@ static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target targ
 	if (!use)
 		return NULL;
 	*use = walk->place;
+	if (walk->item) { /* of a statement: its own line and column */
+		const char *text = project_text(walk->project, walk->item->text);
+
+		st_where(&walk->project->names, walk->item, text + at, &use->line, &use->col);
+		use->row = use->line - walk->pou->line + 1;
+	}
 	use->target = target;
 	use->kind = kind;
 	use->slot = walk->slot;
@@ -282,7 +290,9 @@ static void scan_head(struct scan *scan, const struct token *token)
 /* Operators such as AND and MOD are not names. */
 static bool is_operator(const struct token *token)
 {
-	return op_find(token->text, token->len) != OP_COUNT ||
+	const enum op op = op_find(token->text, token->len);
+
+	return op == OP_AND || op == OP_OR || op == OP_XOR || op == OP_NOT ||
 	       word_find(token->text, token->len) == FN_MOD;
 }
 
@@ -956,6 +966,105 @@ static void walk_list(struct xref_walk *walk, struct pou *pou, int first, int co
 	}
 }
 
+/* ---- Structured Text ---- */
+
+/* A part of a statement, up to the token at the lexer. */
+static void walk_part(struct xref_walk *walk, const struct st_part *part, const struct st_walk *parts,
+		      enum xref_kind kind)
+{
+	const char *text = project_text(walk->project, walk->item->text);
+
+	xref_scan(walk, (size_t)(part->text - text), (size_t)(parts->lex.token.text - part->text), kind);
+}
+
+/* The word of the instance that is called; WORD_COUNT: none. */
+static enum word word_called(struct xref_walk *walk, const struct expr *expr)
+{
+	const struct expr_node *root = &expr->node[expr->root];
+	const uint32_t id = names_intern(&walk->project->names, root->text, root->len);
+	enum diag_id why;
+	const struct meaning *m = scope_find(walk->scope, walk->pou, id, &why);
+
+	return m && m->kind == MEANING_INSTANCE ? (enum word)m->word : WORD_COUNT;
+}
+
+static void walk_callee(struct xref_walk *walk, const struct st_part *part, const struct st_walk *parts,
+			const struct expr *expr, enum word *word)
+{
+	const struct expr_node *root = &expr->node[expr->root];
+	const char *text = project_text(walk->project, walk->item->text);
+	const uint32_t id = names_intern(&walk->project->names, root->text, root->len);
+	const struct pou *pou = scope_pou(walk->scope, walk->pou, id);
+
+	*word = pou && pou->kind == POU_FUNCTION ? pou->word : word_called(walk, expr);
+	if (pou)
+		xref_add(walk, (struct xref_target){ .what = XREF_POU,
+			.index = (int)(pou - walk->project->pou) }, XREF_CALLED,
+			 (uint32_t)(root->text - text), root->len);
+	else
+		walk_part(walk, part, parts, XREF_CALLED);
+}
+
+static void walk_argument(struct xref_walk *walk, const struct st_part *part,
+			  const struct st_walk *parts, enum word word)
+{
+	const char *text = project_text(walk->project, walk->item->text);
+	enum pin_dir dir = PIN_NONE;
+
+	if (part->pin.len && word != WORD_COUNT) {
+		const struct xref_target target = xref_pin(walk, word, part->pin.text, part->pin.len,
+							   &dir);
+
+		if (target.what != XREF_UNKNOWN)
+			xref_add(walk, target, kind_of_pin(dir, part->role == ST_OUTPUT),
+				 (uint32_t)(part->pin.text - text), part->pin.len);
+	}
+	walk_part(walk, part, parts, kind_of_value(dir, part->role == ST_OUTPUT));
+}
+
+static void walk_statement(struct xref_walk *walk, struct expr *expr, struct diag_list *ignored)
+{
+	enum word word = WORD_COUNT;
+	struct st_part part;
+	struct st_walk parts;
+
+	st_begin(&parts, &walk->project->names, walk->item);
+	if (walk->item->kind == ST_ASSIGN) {
+		xref_all(walk, walk->slot, XREF_WRITTEN);
+		return;
+	}
+	while (st_next(&parts, &part, expr, ignored, (struct diag){ .id = DIAG_COUNT }) &&
+	       part.role != ST_NO_PART) {
+		if (part.role == ST_CALLED)
+			walk_callee(walk, &part, &parts, expr, &word);
+		else if (part.role == ST_INPUT || part.role == ST_OUTPUT)
+			walk_argument(walk, &part, &parts, word);
+		else
+			walk_part(walk, &part, &parts, part.role == ST_VARIABLE ? XREF_CHANGED : XREF_READ);
+	}
+}
+
+static bool xref_st(struct xref_walk *walk, struct pou *pou)
+{
+	struct expr *expr = arena_alloc(&walk->out->arena, sizeof(*expr));
+	struct diag_list *ignored = arena_alloc(&walk->out->arena, sizeof(*ignored));
+
+	if (!expr || !ignored)
+		return false;
+	for (int i = 0; i < pou->st->count; i++) {
+		struct st_item *item = &pou->st->item[i];
+
+		if (item->kind == ST_COMMENT)
+			continue;
+		xref_begin(walk, pou, item->line, item->column);
+		walk->item = item;
+		walk->slot = &item->text;
+		walk_statement(walk, expr, ignored);
+	}
+	walk->item = NULL;
+	return true;
+}
+
 /* A condition or an action of a chart. */
 static void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_body *body)
 {
@@ -1102,6 +1211,8 @@ bool xref_make(struct xref *out, struct project *project)
 			xref_sfc(&walk, &project->pou[i]);
 			continue;
 		}
+		if (project->pou[i].st && !xref_st(&walk, &project->pou[i]))
+			return false;
 		walk_rungs(&walk, &project->pou[i], 0, project->pou[i].rung_count);
 		walk_list(&walk, &project->pou[i], 0, project->pou[i].il.count);
 	}

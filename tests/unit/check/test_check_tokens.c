@@ -416,17 +416,17 @@ static bool finds_hold(const struct tokens *t, const struct truth *truth)
 		const struct token_find *find = &t->find[i];
 		const uint32_t state = (uint32_t)tokens_state(t, find->state)[0];
 
-		if (find->kind == FAULT_TWICE && !(truth->twice >> find->step & 1))
+		if (find->kind == TOKEN_TWICE && !(truth->twice >> find->step & 1))
 			return false;
 		if (!truth->seen[state])
 			return false;
-		if (find->kind == FAULT_DEAD && !truth->dead[state])
+		if (find->kind == TOKEN_DEAD && !truth->dead[state])
 			return false;
 	}
 	return true;
 }
 
-static bool found(const struct tokens *t, enum token_fault kind)
+static bool found(const struct tokens *t, enum token_kind kind)
 {
 	for (int i = 0; i < t->find_count; i++)
 		if (t->find[i].kind == kind)
@@ -449,9 +449,9 @@ static bool agree(struct tokens *t, const struct truth *truth, bool exact,
 	tally->twice += truth->twice != 0;
 	tally->dead += truth->any_dead;
 	tally->left += truth->left;
-	good &= !truth->twice || found(t, FAULT_TWICE);
-	good &= !truth->any_dead || found(t, FAULT_DEAD) || found(t, FAULT_TWICE);
-	good &= !truth->left || found(t, FAULT_LEFT) || found(t, FAULT_TWICE);
+	good &= !truth->twice || found(t, TOKEN_TWICE);
+	good &= !truth->any_dead || found(t, TOKEN_DEAD) || found(t, TOKEN_TWICE);
+	good &= !truth->left || found(t, TOKEN_LEFT) || found(t, TOKEN_TWICE);
 	if (exact) {
 		good &= finds_hold(t, truth);
 		if (!faults)
