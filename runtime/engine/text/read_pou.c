@@ -94,16 +94,19 @@ static void read_body(struct reader *r, struct pou *pou)
 		return;
 	}
 	struct lex before = r->lex;
+	size_t above = r->above.len; /* comments on the line of END_VAR */
 
 	for (reader_skip_newlines(r); reader_is_vars(r); reader_skip_newlines(r)) {
 		read_vars(r, &pou->vars, false);
 		before = r->lex;
+		above = r->above.len;
 	}
 	if (pou->language == LANGUAGE_IL) {
 		read_il(r, pou);
 		return;
 	}
-	buffer_clear(&r->above); /* the comments are a part of the body */
+	r->above.len = above; /* read_st() reads the others, as a part of the body */
+	r->above.slash = NULL;
 	r->lex = before;
 	read_st(r, pou);
 }

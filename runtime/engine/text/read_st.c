@@ -401,6 +401,12 @@ void read_st(struct reader *r, struct pou *pou)
 		return;
 	}
 	*s = (struct st_reader){ .r = r, .st = pou->st };
+	if (r->above.len > 0) {
+		struct st_item *item = add_item(s, ST_COMMENT, &r->lex.token, 0);
+
+		if (item)
+			item->text = buffer_take(r, &r->above);
+	}
 	while (r->lex.token.kind != TOKEN_END && !r->no_memory && !read_ends_block(r)) {
 		if (r->lex.token.kind == TOKEN_NEWLINE) {
 			s->lines++;
