@@ -24,6 +24,7 @@ struct operand_check {
 	int number;               /* of the rung, 1-based */
 	const struct st_item *item; /* the statement                          */
 	const char *spot;         /* the place in its text                    */
+	struct diag place;        /* file and POU of statements               */
 	bool condition;           /* of a transition: its coil is TRANSITION   */
 	bool good;                /* false after an error in this rung */
 };

@@ -110,22 +110,20 @@ static bool is_function(struct operand_check *c, const struct expr_node *callee)
 static void check_function(struct operand_check *c)
 {
 	struct st_walk walk;
-	const struct diag place = { .file = c->pou->file,
-				    .pou = project_text(c->project, c->pou->name) };
 
 	st_begin(&walk, &c->project->names, c->item);
-	if (expr_parse(&walk.lex, c->expr, c->diags, place))
+	if (expr_parse(&walk.lex, c->expr, c->diags, c->place))
 		check_part(c, c->expr, OPERAND_READ);
 	else
 		c->good = false;
 }
 
-static void check_call_parts(struct operand_check *c, struct st_walk *walk, struct diag place)
+static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 {
 	struct callee callee;
 	struct st_part part;
 
-	if (!st_next(walk, &part, c->expr, c->diags, place)) {
+	if (!st_next(walk, &part, c->expr, c->diags, c->place)) {
 		c->good = false;
 		return;
 	}
@@ -145,23 +143,21 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk, stru
 	}
 	if (!check_callee(c, c->expr, &callee))
 		return;
-	while (st_next(walk, &part, c->expr, c->diags, place) && part.role != ST_NO_PART)
+	while (st_next(walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
 		check_argument(c, &callee, &part, c->expr);
 }
 
 static void check_statement(struct operand_check *c)
 {
-	const struct diag place = { .file = c->pou->file,
-				    .pou = project_text(c->project, c->pou->name) };
 	struct st_walk walk;
 	struct st_part part;
 
 	st_begin(&walk, &c->project->names, c->item);
 	if (c->item->kind == ST_CALL) {
-		check_call_parts(c, &walk, place);
+		check_call_parts(c, &walk);
 		return;
 	}
-	while (st_next(&walk, &part, c->expr, c->diags, place) && part.role != ST_NO_PART)
+	while (st_next(&walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
 		if (part.role == ST_VARIABLE)
 			check_counter(c, c->expr);
 		else
@@ -171,6 +167,7 @@ static void check_statement(struct operand_check *c)
 bool check_st(struct operand_check *c)
 {
 	c->good = true;
+	c->place = (struct diag){ .file = c->pou->file, .pou = project_text(c->project, c->pou->name) };
 	for (int i = 0; i < c->pou->st->count; i++) {
 		c->item = &c->pou->st->item[i];
 		if (c->item->kind != ST_COMMENT)

@@ -144,6 +144,12 @@ static uint32_t st_intern(struct st_il *s, const char *text, size_t len)
 	return id;
 }
 
+/* The next part of a statement, which the check has read before. */
+static bool next_part(struct st_il *s, struct st_walk *walk, struct st_part *part)
+{
+	return st_next(walk, part, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT });
+}
+
 /* ---- messages ---- */
 
 static void st_report(struct st_il *s, enum diag_id id, const char *at, const char *arg)
@@ -227,7 +233,7 @@ static void unless(struct st_il *s, struct st_walk *walk, uint32_t label)
 	struct st_part part;
 	const struct level level = level_of(s);
 
-	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+	if (!next_part(s, walk, &part))
 		s->ld.failed = true;
 	want_bool(s, ld_test(&s->ld));
 	jump(s, MOD_C | MOD_N, label);
@@ -377,7 +383,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk)
 	struct st_part part;
 	int64_t by;
 
-	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		if (part.role == ST_VARIABLE) {
 			open->variable = ld_target(&s->ld);
@@ -460,7 +466,7 @@ static void test_choice(struct st_il *s, struct st_walk *walk, uint32_t selector
 	const char *at = NULL;
 	uint32_t low = 0, good;
 
-	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		enum iec_type is = type;
 		const uint32_t value = ld_value(&s->ld, &is, &good);
@@ -521,7 +527,7 @@ static void begin_case(struct st_il *s, struct st_walk *walk, int at)
 	struct st_part part;
 	const int depth = st->item[at].depth;
 
-	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+	if (!next_part(s, walk, &part))
 		s->ld.failed = true;
 	selector = ld_value(&s->ld, &type, &good);
 	want_integer(s, type);
@@ -645,7 +651,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 	int last = -1;
 
 	*call = (struct st_call){ .count = 0 };
-	while (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }) &&
+	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		if (is_enable(row, &part)) {
 			if (!call->skip)
@@ -674,7 +680,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 	enum iec_type type = IEC_NONE;
 	uint32_t good;
 
-	if (!st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 })) {
+	if (!next_part(s, walk, &part)) {
 		s->ld.failed = true;
 		return;
 	}
@@ -685,7 +691,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 	}
 	/* A function: its result is not used. */
 	st_begin(walk, &s->translation->project->names, s->ld.item);
-	if (expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+	if (expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
 		ld_value(&s->ld, &type, &good);
 }
 
@@ -695,7 +701,7 @@ static void assign(struct st_il *s, struct st_walk *walk)
 {
 	struct st_part part;
 
-	if (st_next(walk, &part, s->ld.expr, s->ld.ignored, (struct diag){ 0 }))
+	if (next_part(s, walk, &part))
 		ld_store(&s->ld);
 	else
 		s->ld.failed = true;
