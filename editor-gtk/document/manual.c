@@ -15,7 +15,7 @@
 /* Beginners first; other pages follow by name. */
 static const char *const order[] = {
 	"tutorial.md", "editor.md", "quick-entry.md", "symbols.md", "sfc.md", "st.md", "boards.md",
-	"scenarios.md", "rung-file.md", "language.md", "blocks.md", "words.md",
+	"scenarios.md", "rung-file.md", "declarations.md", "language.md", "blocks.md", "words.md",
 };
 
 struct manual {

@@ -22,6 +22,7 @@ static enum status run(struct call *call, struct machine *machine,
 	if (diags) {
 		trace_init(&trace, &machine->resource.image, &call->out, form,
 			   call_flag(call, "--changes"));
+		trace.project = ladder_project(machine->ladder);
 		trace.stop = &call->out_failed;
 		status = script_run(call->arg[1], text, len, period_ns,
 				    &machine->resource, machine_plant(machine), &trace,

@@ -468,3 +468,13 @@ int literal_print(enum iec_type type, union iec_value value, char *out,
 		return print_dated(type, value, out, size);
 	return iec_value_print(type, value, out, size);
 }
+
+bool literal_is_named(const char *text, size_t len)
+{
+	const char *sign = len ? memchr(text, '#', len) : NULL;
+
+	if (!sign || sign == text || ascii_digit(*text) || *text == '\'' || sign + 1 == text + len ||
+	    ascii_digit(sign[1]) || strchr("-+'", sign[1]))
+		return false;
+	return type_before(text, (size_t)(sign - text)) == IEC_NONE;
+}

@@ -36,6 +36,10 @@ struct literal {
 enum literal_result literal_parse(const char *text, size_t len,
 				  struct literal *out);
 
+/** literal_is_named - whether it spells Color#Red: a value of an enumeration, behind the name of
+ * its type. Scan-safe: yes. */
+bool literal_is_named(const char *text, size_t len);
+
 /**
  * literal_fit - the literal as a value of @type
  *

@@ -6,6 +6,7 @@
 #include "engine/base/name.h"
 #include "engine/check/constant.h"
 
+#include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/shape.h"
 
@@ -74,10 +75,15 @@ static void report_unknown(struct il_check *c, const struct il_line *line,
 
 	if (line->kind == IL_OP && line->op == OP_CAL)
 		kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
-	if (why == DIAG_UNKNOWN_NAME)
+	if (why == DIAG_UNKNOWN_NAME) {
 		il_report_near(c, line, why, kinds);
-	else
-		il_report(&c->fn, line, why, il_operand_text(c, line));
+	} else {
+		char told[2 * LIMIT_ARG];
+
+		named_tell(scope_project(c->fn.scope), why, il_operand_text(c, line), told,
+			   sizeof(told));
+		il_report(&c->fn, line, why, told);
+	}
 }
 
 static const struct meaning *find(struct il_check *c, const struct il_line *line)
@@ -183,6 +189,23 @@ static bool can_store(struct il_check *c, const struct il_line *line,
 	if (iec_can_widen(from.type, to))
 		return true;
 	return il_report_types(&c->fn, line, from.type, to);
+}
+
+/* May @like have the value, if that is a constant? Else it is compared in the scan. */
+static bool may_hold(struct il_check *c, const struct il_line *line, struct il_result from,
+		     const struct var *like)
+{
+	const struct project *project = scope_project(c->fn.scope);
+	char text[2 * LIMIT_ARG], has[LIMIT_ARG];
+	int64_t number = from.literal ? from.literal->value.i : from.value.i;
+
+	if (!like || (!like->enumeration && !like->range) || (!from.literal && !from.known) ||
+	    named_may_hold(project, like, number))
+		return true;
+	named_print(project, like, has, sizeof(has));
+	snprintf(text, sizeof(text), "%.40s" DIAG_AND "%lld" DIAG_AND "%.60s",
+		 project_text(project, like->name), (long long)number, has);
+	return il_report(&c->fn, line, DIAG_OUTSIDE, text);
 }
 
 /* @var, or every temporary if it is NULL, holds no constant from here on. */
@@ -323,7 +346,7 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 		return false;
 	if (il_is_made(&c->fn, il_operand_text(c, line)) && !line->modifiers && line->op == OP_ST)
 		remember(c, m, c->now);
-	return can_store(c, line, c->now, m->type);
+	return can_store(c, line, c->now, m->type) && may_hold(c, line, c->now, m->like);
 }
 
 /* ---- functions and calls ---- */
@@ -501,7 +524,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 			good &= il_need_bool(c, arg, il_result_of(c, arg, m),
 					  il_operand_text(c, arg));
 		else if (strcasecmp(pin, "OUT") == 0) {
-			good &= can_store(c, arg, out, m->type);
+			good &= can_store(c, arg, out, m->type) && may_hold(c, arg, out, m->like);
 			if (il_is_made(&c->fn, il_operand_text(c, arg)))
 				remember(c, m, out);
 		} else
@@ -626,6 +649,24 @@ static bool check_in_out(struct il_check *c, const struct il_line *arg,
 			       iec_type_row(pin->type)->word);
 }
 
+/* The variable of a block or function of the project that @pin was made from; NULL: none. */
+static const struct var *pin_variable(const struct il_check *c, const struct word_pin *pin)
+{
+	const struct project *project = scope_project(c->fn.scope);
+	const bool any = project->enumeration_count || project->ranges;
+
+	for (int i = 0; any && i < project->words.count; i++) {
+		const struct word_row *row = project->words.row[i];
+		const struct var_table *table;
+
+		if (pin < row->pin || pin >= row->pin + row->pin_count)
+			continue;
+		table = shape_vars(project, (enum word)(WORD_FIRST_OWN + i));
+		return table && pin - row->pin < table->count ? &table->var[pin - row->pin] : NULL;
+	}
+	return NULL;
+}
+
 /* @m: the operand at the pin. */
 static bool check_value(struct il_check *c, const struct il_line *arg,
 			const struct meaning *m, const struct word_pin *pin)
@@ -643,7 +684,8 @@ static bool check_value(struct il_check *c, const struct il_line *arg,
 	if (!is_plain(c, arg, m))
 		return false;
 	if (!output)
-		return can_store(c, arg, value_of(m), pin->type);
+		return can_store(c, arg, il_result_of(c, arg, m), pin->type) &&
+		       may_hold(c, arg, il_result_of(c, arg, m), pin_variable(c, pin));
 	return can_write(c, arg, m) &&
 	       can_store(c, arg, (struct il_result){ .there = true, .type = pin->type },
 			    m->type);

@@ -15,8 +15,10 @@
 #include "engine/check/check_st.h"
 #include "engine/check/reserved.h"
 #include "engine/check/settle.h"
+#include "engine/model/named.h"
 #include "engine/model/init.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* What a folded name is, apart from a variable. A number of a POU is 1-based. */
@@ -235,9 +237,38 @@ static void note_declaration(struct names_check *c, const struct pou *pou, const
 		return;
 	note_text(c, pou, var->written->bound[0]);
 	note_text(c, pou, var->written->bound[1]);
+	for (int i = 0; var->written->dim && i < var->own_dims; i++) {
+		note_text(c, pou, var->written->dim[i][0]);
+		note_text(c, pou, var->written->dim[i][1]);
+	}
 	note_text(c, pou, var->written->capacity);
+	note_text(c, pou, var->written->range[0]);
+	note_text(c, pou, var->written->range[1]);
 	if (var->written->initial)
 		note_text(c, pou, var->init_text);
+}
+
+static void report_outside(struct names_check *c, const struct var *var, int64_t number,
+			   struct diag place)
+{
+	char has[LIMIT_ARG];
+
+	place.id = DIAG_OUTSIDE;
+	named_print(c->project, var, has, sizeof(has));
+	c->good &= diag_add(c->diags, place, "%.40s" DIAG_AND "%lld" DIAG_AND "%.60s",
+			    text_of(c, var->name), (long long)number, has);
+}
+
+/* The initial values of an enumeration or subrange. */
+static void check_range(struct names_check *c, const struct var *var, struct diag place)
+{
+	if (!var->has_init || var->inherits || (!var->enumeration && !var->range))
+		return;
+	if (!var->array.count && !named_may_hold(c->project, var, var->init.i))
+		report_outside(c, var, var->init.i, place);
+	for (int i = 0; var->array.count && i < var->init_count; i++)
+		if (!named_may_hold(c->project, var, var->init_list[i].value.i))
+			report_outside(c, var, var->init_list[i].value.i, place);
 }
 
 static void check_var(struct names_check *c, const struct pou *pou,
@@ -269,9 +300,43 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
+	check_range(c, var, place_of(c, DIAG_COUNT, pou, var->line));
 	if (init_has_parts(var))
 		c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,
 				      place_of(c, DIAG_COUNT, pou, var->line));
+}
+
+static void print_type(const struct project *project, const struct var *var, char *out, size_t size)
+{
+	struct sink_memory memory;
+	struct sink sink;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	project_write_type(project, var, &sink);
+	snprintf(out, size, "%s", sink_memory_text(&memory));
+	sink_memory_free(&memory);
+}
+
+/* VAR_EXTERNAL: a global of this name and type. */
+static void check_external(struct names_check *c, const struct pou *pou)
+{
+	for (int i = 0; i < pou->external.count; i++) {
+		const struct var *var = &pou->external.var[i];
+		const int global = vars_find(&c->project->globals, var->fold);
+		char wanted[LIMIT_ARG], is[LIMIT_ARG];
+
+		if (global < 0) {
+			report_line(c, DIAG_NO_GLOBAL, pou, var->line, text_of(c, var->name));
+			continue;
+		}
+		print_type(c->project, var, wanted, sizeof(wanted));
+		print_type(c->project, &c->project->globals.var[global], is, sizeof(is));
+		if (strcmp(wanted, is) != 0)
+			c->good &= diag_add(c->diags, place_of(c, DIAG_OTHER_GLOBAL, pou, var->line),
+					    "%s" DIAG_AND "%s" DIAG_AND "%s", text_of(c, var->name),
+					    is, wanted);
+	}
 }
 
 static void check_table(struct names_check *c, const struct pou *pou,
@@ -309,6 +374,7 @@ static void check_members(struct names_check *c, int number)
 		if (mark)
 			mark->member_of = number;
 		note_declaration(c, NULL, var);
+		check_range(c, var, (struct diag){ .line = var->line, .file = structure->file });
 		if (init_has_parts(var))
 			c->good &= check_init(c->project, var, &c->walk, c->scratch,
 				c->diags, (struct diag){ .line = var->line,
@@ -335,6 +401,35 @@ static void check_structures(struct names_check *c)
 		else if (mark)
 			mark->pou = project->pou_count + i + 1;
 		check_members(c, i + 1);
+	}
+}
+
+static void report_named(struct names_check *c, enum diag_id id, const struct named_type *type)
+{
+	c->good &= diag_add(c->diags, (struct diag){ .id = id, .line = type->line,
+			    .file = type->file }, "%s", text_of(c, type->name));
+}
+
+static void check_named(struct names_check *c)
+{
+	const struct project *project = c->project;
+
+	for (int i = 0; i < project->named_count; i++) {
+		const struct named_type *type = &project->named[i];
+		const char *name = text_of(c, type->name);
+		struct mark *mark = mark_of(c, type->fold);
+
+		if (!type->like.var)
+			continue;
+		if (is_reserved(c, name, type->fold) || words_is_taken(name))
+			report_named(c, DIAG_RESERVED_NAME, type);
+		if (mark && mark->pou)
+			report_named(c, DIAG_DUPLICATE_NAME, type);
+		else if (mark)
+			mark->pou = project->pou_count + project->structure_count + i + 1;
+		note_declaration(c, NULL, type->like.var);
+		check_range(c, type->like.var, (struct diag){ .line = type->line,
+			    .file = type->file });
 	}
 }
 
@@ -644,6 +739,7 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		const struct pou *pou = &c->project->pou[i];
 
 		check_table(c, pou, &pou->vars);
+		check_external(c, pou);
 		note_il(c, pou);
 		if (pou->sfc)
 			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
@@ -671,6 +767,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	}
 	check_pous(&c);
 	check_structures(&c);
+	check_named(&c);
 	check_table(&c, NULL, &c.project->globals);
 	check_bodies(&c, bad);
 	c.good &= check_config(scope, &c.uses, diags);

@@ -8,6 +8,7 @@
 #include "engine/base/name.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
 #include "engine/model/expr_args.h"
@@ -57,7 +58,10 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 	char text[LIMIT_ARG];
 
 	if (why != DIAG_UNKNOWN_NAME) {
-		operand_report(c, why, at, name);
+		char told[2 * LIMIT_ARG];
+
+		named_tell(c->project, why, name, told, sizeof(told));
+		operand_report(c, why, at, told);
 		return;
 	}
 	const enum diag_id better = advice_word(c->project, c->pou, kinds, c->diags, name, text,

@@ -8,6 +8,7 @@
 #include "engine/check/scope.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/named.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -41,7 +42,8 @@ struct scope {
 	uint32_t answers;       /* texts there is room for                   */
 };
 
-#define POUS UINT32_MAX /* the table of the names of POUs */
+#define POUS UINT32_MAX         /* the table of the names of POUs */
+#define VALUES (UINT32_MAX - 1) /* that of values of enumerations */
 
 static uint32_t mix(uint32_t table, uint32_t id)
 {
@@ -116,11 +118,18 @@ static void declare_pous(struct scope *scope)
 		});
 }
 
+static void declare_values(struct scope *scope)
+{
+	for (int i = 0; i < scope->project->enum_value_count; i++)
+		declare(scope, (struct declared){ .table = VALUES, .index = i,
+						  .fold = scope->project->enum_value[i].fold });
+}
+
 struct scope *scope_new(struct project *project, struct arena *arena)
 {
 	struct scope *scope = arena_alloc(arena, sizeof(*scope));
 	size_t names = (size_t)project->globals.count +
-		       (size_t)project->pou_count;
+		       (size_t)project->pou_count + (size_t)project->enum_value_count;
 	uint32_t size = 16;
 
 	if (!scope)
@@ -141,6 +150,7 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	for (int i = 0; i < project->pou_count; i++)
 		declare_table(scope, (uint32_t)i + 1, &project->pou[i].vars);
 	declare_pous(scope);
+	declare_values(scope);
 	return scope;
 }
 
@@ -208,6 +218,8 @@ static void mean_shape(const struct scope *scope, const struct var *var,
 	if (var->array.count) {
 		out->kind = MEANING_ARRAY;
 		out->array = var->array;
+		out->dim = var->dim;
+		out->dims = var->dims;
 		out->word = var->fb;
 		out->capacity = var->capacity;
 		out->stride = shape_of_var(&scope->project->words, var).unit;
@@ -232,7 +244,7 @@ static void mean_variable(const struct scope *scope,
 		&table_of(scope, slot->table)->var[slot->index];
 
 	out->pou = slot->table ? &scope->project->pou[slot->table - 1] : NULL;
-	out->var = var;
+	out->var = out->like = var;
 	out->index = slot->index;
 	out->addr = var->at;
 	out->type = var->type;
@@ -297,6 +309,62 @@ static bool mean_system(const char *text, size_t len, struct meaning *out)
 	return false;
 }
 
+/* ---- values of enumerations ---- */
+
+static void mean_value(const struct scope *scope, const struct enum_value *value,
+		       enum iec_type type, struct meaning *out)
+{
+	const char *text = names_text(&scope->project->names, value->name);
+
+	out->kind = MEANING_LITERAL;
+	out->type = type;
+	out->literal = (struct literal){ .type = type, .value = { .i = value->number },
+					 .text = text, .len = strlen(text) };
+}
+
+/* `Red`, if one enumeration alone has it. */
+static bool mean_plain_value(const struct scope *scope, uint32_t fold, struct meaning *out,
+			     enum diag_id *why)
+{
+	const struct declared *declared = find_in(scope, VALUES, fold);
+	const struct project *project = scope->project;
+	const struct enum_value *value;
+
+	if (!declared)
+		return false;
+	value = &project->enum_value[declared->index];
+	for (int i = declared->index + 1; i < project->enum_value_count; i++)
+		if (project->enum_value[i].fold == fold &&
+		    project->enum_value[i].number != value->number) {
+			*why = DIAG_AMBIGUOUS_VALUE;
+			return false;
+		}
+	mean_value(scope, value, project->enumeration[value->enumeration].type, out);
+	return true;
+}
+
+/* `Color#Red`, and `Color.Red` as others write it; @at: of the sign. */
+static bool mean_typed_value(const struct scope *scope, const char *text, size_t len, size_t at,
+			     struct meaning *out, enum diag_id *why)
+{
+	struct names *names = &scope->project->names;
+	const int type = named_find(scope->project,
+				    names_fold(names, names_intern(names, text, at)));
+	const struct enum_value *value;
+	int list;
+
+	if (type < 0 || !scope->project->named[type].like.var ||
+	    !scope->project->named[type].like.var->enumeration)
+		return false;
+	list = scope->project->named[type].like.var->enumeration - 1;
+	value = named_value(scope->project, list, names_fold(names,
+			    names_intern(names, text + at + 1, len - at - 1)));
+	*why = DIAG_NO_SUCH_VALUE;
+	if (value)
+		mean_value(scope, value, scope->project->enumeration[list].type, out);
+	return value != NULL;
+}
+
 static bool mean_literal(const char *text, size_t len, struct meaning *out,
 			 enum diag_id *why)
 {
@@ -326,6 +394,7 @@ static bool scope_mean_address(const struct scope *scope, const char *text, size
 	if (fault == DIAG_COUNT && !areas_have(&scope->areas, out->addr))
 		fault = DIAG_BAD_ADDRESS;
 	if (fault == DIAG_COUNT) {
+		out->literal = (struct literal){ 0 }; /* of an attempt to read one */
 		out->kind = MEANING_ADDRESS;
 		out->type = iec_addr_type(out->addr);
 		out->writable = may_write(out->addr);
@@ -397,6 +466,8 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 	m->array = pin_array(pin);
 	if (pin->elements) {
 		m->kind = MEANING_ARRAY;
+		m->dim = m->like ? m->like->dim : NULL;
+		m->dims = m->like ? m->like->dims : 0;
 		m->word = pin->type == IEC_NONE ? pin->word : 0;
 		m->capacity = pin->type == IEC_NONE ? 0 : pin->capacity;
 		m->stride = shape_of(&scope_project(scope)->words, pin).unit;
@@ -405,6 +476,14 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 	} else {
 		m->kind = MEANING_PIN;
 	}
+}
+
+/* The variable that pin @index of @word was made from; NULL: it is of the catalogue. */
+static const struct var *declares(const struct scope *scope, uint16_t word, int index)
+{
+	const struct var_table *table = shape_vars(scope->project, (enum word)word);
+
+	return table && index < table->count ? &table->var[index] : NULL;
 }
 
 /* `.Speed`. Inner variables of a block cannot be named from outside. */
@@ -429,6 +508,7 @@ static bool step_into(struct path *path)
 		path->pin = index;
 	if (row->kind == WORD_FB)
 		m->writable = row->pin[index].dir == PIN_IN;
+	m->like = declares(path->scope, m->word, index);
 	mean_pin(path->scope, &row->pin[index], m);
 	return true;
 }
@@ -500,15 +580,34 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 
 /* ---- indices ---- */
 
-/* The element at a fixed index, or the first of the possible elements. */
+/* The bounds of the next index. */
+static struct var_array outer(const struct meaning *m)
+{
+	return m->dims > 1 ? m->dim[0] : m->array;
+}
+
+/* Elements from one of its values to the next. */
+static uint32_t each(const struct meaning *m)
+{
+	return m->dims > 1 ? vars_flat(m->dim + 1, m->dims - 1).count : 1;
+}
+
+/* The element at a fixed index, or the first of the possible elements; of several dimensions
+ * a smaller array. */
 static void mean_element(struct path *path, uint32_t number)
 {
 	struct meaning *m = &path->m;
 
+	number *= each(m);
 	if (m->addr.area != AREA_NONE)
 		m->addr = vars_shift(m->addr, number);
 	if (m->var)
 		m->offset += number * m->stride;
+	if (m->dims > 1) {
+		m->array = vars_flat(++m->dim, --m->dims);
+		return;
+	}
+	m->dims = 0;
 	m->array.count = 0;
 	m->kind = m->var ? MEANING_ELEMENT : MEANING_ADDRESS;
 	if (m->var && m->type == IEC_NONE)
@@ -518,7 +617,7 @@ static void mean_element(struct path *path, uint32_t number)
 /* A fixed index of a type with values above INT64_MAX. */
 static bool step_fixed(struct path *path, enum iec_type type, int64_t index)
 {
-	int64_t number = var_element(path->m.array, index);
+	int64_t number = var_element(outer(&path->m), index);
 	bool is_signed = type == IEC_NONE ||
 			 iec_type_row(type)->class == CLASS_SIGNED;
 
@@ -535,7 +634,7 @@ static bool step_open(struct path *path, const struct meaning *index)
 	if (!path->opens)
 		path->index_of = index;
 	path->open[path->opens++] = (struct open_index){
-		path->m.array, path->m.stride, index,
+		outer(&path->m), path->m.stride * each(&path->m), index,
 	};
 	mean_element(path, 0);
 	return true;
@@ -579,20 +678,26 @@ static bool step_index(struct path *path, const char *text, size_t len)
 	return step_open(path, m);
 }
 
-/* `[3]`, `[ i ]`. */
+/* `[3]`, `[ i ]`, `[3, i]`. */
 static bool step_element(struct path *path)
 {
 	const char *text;
 	size_t len;
+	char stop;
 
+	do {
+		path->at++;
+		len = take(path, "[],", &text);
+		if (!len || path->at == path->end || *path->at == '[')
+			return refuse(path, DIAG_UNKNOWN_NAME);
+		stop = *path->at;
+		if (path->m.kind != MEANING_ARRAY)
+			return refuse(path, DIAG_NOT_ARRAY);
+		if (!step_index(path, text, len))
+			return false;
+	} while (stop == ',');
 	path->at++;
-	len = take(path, "[]", &text);
-	if (!len || path->at == path->end || *path->at != ']')
-		return refuse(path, DIAG_UNKNOWN_NAME);
-	path->at++;
-	if (path->m.kind != MEANING_ARRAY)
-		return refuse(path, DIAG_NOT_ARRAY);
-	return step_index(path, text, len);
+	return true;
 }
 
 const struct areas *scope_areas(const struct scope *scope)
@@ -722,6 +827,15 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	if (is_step(scope, table, text, len, why))
 		return false;
 	*why = DIAG_UNKNOWN_NAME;
+	if (scope->project->enum_value_count) {
+		const char *sign = memchr(text, literal_is_named(text, len) ? '#' : '.', len);
+
+		if (mean_plain_value(scope, names_fold(names, id), out, why) ||
+		    (sign && mean_typed_value(scope, text, len, (size_t)(sign - text), out, why)))
+			return true;
+		if (*why != DIAG_UNKNOWN_NAME)
+			return false;
+	}
 	return mean_system(text, len, out) ||
 	       (memchr(text, '.', len) &&
 		scope_mean_path(scope, table, text, len, out, why)) ||
@@ -805,7 +919,7 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
 {
 	struct project *project = scope_project(scope);
 	const char *all = scope_text(scope, text);
-	const char *open = strchr(all + *at, '[');
+	const char *open = strpbrk(all + *at, "[,");
 	struct path path = { .scope = scope };
 	const char *index;
 	enum diag_id why;
@@ -815,7 +929,7 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
 		return NULL;
 	path.at = open + 1;
 	path.end = open + strlen(open);
-	len = take(&path, "]", &index);
+	len = take(&path, "],", &index);
 	*at = (size_t)(path.at - all);
 	return scope_find(scope, pou, names_intern(&project->names, index, len),
 			  &why);
@@ -833,7 +947,7 @@ uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 	if (!m || (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS))
 		return 0;
 	size = snprintf(text, sizeof(text), "%s[%ld]%.*s", names_text(names, array),
-			(long)m->array.low, (int)len, tail);
+			(long)outer(m).low, (int)len, tail);
 	return size < 0 || (size_t)size >= sizeof(text) ? 0 :
 	       names_intern(names, text, (size_t)size);
 }

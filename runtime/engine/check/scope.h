@@ -57,7 +57,16 @@ struct meaning {
 	const struct open_index *open; /* so many, from the left             */
 	const struct meaning *index_of; /* operand of the first computed index; of a fixed
 	                                   one the named constant, or NULL */
-	struct literal literal;
+	union {
+		struct literal literal; /* of LITERAL                             */
+		struct {             /* of all others:                            */
+			const struct var *like;      /* declares it: the variable or the member;
+			                                NULL: the catalogue, an address */
+			const struct var_array *dim; /* of ARRAY: its dimensions, if there
+			                                are several                     */
+			uint8_t dims;
+		};
+	};
 };
 
 struct scope;
@@ -96,6 +105,17 @@ uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
 	return meaning->opens > 0;
+}
+/** meaning_is_ranged - a value of a subrange? Scan-safe: yes. */
+static inline bool meaning_is_ranged(const struct meaning *meaning)
+{
+	return meaning->kind != MEANING_LITERAL && meaning->like && meaning->like->range &&
+	       meaning->type != IEC_NONE && meaning->kind != MEANING_ARRAY;
+}
+/** meaning_is_checked - does the scan find out whether it may be stored to? Scan-safe: yes. */
+static inline bool meaning_is_checked(const struct meaning *meaning)
+{
+	return meaning_is_indexed(meaning) || meaning_is_ranged(meaning);
 }
 /** meaning_is_whole - a structure, instance or array as a whole? Scan-safe: yes. */
 static inline bool meaning_is_whole(const struct meaning *meaning)

@@ -10,6 +10,7 @@
 #include "engine/check/constant.h"
 #include "engine/model/advice.h"
 #include "engine/model/expr_args.h"
+#include "engine/model/named.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -26,6 +27,7 @@ struct settle {
 	const struct pou *pou;           /* NULL: none                        */
 	struct il_line line;             /* place of diagnostics              */
 	struct var_written *top;         /* being computed; below it what needs it */
+	int values;                      /* enumeration of the value + 1; 0: none */
 	bool shapes;                     /* a size has changed                */
 	bool reported;                   /* the walk's error has its diagnostic */
 	struct init_walk walk;
@@ -58,9 +60,19 @@ static struct var_table *table_of(struct project *project, int table)
 {
 	if (table == 0)
 		return &project->globals;
-	if (table <= project->pou_count)
-		return &project->pou[table - 1].vars;
-	return &project->structure[table - project->pou_count - 1].vars;
+	table -= 1;
+	if (table < project->pou_count)
+		return &project->pou[table].vars;
+	table -= project->pou_count;
+	if (table < project->structure_count)
+		return &project->structure[table].vars;
+	return &project->named[table - project->structure_count].like;
+}
+
+/* The last table of a project. */
+static int last_table(const struct project *project)
+{
+	return project->pou_count + project->structure_count + project->named_count;
 }
 
 /* Expressions that follow stand in this table of the project. */
@@ -120,23 +132,62 @@ static struct il_result unknown(void)
 	return (struct il_result){ .there = true };
 }
 
+/* A constant as it is written, or a value of an enumeration. */
+static struct il_result take_parsed(const struct literal *literal)
+{
+	struct il_result out = unknown();
+
+	out.type = literal->type;
+	if (literal->type == IEC_NONE)
+		out.literal = literal;
+	out.known = literal->type != IEC_NONE && literal->type != IEC_STRING;
+	out.value = literal->value;
+	return out;
+}
+
+/* A value of the enumeration that is wanted, which another one may have, too; NULL: none. */
+static const struct enum_value *wanted_value(const struct settle *s, const struct expr_node *node)
+{
+	struct names *names = &s->project->names;
+
+	return s->values ? named_value(s->project, s->values - 1, names_fold(names,
+			   names_intern(names, node->text, node->len))) : NULL;
+}
+
+static struct il_result take_wanted(struct settle *s, const struct enum_value *value,
+				    struct literal *literal)
+{
+	*literal = (struct literal){ .type = s->project->enumeration[s->values - 1].type,
+				     .value.i = value->number };
+	return take_parsed(literal);
+}
+
 static struct il_result take_name(struct settle *s, int i)
 {
 	const struct expr_node *node = &s->expr.node[i];
 	struct literal *literal = &s->literal[i];
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = mean(s, node, &why);
+	const struct enum_value *value = wanted_value(s, node);
 	struct il_result out = unknown();
-	char text[LIMIT_ARG], name[LIMIT_ARG];
+	char text[2 * LIMIT_ARG], name[LIMIT_ARG];
 
+	if (value)
+		return take_wanted(s, value, literal);
 	if (!m) {
 		snprintf(name, sizeof(name), "%.*s", node->len, node->text);
 		/* What another tool calls so is no constant. */
 		if (advice_word(s->project, s->pou, EXPECT_VARIABLE, s->fn.diags, name, text,
 				sizeof(text)) != DIAG_COUNT)
 			snprintf(text, sizeof(text), "%s", name);
-		il_report(&s->fn, &s->line, why, why == DIAG_UNKNOWN_NAME ? text : name);
+		if (why != DIAG_UNKNOWN_NAME)
+			named_tell(s->project, why, name, text, sizeof(text));
+		il_report(&s->fn, &s->line, why, text);
 		return out;
+	}
+	if (m->kind == MEANING_LITERAL) {
+		*literal = m->literal;
+		return take_parsed(literal);
 	}
 	if (!is_constant(m)) {
 		refuse(s, DIAG_NOT_CONSTANT, node->text, node->len);
@@ -168,12 +219,7 @@ static struct il_result take_literal(struct settle *s, int i, const char *text, 
 		refuse(s, result == LITERAL_RANGE ? DIAG_LITERAL_RANGE : DIAG_BAD_LITERAL, text, len);
 		return out;
 	}
-	out.type = literal->type;
-	if (literal->type == IEC_NONE)
-		out.literal = literal;
-	out.known = literal->type != IEC_NONE && literal->type != IEC_STRING;
-	out.value = literal->value;
-	return out;
+	return take_parsed(literal);
 }
 
 /* ---- functions ---- */
@@ -309,7 +355,8 @@ static struct il_result take_node(struct settle *s, int i)
 	case EXPR_NAME:
 		return take_name(s, i);
 	case EXPR_LITERAL:
-		return take_literal(s, i, node->text, node->len);
+		return literal_is_named(node->text, node->len) ? take_name(s, i) :
+		       take_literal(s, i, node->text, node->len);
 	case EXPR_INDEX:
 		refuse(s, DIAG_NOT_CONSTANT, node->text, node->len);
 		return unknown();
@@ -352,9 +399,15 @@ static enum iec_type infer(struct settle *s, int i)
 
 	switch (node->op) {
 	case EXPR_NAME:
+		if (wanted_value(s, node))
+			return s->project->enumeration[s->values - 1].type;
 		m = mean(s, node, &why);
 		return m ? m->type : IEC_NONE;
 	case EXPR_LITERAL:
+		if (literal_is_named(node->text, node->len)) {
+			m = mean(s, node, &why);
+			return m ? m->type : IEC_NONE;
+		}
 		return literal_parse(node->text, node->len, &literal) == LITERAL_OK ?
 		       literal.type : IEC_NONE;
 	case EXPR_ARG:
@@ -623,24 +676,12 @@ static enum outcome take_integer(struct settle *s, const struct var_written *w,
 	return take_any_integer(s, compute(s, IEC_DINT), out) ? GOOD : FAILED;
 }
 
-static enum outcome settle_bounds(struct settle *s, struct var_written *w, struct var *var)
+static enum outcome refuse_bounds(struct settle *s, const struct var_written *w, int64_t low,
+				  int64_t high)
 {
-	int64_t bound[2] = { 0, 0 };
-	enum outcome outcome;
 	char text[LIMIT_ARG];
 
-	for (int i = 0; i < 2; i++) {
-		outcome = take_integer(s, w, i ? WRITTEN_HIGH : WRITTEN_LOW, w->bound[i], &bound[i]);
-		if (outcome != GOOD)
-			return outcome;
-	}
-	if (bound[0] >= INT32_MIN && bound[1] <= INT32_MAX && bound[0] <= bound[1] &&
-	    bound[1] - bound[0] < LIMIT_ELEMENTS) {
-		var->array = (struct var_array){ (int32_t)bound[0],
-						 (uint32_t)(bound[1] - bound[0] + 1) };
-		return GOOD;
-	}
-	snprintf(text, sizeof(text), "%lld..%lld", (long long)bound[0], (long long)bound[1]);
+	snprintf(text, sizeof(text), "%lld..%lld", (long long)low, (long long)high);
 	s->line.line = (uint32_t)w->at[WRITTEN_LOW].line;
 	s->line.col = (uint16_t)w->at[WRITTEN_LOW].column;
 	if (!s->line.line) {
@@ -649,6 +690,40 @@ static enum outcome settle_bounds(struct settle *s, struct var_written *w, struc
 	}
 	il_report(&s->fn, &s->line, DIAG_BAD_BOUNDS, text);
 	return FAILED;
+}
+
+/* @text: of one dimension, which goes to @out. */
+static enum outcome settle_dimension(struct settle *s, struct var_written *w,
+				     const uint32_t text[2], struct var_array *out)
+{
+	int64_t bound[2] = { 0, 0 };
+	enum outcome outcome;
+
+	for (int i = 0; i < 2; i++) {
+		outcome = take_integer(s, w, i ? WRITTEN_HIGH : WRITTEN_LOW, text[i], &bound[i]);
+		if (outcome != GOOD)
+			return outcome;
+	}
+	if (bound[0] < INT32_MIN || bound[1] > INT32_MAX || bound[0] > bound[1] ||
+	    bound[1] - bound[0] >= LIMIT_ELEMENTS)
+		return refuse_bounds(s, w, bound[0], bound[1]);
+	*out = (struct var_array){ (int32_t)bound[0], (uint32_t)(bound[1] - bound[0] + 1) };
+	return GOOD;
+}
+
+static enum outcome settle_bounds(struct settle *s, struct var_written *w, struct var *var)
+{
+	const int own = w->dim ? var->own_dims : 1;
+	enum outcome outcome;
+
+	for (int i = 0; i < own; i++) {
+		outcome = settle_dimension(s, w, w->dim ? w->dim[i] : w->bound, &var->dim[i]);
+		if (outcome != GOOD)
+			return outcome;
+	}
+	var->array = vars_flat(var->dim, var->dims);
+	return var->array.count <= LIMIT_ELEMENTS ? GOOD :
+	       refuse_bounds(s, w, 0, (int64_t)var->array.count - 1);
 }
 
 static enum outcome settle_capacity(struct settle *s, struct var_written *w, struct var *var)
@@ -665,6 +740,26 @@ static enum outcome settle_capacity(struct settle *s, struct var_written *w, str
 	}
 	snprintf(text, sizeof(text), "%lld", (long long)capacity);
 	il_report(&s->fn, &s->line, DIAG_LITERAL_RANGE, text);
+	return FAILED;
+}
+
+static enum outcome settle_range(struct settle *s, struct var_written *w, struct var *var)
+{
+	int64_t limit[2] = { 0, 0 };
+	enum outcome outcome;
+	char text[LIMIT_ARG];
+
+	for (int i = 0; i < 2; i++) {
+		outcome = take_integer(s, w, i ? WRITTEN_MOST : WRITTEN_LEAST, w->range[i], &limit[i]);
+		if (outcome != GOOD)
+			return outcome;
+	}
+	*var->range = (struct var_range){ limit[0], limit[1] };
+	if (var_range_fits(var->range) && limit[0] >= iec_type_row(var->type)->low &&
+	    limit[1] <= iec_type_row(var->type)->high)
+		return named_default(s->project, var) ? GOOD : FAILED;
+	snprintf(text, sizeof(text), "%lld..%lld", (long long)limit[0], (long long)limit[1]);
+	il_report(&s->fn, &s->line, DIAG_BAD_RANGE, text);
 	return FAILED;
 }
 
@@ -687,14 +782,24 @@ static enum outcome settle_one(struct settle *s, struct var_written *w)
 	struct var *var = var_of(s, w);
 	enum outcome outcome = GOOD;
 
+	if (w->type && w->type->state <= STATE_WORKING)
+		return need(s, w->type) ? WAITS : FAILED;
+	if (w->type && w->type->state == STATE_FAILED)
+		return FAILED;
+	if (var->named && !named_take(s->project, var))
+		return FAILED;
+	s->shapes |= w->type != NULL;
 	enter(s, w->table, w->file);
-	if (w->bound[0])
+	s->values = var->enumeration;
+	if (w->bound[0] || w->dim)
 		outcome = settle_bounds(s, w, var);
 	if (outcome == GOOD && w->capacity)
 		outcome = settle_capacity(s, w, var);
+	if (outcome == GOOD && w->range[0])
+		outcome = settle_range(s, w, var);
 	if (outcome == GOOD && w->initial && var->type != IEC_NONE && !var->array.count)
 		outcome = settle_plain(s, w, var);
-	s->shapes |= outcome == GOOD && (w->bound[0] || w->capacity);
+	s->shapes |= outcome == GOOD && (w->bound[0] || w->dim || w->capacity);
 	return outcome;
 }
 
@@ -817,6 +922,7 @@ static bool settle_parts(struct settle *s, struct var_written *w, struct var *va
 	struct diag place;
 
 	enter(s, w->table, w->file);
+	s->values = var->enumeration;
 	s->line.line = (uint32_t)w->at[WRITTEN_INITIAL].line;
 	s->line.col = (uint16_t)w->at[WRITTEN_INITIAL].column;
 	s->reported = false;
@@ -847,7 +953,7 @@ static bool has_list(const struct var *var)
 /* Calls @act for each variable with expressions, in the order of the tables. */
 static bool each(struct settle *s, bool (*act)(struct settle *s, struct var *var, int table, int index))
 {
-	const int tables = s->project->pou_count + s->project->structure_count;
+	const int tables = last_table(s->project);
 
 	for (int i = 0; i <= tables; i++) {
 		struct var_table *table = table_of(s->project, i);
@@ -885,12 +991,20 @@ static bool list_one(struct settle *s, struct var *var, int table, int index)
 		copy_from(&var[-1], var);
 		return true;
 	}
-	return settle_parts(s, var->written, var);
+	return settle_parts(s, var->written, var) && named_default(s->project, var);
+}
+
+/* Initial values of arrays and structures that come from a named type. */
+static bool inherit_one(struct settle *s, struct var *var, int table, int index)
+{
+	(void)table;
+	(void)index;
+	return !var->named || !var->inherits || named_take(s->project, var);
 }
 
 static bool has_any(struct project *project)
 {
-	const int tables = project->pou_count + project->structure_count;
+	const int tables = last_table(project);
 
 	for (int i = 0; i <= tables; i++) {
 		const struct var_table *table = table_of(project, i);
@@ -921,7 +1035,7 @@ bool settle_project(struct project *project, struct arena *scratch, struct diag_
 	each(s, number_one);
 	if (diags->errors == errors && s->shapes && !shape_make(project, diags))
 		return false;
-	if (diags->errors == errors && !each(s, list_one))
+	if (diags->errors == errors && (!each(s, list_one) || !each(s, inherit_one)))
 		return no_memory(project, diags);
 	if (scratch->failed || project->arena.failed)
 		return no_memory(project, diags);

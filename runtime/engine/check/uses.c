@@ -145,7 +145,7 @@ void uses_add_index(struct uses *uses, struct scope *scope, const struct pou *po
 
 	if (!meaning->index_of)
 		return;
-	while (strchr(all + at, '[')) {
+	while (strpbrk(all + at, "[,")) {
 		index = scope_index(scope, pou, text, &at);
 		if (index)
 			uses_add(uses, index, USE_READ);

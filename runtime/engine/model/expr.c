@@ -7,6 +7,7 @@
  */
 #include "engine/model/expr.h"
 
+#include "engine/base/literal.h"
 #include "engine/base/lex.h"
 
 #include <string.h>
@@ -144,21 +145,31 @@ static bool is_operand(const struct lex *lex)
 	return false;
 }
 
-/* Skips `[ i ]` or `[-3]`, an index without operators, from its [ to its ]. */
+/* From the [ or , at the token, steps over a name or number behind it. */
+static bool skip_one_index(struct lex *at)
+{
+	lex_next(at);
+	if (lex_is(at, "-") || lex_is(at, "+")) {
+		lex_next(at);
+		if (at->token.kind != TOKEN_NUMBER)
+			return false;
+	}
+	if (at->token.kind != TOKEN_NUMBER && at->token.kind != TOKEN_NAME &&
+	    at->token.kind != TOKEN_ADDRESS)
+		return false;
+	lex_next(at);
+	return true;
+}
+
+/* From the [ at the token to the ] of `[3]`, `[i, -2]`; false: an index is an expression. */
 static bool skip_simple_index(struct lex *lex)
 {
 	struct lex at = *lex;
 
-	lex_next(&at);
-	if (lex_is(&at, "-") || lex_is(&at, "+")) {
-		lex_next(&at);
-		if (at.token.kind != TOKEN_NUMBER)
+	do {
+		if (!skip_one_index(&at))
 			return false;
-	}
-	if (at.token.kind != TOKEN_NUMBER && at.token.kind != TOKEN_NAME &&
-	    at.token.kind != TOKEN_ADDRESS)
-		return false;
-	lex_next(&at);
+	} while (lex_is(&at, ","));
 	if (!lex_is(&at, "]"))
 		return false;
 	*lex = at;
@@ -174,11 +185,16 @@ static void expr_skip_path(struct lex *lex)
 
 	for (;;) {
 		lex_next(&at);
-		if (dots ? !lex_is(&at, ".") || lex_next(&at) != TOKEN_NAME
-			 : !lex_is(&at, "[") || !skip_simple_index(&at))
+		if (lex_is(&at, "[")) {
+			if (!skip_simple_index(&at))
+				return;
+			dots = true;
+		} else if (!dots || !lex_is(&at, ".") || lex_next(&at) != TOKEN_NAME) {
 			return;
+		} else {
+			dots = false;
+		}
 		*lex = at;
-		dots = !dots;
 	}
 }
 
@@ -316,7 +332,6 @@ static bool take_operand(struct parser *parser, bool *more)
 		.op = literal ? EXPR_LITERAL : EXPR_NAME,
 		.text = token->text, .left = -1, .right = -1,
 	};
-	bool indexed;
 	size_t len;
 
 	*more = false;
@@ -332,9 +347,8 @@ static bool take_operand(struct parser *parser, bool *more)
 	if (len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	node.len = (uint16_t)len;
-	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	*more = token->kind != TOKEN_NUMBER && !indexed && lex_is(lex, "[");
+	*more = token->kind != TOKEN_NUMBER && lex_is(lex, "[");
 	return *more ? open_index(parser, (struct expr_open){ node.text, node.len, -1 }) :
 		       add_node(parser, node);
 }
@@ -400,6 +414,28 @@ static bool go_on(struct parser *parser, bool *more)
 	return open_index(parser, open);
 }
 
+/* The , of `A[i + 1, j]`: what precedes it is an index of its own, as in A[i + 1][j]. */
+static bool next_index(struct parser *parser, bool *more)
+{
+	int top = --parser->indexed;
+	const struct expr_open *open = &parser->out->open[top];
+	struct expr_node node = {
+		.op = EXPR_INDEX, .text = open->text, .len = open->len, .right = open->base,
+		.tail = { parser->lex->token.text, 0 },
+	};
+	struct expr_open again = { "", 0, -1 };
+
+	node.left = parser->value[--parser->value_count];
+	if (!add_node(parser, node))
+		return false;
+	parser->pending_count--;
+	parser->opened--;
+	parser->nested--;
+	again.base = parser->value[--parser->value_count];
+	*more = true;
+	return open_index(parser, again);
+}
+
 /* Closes the innermost bracket at the current token. @more: an operand follows: another
  * index of the path, or another argument. */
 static bool close_one(struct parser *parser, bool *more)
@@ -407,6 +443,8 @@ static bool close_one(struct parser *parser, bool *more)
 	const int top = parser->pending[parser->pending_count - 1];
 	const bool index = lex_is(parser->lex, "]"), comma = lex_is(parser->lex, ",");
 
+	if (comma && top == OPERATOR_INDEX)
+		return next_index(parser, more);
 	if (index != (top == OPERATOR_INDEX) || (comma && top != OPERATOR_CALL))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (top == OPERATOR_CALL && !close_argument(parser))
@@ -531,13 +569,16 @@ static bool take_target_index(struct parser *parser)
 	struct lex *lex = parser->lex;
 	struct expr *out = parser->out;
 
-	if (!keep_target(parser))
-		return false;
-	lex_next(lex);
-	if (!parse(parser))
-		return false;
-	out->target_index = out->root;
-	parser->value_count = 0;
+	do {
+		if (!keep_target(parser))
+			return false;
+		lex_next(lex);
+		if (!parse(parser))
+			return false;
+		out->target_index = out->root;
+		out->target_tail = (struct expr_tail){ lex->token.text, 0 };
+		parser->value_count = 0;
+	} while (lex_is(lex, ","));
 	if (!lex_is(lex, "]"))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!take_tail(parser, &out->target_tail))
@@ -583,7 +624,6 @@ static bool take_target(struct parser *parser)
 {
 	struct lex *lex = parser->lex;
 	struct expr *out = parser->out;
-	bool indexed;
 
 	if (!expr_has_target(*lex))
 		return true;
@@ -592,9 +632,8 @@ static bool take_target(struct parser *parser)
 	out->target_len = expr_text_len(out->target, lex);
 	if (out->target_len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
-	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	while (!indexed && lex_is(lex, "["))
+	while (lex_is(lex, "["))
 		if (!take_target_index(parser))
 			return false;
 	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
@@ -627,6 +666,8 @@ bool expr_begins(struct lex lex)
 {
 	int signs = 0;
 
+	if (lex.token.kind == TOKEN_NUMBER && literal_is_named(lex.token.text, lex.token.len))
+		return true;
 	for (; lex_is(&lex, "-") || lex_is(&lex, "+"); signs++)
 		lex_next(&lex);
 	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))

@@ -242,6 +242,53 @@ bool project_set_view(struct project *project, const char *text)
 	return true;
 }
 
+/* (Red, Green := 5) of an enumeration, (0..100) of a subrange. */
+static void write_values(const struct project *project, const struct var *var,
+			 const struct sink *sink)
+{
+	const struct var_written *written = var->written;
+	const struct enumeration *list;
+
+	if (var->enumeration) {
+		list = &project->enumeration[var->enumeration - 1];
+		for (int i = 0; i < list->count; i++) {
+			const struct enum_value *value = &project->enum_value[list->first + i];
+
+			sink_printf(sink, "%s%s", i ? ", " : list->based ? " (" : "(",
+				    project_text(project, value->name));
+			if (value->text)
+				sink_printf(sink, " := %s", project_text(project, value->text));
+		}
+		sink_text(sink, ")");
+	} else if (var->range && written && written->range[0]) {
+		sink_printf(sink, " (%s..%s)", project_text(project, written->range[0]),
+			    project_text(project, written->range[1]));
+	} else if (var->range) {
+		sink_printf(sink, " (%lld..%lld)", (long long)var->range->low,
+			    (long long)var->range->high);
+	}
+}
+
+/* ARRAY[0..2, 1..Count] OF, without what a named type brings. */
+static void write_dimensions(const struct project *project, const struct var *var,
+			     const struct sink *sink)
+{
+	const struct var_written *written = var->written;
+
+	for (int i = 0; i < var->own_dims; i++) {
+		const uint32_t *text = written && written->dim ? written->dim[i] : NULL;
+
+		sink_text(sink, i ? ", " : "ARRAY[");
+		if (text)
+			sink_printf(sink, "%s..%s", project_text(project, text[0]),
+				    project_text(project, text[1]));
+		else
+			sink_printf(sink, "%ld..%lld", (long)var->dim[i].low,
+				    (long long)var->dim[i].low + var->dim[i].count - 1);
+	}
+	sink_text(sink, "] OF ");
+}
+
 void project_write_type(const struct project *project, const struct var *var,
 			const struct sink *sink)
 {
@@ -253,12 +300,20 @@ void project_write_type(const struct project *project, const struct var *var,
 		sink_text(sink, "..");
 		sink_text(sink, project_text(project, written->bound[1]));
 		sink_text(sink, "] OF ");
-	} else if (var->array.count) {
+	} else if (var->own_dims > 1 || (var->own_dims && var->dims > 1)) {
+		write_dimensions(project, var, sink);
+	} else if (var->array.count && (!var->named || var->own_dims)) {
 		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
 			    (long long)var->array.low + var->array.count - 1);
 	}
-	sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
-						iec_type_row(var->type)->word);
+	if (var->named) {
+		sink_text(sink, project_text(project, project->named[var->named - 1].name));
+		return;
+	}
+	if (!var->enumeration || project->enumeration[var->enumeration - 1].based)
+		sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
+							iec_type_row(var->type)->word);
+	write_values(project, var, sink);
 	if (written && written->capacity) {
 		sink_text(sink, "[");
 		sink_text(sink, project_text(project, written->capacity));

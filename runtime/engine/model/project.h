@@ -68,6 +68,7 @@ struct pou {
 	enum word temp_word;    /* row of its VAR_TEMP; WORD_COUNT: none       */
 	int edges;              /* cells with a memory: in each instance       */
 	struct var_table vars;  /* locals                                      */
+	struct var_table external; /* VAR_EXTERNAL: the globals that it uses, if it tells them */
 	struct rung **rung;     /* of LD, SFC; malloc'ed vector of malloc'ed rungs */
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
@@ -88,6 +89,34 @@ struct structure {
 	uint32_t comment;       /* comments before its END_STRUCT              */
 	const char *file;
 	int line;
+};
+
+/* A value of an enumeration (IEC 61131-3, 2.3.3.1). */
+struct enum_value {
+	uint32_t name, fold;    /* string ids                                  */
+	uint32_t text;          /* string id: the number as written; 0: one more than before */
+	int64_t number;
+	int enumeration;        /* index in the project                        */
+};
+
+/* ( Red, Green := 5, Blue ) */
+struct enumeration {
+	int first, count;       /* of project.enum_value                       */
+	uint32_t name;          /* string id of its type; 0: of a variable     */
+	enum iec_type type;
+	bool based;             /* its type is in the file: INT ( … )          */
+};
+
+/* TYPE name : an enumeration, a subrange, or another name of a type. What is behind the colon is
+ * kept like the declaration of a variable. */
+struct named_type {
+	uint32_t name, fold;    /* string ids                                  */
+	struct var_table like;  /* one variable                                */
+	int part;               /* it stands in this part of the file,         */
+	int before;             /* above this structure                        */
+	const char *file;
+	int line;
+	uint8_t state;          /* while it is resolved                        */
 };
 
 /* One line of VAR_ACCESS (IEC 61131-3, 2.7.1): operators and gateways may read or write this
@@ -149,6 +178,13 @@ struct project {
 	int pou_count;
 	struct structure *structure;
 	int structure_count;
+	struct named_type *named;
+	int named_count;
+	struct enumeration *enumeration;
+	int enumeration_count;
+	struct enum_value *enum_value; /* of all enumerations, one behind the other */
+	int enum_value_count;
+	bool ranges;            /* a declaration has a subrange                */
 	const char **used;      /* paths of files named by USES                */
 	int used_count;
 	const char **included;  /* the same of INCLUDE, also in files that are named */

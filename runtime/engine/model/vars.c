@@ -64,6 +64,22 @@ bool var_lies_on(const struct var *var, struct iec_addr addr)
 	       bits_from(addr) < bits_from(last) + last.bits;
 }
 
+struct var_array vars_flat(const struct var_array *dim, int dims)
+{
+	uint64_t count = dims ? dim[0].count : 0;
+
+	for (int i = 1; i < dims && count <= UINT32_MAX; i++)
+		count *= dim[i].count;
+	return (struct var_array){ dims == 1 ? dim[0].low : 0,
+				   count > UINT32_MAX ? UINT32_MAX : (uint32_t)count };
+}
+
+bool var_range_fits(const struct var_range *range)
+{
+	return range->low <= range->high && range->low >= INT32_MIN && range->low <= INT32_MAX &&
+	       range->high - range->low < (int64_t)UINT32_MAX;
+}
+
 int64_t var_element(struct var_array array, int64_t index)
 {
 	int64_t last = (int64_t)array.low + array.count - 1;
@@ -97,7 +113,7 @@ const char *vars_head(uint16_t flags)
 	static const struct { uint16_t flag; const char *word; } heads[] = {
 		{ VAR_GLOBAL_WORD, "VAR_GLOBAL" }, { VAR_INPUT, "VAR_INPUT" },
 		{ VAR_OUTPUT, "VAR_OUTPUT" }, { VAR_IN_OUT, "VAR_IN_OUT" },
-		{ VAR_TEMP, "VAR_TEMP" },
+		{ VAR_TEMP, "VAR_TEMP" }, { VAR_EXTERNAL, "VAR_EXTERNAL" },
 	};
 
 	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)

@@ -17,6 +17,8 @@ enum var_flag {
 	VAR_INPUT = 8, VAR_OUTPUT = 16, VAR_IN_OUT = 32, VAR_TEMP = 64,
 	VAR_RESULT = 128,    /* the result of a function, from its heading; its ENO follows
 			      * in the same block */
+	VAR_EXTERNAL = 512,  /* names globals that the POU uses; a table of its own */
+	VAR_NON_RETAIN = 1024, /* as without a word; kept for the file          */
 	VAR_SFC = 256,       /* variables of a chart (model/sfc.h): programs can read them;
 			      * they are not in the file */
 };
@@ -28,13 +30,16 @@ struct var_init {
 	uint32_t text;       /* string id: of a STRING, as written; 0: empty   */
 };
 
-enum written_place { WRITTEN_LOW, WRITTEN_HIGH, WRITTEN_CAPACITY, WRITTEN_INITIAL, WRITTEN_PLACES };
+enum written_place { WRITTEN_LOW, WRITTEN_HIGH, WRITTEN_CAPACITY, WRITTEN_INITIAL,
+		     WRITTEN_LEAST, WRITTEN_MOST, WRITTEN_PLACES };
 
 /* A declaration with constant expressions: Max : INT := Limit - 1. The numbers in struct var are
  * those that check/settle.c computes from it. */
 struct var_written {
 	uint32_t bound[2];   /* string ids: lowest and highest index, as written; 0: numbers */
 	uint32_t capacity;   /* likewise, of a STRING                          */
+	uint32_t range[2];   /* likewise, of a subrange                        */
+	uint32_t (*dim)[2];  /* likewise, of an array of several dimensions; NULL: it has one */
 	bool initial;        /* the initial value has expressions              */
 	uint32_t value;      /* string id: the initial value with constants in place of them;
 			      * 0: not computed                                */
@@ -45,6 +50,12 @@ struct var_written {
 	uint8_t state;
 	int table, index;    /* the variable: as in scope, behind the POUs the structures */
 	struct var_written *below; /* needs the value of this one              */
+	struct var_written *type;  /* of the named type that it has; NULL: none */
+};
+
+/* INT (0..100): the values that a variable may have. */
+struct var_range {
+	int64_t low, high;
 };
 
 struct var {
@@ -54,19 +65,27 @@ struct var {
 				instance or structure                  */
 	enum word fb;        /* the word of the block or structure             */
 	uint16_t capacity;   /* of a STRING, in bytes; 0: of a temporary       */
+	uint16_t named;      /* has the type project.named[named - 1]; 0: none.
+				project_resolve() fills in type, word, bounds   */
+	uint16_t enumeration; /* its values are project.enumeration[… - 1]; 0: none */
+	uint8_t dims;        /* of its array; 0 or 1: array alone counts       */
+	uint8_t own_dims;    /* so many are in the declaration, the others in its named type */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
 	struct var_array array;
 	bool has_init;
+	bool inherits;       /* the initial value is that of its type, not in the file */
 	int init_count;      /* parts of init_list, of an array                */
+	uint32_t init_text;  /* string id: as written (16#FF stays so); for arrays of
+			      * structures, structures and instances the whole text:
+			      * model/init.h */
 	union {
 		union iec_value init;       /* of its type                    */
 		struct var_init *init_list; /* of an array, from its first
 					       element on                     */
 	};
-	uint32_t init_text;  /* string id: as written (16#FF stays so); for arrays of
-			      * structures, structures and instances the whole text:
-			      * model/init.h */
 	struct var_written *written; /* NULL: no constant expressions           */
+	struct var_array *dim; /* its dimensions; array has all elements, from 0 on if there are several */
+	struct var_range *range; /* of a subrange; NULL: none                   */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;
@@ -112,6 +131,12 @@ uint32_t var_bytes(const struct var *var);
 struct iec_addr vars_shift(struct iec_addr at, uint32_t element);
 /** var_lies_on - whether it, or one of its elements, has a bit of the address. */
 bool var_lies_on(const struct var *var, struct iec_addr addr);
+/** vars_flat - @dims dimensions as one: of one its own bounds, of several all elements from 0 on.
+ * More than 2^32 - 1 elements count as so many. Scan-safe: yes. */
+struct var_array vars_flat(const struct var_array *dim, int dims);
+/** var_range_fits - whether the scan can compare with it: its lowest value needs 32 bits, and it
+ * has at most 2^32 - 1 values. Scan-safe: yes. */
+bool var_range_fits(const struct var_range *range);
 /** var_element - index @index as the number of an element, 0-based; -1: there is
  * none. */
 int64_t var_element(struct var_array array, int64_t index);

@@ -2,7 +2,7 @@
  *
  * read_array - ARRAY[low..high] OF, and initial values: [1, 2, 3(7)], (Speed := 5).
  *
- * Bounds are integer constants of one dimension, or constant expressions. Initial values are
+ * Bounds are integer constants, or constant expressions. Initial values are
  * kept as text: model/init.c walks it, here if it needs no constant expression and the type is
  * known, else after the whole project was read. check/ finds whether a variable with an address
  * leaves its area.
@@ -40,7 +40,7 @@ static bool read_bound(struct reader *r, struct var *var, enum written_place whe
 }
 
 /* `..` is two symbols for the scanner. */
-static bool read_dots(struct reader *r)
+bool reader_dots(struct reader *r)
 {
 	for (int i = 0; i < 2; i++) {
 		if (!reader_is(r, '.'))
@@ -50,42 +50,101 @@ static bool read_dots(struct reader *r)
 	return true;
 }
 
-bool read_array(struct reader *r, struct var *var)
+/* The dimensions of the array that is read. */
+struct dimensions {
+	struct var_array dim[LIMIT_INDICES];
+	uint32_t text[LIMIT_INDICES][2]; /* string ids: as written           */
+	int count;
+};
+
+static bool fail_bounds(struct reader *r, int64_t low, int64_t high)
+{
+	char text[48];
+
+	snprintf(text, sizeof(text), "%lld..%lld", (long long)low, (long long)high);
+	return reader_fail_word(r, DIAG_BAD_BOUNDS, text);
+}
+
+/* `1..10` */
+static bool read_dimension(struct reader *r, struct var *var, struct dimensions *out)
 {
 	int64_t low = 0, high = 0;
-	uint32_t lowest;
+	uint32_t *text = out->text[out->count];
 
-	if (!lex_is(&r->lex, "ARRAY"))
-		return true;
-	reader_step(r);
-	if (!reader_is(r, '['))
-		return reader_fail_word(r, DIAG_EXPECTED, "[");
-	reader_step(r);
+	if (out->count == LIMIT_INDICES)
+		return reader_fail_many(r, DIAG_TOO_MANY, "dimensions", LIMIT_INDICES);
 	if (!read_bound(r, var, WRITTEN_LOW, &low))
 		return false;
-	lowest = buffer_take(r, &r->text);
-	if (!read_dots(r) || !read_bound(r, var, WRITTEN_HIGH, &high))
+	text[0] = buffer_take(r, &r->text);
+	if (!reader_dots(r) || !read_bound(r, var, WRITTEN_HIGH, &high))
 		return false;
+	text[1] = buffer_take(r, &r->text);
+	if (var->written)
+		low = high = 0; /* until check/settle.c computes them */
+	if (high < low || high - low >= LIMIT_ELEMENTS)
+		return fail_bounds(r, low, high);
+	out->dim[out->count++] = (struct var_array){ (int32_t)low, (uint32_t)(high - low + 1) };
+	return true;
+}
+
+/* `[0..2, 1..3] OF` */
+static bool read_dimensions(struct reader *r, struct var *var, struct dimensions *out)
+{
+	if (!reader_is(r, '['))
+		return reader_fail_word(r, DIAG_EXPECTED, "[");
+	do {
+		reader_step(r);
+		if (!read_dimension(r, var, out))
+			return false;
+	} while (reader_is(r, ','));
 	if (!reader_is(r, ']'))
 		return reader_fail_word(r, DIAG_EXPECTED, "]");
-	if (var->written) {
-		var->written->bound[0] = lowest;
-		var->written->bound[1] = buffer_take(r, &r->text);
-		low = high = 0; /* until check/settle.c computes them */
-	}
-	if (high < low || high - low >= LIMIT_ELEMENTS) {
-		char text[48];
-
-		snprintf(text, sizeof(text), "%lld..%lld", (long long)low,
-			 (long long)high);
-		return reader_fail_word(r, DIAG_BAD_BOUNDS, text);
-	}
 	reader_step(r);
 	if (!lex_is(&r->lex, "OF"))
 		return reader_fail_word(r, DIAG_EXPECTED, "OF");
 	reader_step(r);
-	var->array = (struct var_array){ (int32_t)low, (uint32_t)(high - low + 1) };
 	return true;
+}
+
+/* Gives @var the dimensions that were read. */
+static bool keep_dimensions(struct reader *r, struct var *var, const struct dimensions *from)
+{
+	const size_t count = (size_t)from->count;
+
+	var->dim = arena_alloc(&r->project->arena, count * sizeof(*from->dim));
+	if (!var->dim)
+		return r->no_memory = true, false;
+	memcpy(var->dim, from->dim, count * sizeof(*from->dim));
+	if (var->written && count > 1) {
+		var->written->dim = arena_alloc(&r->project->arena, count * sizeof(from->text[0]));
+		if (!var->written->dim)
+			return r->no_memory = true, false;
+		memcpy(var->written->dim, from->text, count * sizeof(from->text[0]));
+	} else if (var->written) {
+		var->written->bound[0] = from->text[0][0];
+		var->written->bound[1] = from->text[0][1];
+	}
+	var->dims = var->own_dims = (uint8_t)count;
+	var->array = vars_flat(var->dim, from->count);
+	return true;
+}
+
+bool read_array(struct reader *r, struct var *var)
+{
+	struct dimensions dims = { .count = 0 };
+	struct var_array all;
+
+	if (!lex_is(&r->lex, "ARRAY"))
+		return true;
+	while (lex_is(&r->lex, "ARRAY")) {
+		reader_step(r);
+		if (!read_dimensions(r, var, &dims))
+			return false;
+	}
+	all = vars_flat(dims.dim, dims.count);
+	if (all.count > LIMIT_ELEMENTS)
+		return fail_bounds(r, 0, (int64_t)all.count - 1);
+	return keep_dimensions(r, var, &dims);
 }
 
 /* ---- initial values ---- */
@@ -128,12 +187,14 @@ static bool is_of_expression(const struct lex *lex, const struct token *before,
 		return !is_before_value(before);
 	if (is_symbol(token, "(")) /* not of a structure, and not n( */
 		return next->kind == TOKEN_NUMBER && before && before->kind != TOKEN_NUMBER;
+	if (literal_is_named(token->text, token->len))
+		return true;
 	return token->kind == TOKEN_NAME && !is_symbol(next, ":=") && !lex_is(lex, "TRUE") &&
 	       !lex_is(lex, "FALSE");
 }
 
-/* Have the values in the brackets at the cursor an expression? */
-static bool has_expressions(const struct reader *r)
+/* Have the values in the brackets at the cursor an expression? @bare: without brackets. */
+static bool has_expressions(const struct reader *r, bool bare)
 {
 	struct token before = { .kind = TOKEN_END };
 	struct lex lex = r->lex;
@@ -150,7 +211,7 @@ static bool has_expressions(const struct reader *r)
 		open -= closes(&lex.token);
 		before = lex.token;
 		lex = ahead;
-	} while (open > 0 && lex.token.kind != TOKEN_END && !lex_is(&lex, ";"));
+	} while ((bare || open > 0) && lex.token.kind != TOKEN_END && !lex_is(&lex, ";"));
 	return false;
 }
 
@@ -213,16 +274,18 @@ static bool count_bracket(struct reader *r, uint64_t *open, int *depth)
 	return true;
 }
 
-/* Reads the values in the brackets at the cursor as text. */
-static bool read_init_text(struct reader *r, struct var *var)
+bool reader_init_text(struct reader *r, struct var *var)
 {
+	/* Old tools write the list of an array without brackets. */
+	const bool bare = !reader_is(r, '(') && !reader_is(r, '[');
+
 	const struct token *token = &r->lex.token;
 	struct token before = { .kind = TOKEN_END };
-	uint64_t open = 0, named = 0;
+	uint64_t open = bare, named = 0;
 	bool sign = false;
-	int depth = 0;
+	int depth = bare;
 
-	if (has_expressions(r) || var->written) {
+	if (has_expressions(r, bare) || var->written) {
 		struct var_written *written = reader_written(r, var, WRITTEN_INITIAL);
 
 		if (!written)
@@ -230,6 +293,8 @@ static bool read_init_text(struct reader *r, struct var *var)
 		written->initial = true;
 	}
 	buffer_clear(&r->text);
+	if (bare)
+		buffer_add(r, &r->text, "[", 1);
 	do {
 		const struct token *last = before.text ? &before : NULL;
 
@@ -249,7 +314,9 @@ static bool read_init_text(struct reader *r, struct var *var)
 		sign = (is_symbol(token, "-") || is_symbol(token, "+")) && is_before_value(last);
 		before = *token;
 		reader_step(r);
-	} while (depth > 0);
+	} while (bare ? depth > 1 || !reader_is(r, ';') : depth > 0);
+	if (bare)
+		buffer_add(r, &r->text, "]", 1);
 	var->has_init = true;
 	var->init_text = buffer_take(r, &r->text);
 	return true;
@@ -289,9 +356,7 @@ bool read_init_list(struct reader *r, struct var *var)
 	struct init_value value;
 	uint32_t next = 0;
 
-	if (!reader_is(r, '['))
-		return reader_fail_word(r, DIAG_EXPECTED, "[");
-	if (!read_init_text(r, var))
+	if (!reader_init_text(r, var))
 		return false;
 	if (var->written) /* check/settle.c walks it */
 		return true;
@@ -308,5 +373,5 @@ bool read_init_parts(struct reader *r, struct var *var)
 
 	if (!reader_is(r, first))
 		return reader_fail(r, DIAG_EXPECTED, &first, 1);
-	return read_init_text(r, var);
+	return reader_init_text(r, var);
 }

@@ -100,6 +100,8 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 {
 	struct literal literal;
 
+	if (literal_is_named(text, len))
+		return true;
 	switch (literal_parse(text, len, &literal)) {
 	case LITERAL_OK:
 		return true;
@@ -121,14 +123,11 @@ bool reader_sign(struct reader *r)
 	return true;
 }
 
-/* Reads `[3]`, `[-3]` or `[i]` after the cursor; leaves it on the ]. */
-static bool add_index(struct reader *r)
+/* Reads one index at the cursor, and steps behind it. */
+static bool add_one_index(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
 
-	reader_step(r);
-	buffer_add(r, &r->text, "[", 1);
-	reader_step(r);
 	if (reader_sign(r) && token->kind != TOKEN_NUMBER)
 		return reader_fail_token(r, DIAG_BAD_LITERAL);
 	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME &&
@@ -138,6 +137,23 @@ static bool add_index(struct reader *r)
 		return false;
 	buffer_add(r, &r->text, token->text, token->len);
 	reader_step(r);
+	return true;
+}
+
+/* Reads `[3]`, `[-3]`, `[i]` or `[i, 3]` after the cursor; leaves it on the ]. */
+static bool add_index(struct reader *r)
+{
+	reader_step(r);
+	buffer_add(r, &r->text, "[", 1);
+	reader_step(r);
+	if (!add_one_index(r))
+		return false;
+	while (reader_is(r, ',')) {
+		buffer_add(r, &r->text, ", ", 2);
+		reader_step(r);
+		if (!add_one_index(r))
+			return false;
+	}
 	if (!reader_is(r, ']'))
 		return reader_fail_word(r, DIAG_EXPECTED, "]");
 	buffer_add(r, &r->text, "]", 1);
@@ -153,6 +169,8 @@ static bool add_path(struct reader *r)
 	while (reader_peek(r, "[")) {
 		if (!add_index(r))
 			return false;
+		if (reader_peek(r, "["))
+			continue;
 		if (!reader_peek(r, "."))
 			return true;
 		reader_step(r);

@@ -113,9 +113,7 @@ static void read_body(struct reader *r, struct pou *pou)
 
 /* ---- first lines ---- */
 
-/* The row that read_words() made, unless another POU has this name. */
-static enum word own_word(struct reader *r, uint32_t name, enum word_kind kind,
-			  int owner)
+enum word reader_take_word(struct reader *r, uint32_t name, enum word_kind kind, int owner)
 {
 	const char *text = names_text(&r->project->names, name);
 	enum word word = words_find(&r->project->words, text, strlen(text));
@@ -242,7 +240,7 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	reader_next(r);
 	r->place.pou = names_text(&r->project->names, pou->name);
 	if (pou_has_frame(pou))
-		pou->word = own_word(r, pou->name, pou->kind == POU_BLOCK ?
+		pou->word = reader_take_word(r, pou->name, pou->kind == POU_BLOCK ?
 				     WORD_FB : WORD_FN, index);
 	if (pou->kind == POU_FUNCTION && !read_result(r, pou)) {
 		reader_skip_line(r);
@@ -322,107 +320,4 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	else
 		reader_fail_word(r, DIAG_MISSING_ABOVE, kinds[kind].end);
 	r->place.pou = NULL;
-}
-
-/* ---- TYPE ---- */
-
-static bool read_struct_head(struct reader *r, struct structure *out)
-{
-	if (!reader_name(r, "name of a type", &out->name))
-		return false;
-	out->line = r->lex.token.line;
-	reader_step(r);
-	if (!reader_is(r, ':'))
-		return reader_fail_word(r, DIAG_EXPECTED, ":");
-	reader_step(r);
-	if (!lex_is(&r->lex, "STRUCT"))
-		return reader_fail_word(r, DIAG_EXPECTED, "STRUCT");
-	return true;
-}
-
-/* Name : STRUCT … END_STRUCT; with the comment behind it. */
-static bool read_struct(struct reader *r, struct structure *out)
-{
-	r->across_lines = true;
-	if (!read_struct_head(r, out))
-		return false;
-	r->across_lines = false;
-	reader_next(r);
-	read_members(r, &out->vars);
-	if (!lex_is(&r->lex, "END_STRUCT"))
-		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
-	reader_next(r);
-	if (reader_is(r, ';'))
-		reader_next(r);
-	else if (!r->plain) /* other tools write none before END_TYPE */
-		return reader_fail_word(r, DIAG_EXPECTED, ";");
-	out->comment = buffer_take(r, &r->note);
-	return true;
-}
-
-static void add_struct(struct reader *r, struct part *part)
-{
-	struct project *project = r->project;
-	int index = project->structure_count;
-	struct structure *out = arena_push(&project->arena, &project->structure,
-					   &project->structure_count,
-					   sizeof(*out));
-	struct structure made = { .file = r->place.file, .word = WORD_COUNT };
-	bool good;
-
-	if (!out) {
-		r->no_memory = true;
-		return;
-	}
-	good = read_struct(r, &made);
-	bool head = !good && r->across_lines; /* the reader did not reach STRUCT */
-
-	r->across_lines = false;
-	if (made.name)
-		made.word = own_word(r, made.name, WORD_STRUCT, index);
-	project->structure[index] = made;
-	part->count++;
-	if (head) {
-		reader_skip_line(r);
-		return;
-	}
-	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
-	       !lex_is(&r->lex, "END_STRUCT") && !lex_is(&r->lex, "END_TYPE"))
-		reader_next(r);
-	if (!good && lex_is(&r->lex, "END_STRUCT"))
-		reader_skip_line(r);
-}
-
-void read_types(struct reader *r)
-{
-	const struct token head = r->lex.token;
-	struct part part = { .kind = PART_TYPES,
-			     .index = r->project->structure_count };
-
-	part.comment = buffer_take(r, &r->above);
-	r->comments = COMMENT_NOTE;
-	reader_next(r);
-	for (;;) {
-		reader_skip_newlines(r);
-		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
-		    lex_is(&r->lex, "END_TYPE") || read_ends_block(r))
-			break;
-		add_struct(r, &part);
-	}
-	if (r->note.len > 0 && part.count > 0) {
-		struct structure *last = &r->project->structure[
-			r->project->structure_count - 1];
-
-		last->comment = comment_join(r, last->comment, &r->note, COMMENT_NOTE);
-	} else if (r->note.len > 0) {
-		part.comment = comment_join(r, part.comment, &r->note, COMMENT_ABOVE);
-	}
-	r->comments = COMMENT_ABOVE;
-	reader_add_part(r, part);
-	if (lex_is(&r->lex, "END_TYPE")) {
-		reader_next(r);
-		reader_end_head(r);
-		return;
-	}
-	reader_fail_open(r, &head);
 }

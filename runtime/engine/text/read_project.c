@@ -5,6 +5,7 @@
  *
  * It opens no file: the caller supplies what INCLUDE names.
  */
+#include "engine/model/named.h"
 #include "engine/model/shape.h"
 #include "engine/text/reader.h"
 
@@ -322,7 +323,7 @@ bool read_ends_block(const struct reader *r)
 		"END_CONFIGURATION", "FUNCTION", "END_FUNCTION",
 		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
 		"SUBROUTINE", "END_SUBROUTINE",
-		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
+		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
 		"VAR_ACCESS",
 	};
 	bool found = r->pou && r->pou->language == LANGUAGE_SFC &&
@@ -582,7 +583,7 @@ bool text_read_files(struct project *project, const struct text_file *files, int
 		project->source[i].name = arena_copy(&project->arena, files[i].name,
 						     strlen(files[i].name));
 	memory = project->source && read_files(project, files, count, source, diags);
-	if (memory)
+	if (memory && project_resolve(project, diags))
 		shape_make(project, diags);
 	fail_memory(project, files->name, !memory, diags);
 	return diags->errors == errors;
@@ -649,6 +650,8 @@ static bool push_var(struct reader *r, struct var_table *table, int block,
 
 	reader_skip_newlines(r);
 	good = read_var(r, table->block[block].flags, &var);
+	if (good && (var.named ? !named_take(r->project, &var) : !named_default(r->project, &var)))
+		r->no_memory = true;
 	if (good && table->count == LIMIT_VARS)
 		good = reader_fail_many(r, DIAG_TOO_MANY, "variables", LIMIT_VARS);
 	if (good && !vars_push(table, block, &var, &r->project->arena))

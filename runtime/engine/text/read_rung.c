@@ -86,6 +86,7 @@ static bool has_bad_literal(const struct expr *expr)
 
 	for (int i = 0; i < expr->count; i++)
 		if (expr->node[i].op == EXPR_LITERAL &&
+		    !literal_is_named(expr->node[i].text, expr->node[i].len) &&
 		    literal_parse(expr->node[i].text, expr->node[i].len, &literal) != LITERAL_OK)
 			return true;
 		else if (expr->node[i].op == EXPR_NAME && *expr->node[i].text == '%' &&

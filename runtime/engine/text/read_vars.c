@@ -7,8 +7,9 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/literal.h"
-
+#include "engine/model/named.h"
 
 static bool add_name(struct reader *r, struct var_table *table)
 {
@@ -156,8 +157,10 @@ static bool read_capacity(struct reader *r, struct var *var)
 	var->capacity = IEC_STRING_DEFAULT;
 	if (var->at_text)
 		return reader_fail_word(r, DIAG_MISPLACED, "AT");
-	if (!reader_is(r, '['))
+	if (!reader_is(r, '[') && !reader_is(r, '('))
 		return true;
+	const char close = reader_is(r, '[') ? ']' : ')';
+
 	reader_step(r);
 	if (reader_begins_expression(r, IEC_DINT)) {
 		buffer_clear(&r->text);
@@ -174,8 +177,8 @@ static bool read_capacity(struct reader *r, struct var *var)
 		var->capacity = (uint16_t)literal.value.i;
 		reader_step(r);
 	}
-	if (!reader_is(r, ']'))
-		return reader_fail_word(r, DIAG_EXPECTED, "]");
+	if (!reader_is(r, close))
+		return reader_fail(r, DIAG_EXPECTED, &close, 1);
 	reader_step(r);
 	return true;
 }
@@ -197,26 +200,55 @@ static bool may_hold_blocks(const struct reader *r)
 		return false;
 	if (r->var_flags & VAR_IN_OUT)
 		return true;
+	if (r->var_flags & VAR_EXTERNAL)
+		return true;
 	return !(r->var_flags & (VAR_INPUT | VAR_OUTPUT)) &&
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
 bool reader_type(struct reader *r, struct var *var)
 {
-	const struct token *token = &r->lex.token;
-	enum word_kind kind;
-
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
 	reader_step(r);
+	return reader_type_of(r, var, 0);
+}
+
+/* The type at the cursor has a name of its own, and is no structure. */
+static bool is_named(struct reader *r, struct var *var)
+{
+	const struct token *token = &r->lex.token;
+	struct names *names = &r->project->names;
+
+	var->named = (uint16_t)(named_find(r->project, names_fold(names,
+				names_intern(names, token->text, token->len))) + 1);
+	return var->named;
+}
+
+bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
+{
+	const struct token *token = &r->lex.token;
+	enum word_kind kind;
+
 	if (!read_array(r, var))
 		return false;
+	if (reader_is(r, '('))
+		return reader_own_type(r, var, name);
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
+		if ((var->fb == WORD_COUNT || (kind != WORD_FB && kind != WORD_STRUCT)) &&
+		    is_named(r, var)) {
+			var->fb = (enum word)0;
+			reader_step(r);
+			return true;
+		}
+		if (ascii_is("WSTRING", token->text, token->len) ||
+		    ascii_is("WCHAR", token->text, token->len))
+			return reader_fail_token(r, DIAG_NO_WIDE_TEXT);
 		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
@@ -230,7 +262,9 @@ bool reader_type(struct reader *r, struct var *var)
 					names_text(&r->project->names,
 						   var->at_text));
 	reader_step(r);
-	return var->type != IEC_STRING || read_capacity(r, var);
+	if (var->type == IEC_STRING)
+		return read_capacity(r, var);
+	return reader_own_type(r, var, name);
 }
 
 /* Is the constant only too large? Then its kind is right. */
@@ -280,11 +314,31 @@ bool read_constant(struct reader *r, enum iec_type type, union iec_value *out)
 	return true;
 }
 
-static bool read_init(struct reader *r, struct var *var)
+/* The initial value of a named type: check/settle.c computes it when the type is known. */
+static bool init_named(struct reader *r, struct var *var)
+{
+	struct var_written *written = reader_written(r, var, WRITTEN_INITIAL);
+
+	if (!written)
+		return false;
+	written->initial = true;
+	if (reader_is(r, '(') || reader_is(r, '['))
+		return reader_init_text(r, var);
+	buffer_clear(&r->text);
+	if (!reader_expression(r, var, WRITTEN_INITIAL))
+		return false;
+	var->has_init = true;
+	var->init_text = buffer_take(r, &r->text);
+	return true;
+}
+
+bool reader_init(struct reader *r, struct var *var)
 {
 	if (!lex_is(&r->lex, ":="))
 		return true;
 	reader_step(r);
+	if (var->named)
+		return init_named(r, var);
 	if (var->type == IEC_NONE)
 		return read_init_parts(r, var);
 	if (var->array.count)
@@ -327,7 +381,7 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 
 	if (many && lex_is(&r->lex, "AT"))
 		return reader_fail_token(r, DIAG_MISPLACED);
-	if (!read_at(r, &like) || !reader_type(r, &like) || !read_init(r, &like))
+	if (!read_at(r, &like) || !reader_type(r, &like) || !reader_init(r, &like))
 		return false;
 	const bool closed = reader_is(r, ';');
 	const bool next = !closed && r->lex.token.line > r->begun;
@@ -388,15 +442,17 @@ static uint16_t may_be(uint16_t head)
 {
 	if (head & (VAR_IN_OUT | VAR_TEMP))
 		return 0;
-	return head & (VAR_INPUT | VAR_OUTPUT) ? VAR_RETAIN :
-						 VAR_RETAIN | VAR_CONSTANT;
+	if (head & VAR_EXTERNAL)
+		return VAR_CONSTANT;
+	return head & (VAR_INPUT | VAR_OUTPUT) ? VAR_RETAIN | VAR_NON_RETAIN :
+						 VAR_RETAIN | VAR_NON_RETAIN | VAR_CONSTANT;
 }
 
 /* The flag of a heading at the cursor; -1: there is none. */
 static int find_head(const struct reader *r)
 {
 	static const uint16_t flags[] = {
-		0, VAR_GLOBAL_WORD, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP,
+		0, VAR_GLOBAL_WORD, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP, VAR_EXTERNAL,
 	};
 
 	for (size_t i = 0; i < sizeof(flags) / sizeof(*flags); i++)
@@ -422,7 +478,7 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 
 	if (flag == VAR_GLOBAL_WORD)
 		return global;
-	if (flag == VAR_TEMP)
+	if (flag == VAR_TEMP || flag == VAR_EXTERNAL)
 		return !global;
 	return flag == 0 || callable;
 }
@@ -438,6 +494,7 @@ static uint16_t read_flags(struct reader *r, bool global)
 	for (;;) {
 		reader_next(r);
 		flag = lex_is(&r->lex, "RETAIN") ? VAR_RETAIN :
+		       lex_is(&r->lex, "NON_RETAIN") ? VAR_NON_RETAIN :
 		       lex_is(&r->lex, "CONSTANT") ? VAR_CONSTANT : 0;
 		if (!flag)
 			break;
@@ -488,6 +545,10 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 		return;
 	}
 	block.flags = read_flags(r, global);
+	if (block.flags & VAR_EXTERNAL && r->pou) {
+		table = &r->project->pou[r->pou - r->project->pou].external;
+		block.first = table->count;
+	}
 	r->var_flags = block.flags;
 	block.comment = buffer_take(r, outside == COMMENT_ABOVE ? &r->above : &r->note);
 	r->comments = COMMENT_NOTE;

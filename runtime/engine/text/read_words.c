@@ -9,6 +9,7 @@
 #include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/named.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -87,7 +88,25 @@ static void skip_newlines(struct lex *lex)
 		lex_next(lex);
 }
 
-/* Behind TYPE: every `Name : STRUCT` up to END_TYPE. */
+/* The name of a type that is no structure. */
+static void add_named(struct look *look, const struct lex *lex)
+{
+	struct reader *r = look->r;
+	const struct token *token = &lex->token;
+	const uint32_t name = token->len > LIMIT_NAME ? 0 :
+			      reader_intern(r, token->text, token->len);
+
+	if (name && named_find(r->project, names_fold(&r->project->names, name)) < 0)
+		reader_add_named(r, name);
+}
+
+/* Is this symbol at the start of a type, not of a member or value? */
+static bool ends_type(const struct lex *lex)
+{
+	return lex->token.kind == TOKEN_END || lex_is(lex, ";") || lex_is(lex, "END_TYPE");
+}
+
+/* Behind TYPE: every `Name :` up to END_TYPE, without the members of structures. */
 static void look_at_types(struct look *look, struct lex *lex)
 {
 	while (lex->token.kind != TOKEN_END && !lex_is(lex, "END_TYPE")) {
@@ -99,8 +118,16 @@ static void look_at_types(struct look *look, struct lex *lex)
 			continue;
 		lex_next(lex);
 		skip_newlines(lex);
-		if (lex_is(lex, "STRUCT"))
-			add_name(look, &name, WORD_STRUCT);
+		if (!lex_is(lex, "STRUCT")) {
+			add_named(look, &name);
+			while (!ends_type(lex))
+				lex_next(lex);
+			continue;
+		}
+		add_name(look, &name, WORD_STRUCT);
+		while (lex->token.kind != TOKEN_END && !lex_is(lex, "END_STRUCT") &&
+		       !lex_is(lex, "END_TYPE"))
+			lex_next(lex);
 	}
 }
 

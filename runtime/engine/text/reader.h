@@ -188,11 +188,25 @@ bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
 bool read_array(struct reader *r, struct var *var);
 /** read_init_list - `[1, 2, 3(7)]`, the initial values of an array. */
 bool read_init_list(struct reader *r, struct var *var);
+/** reader_init_text - the initial values in the brackets at the cursor, or without brackets up to
+ * the ;, as text. */
+bool reader_init_text(struct reader *r, struct var *var);
 /** read_init_parts - `(Speed := 5)`, `[(a := 1), 2(a := 3)]`, initial values of structures and
  * instances. It only counts brackets; model/init.h checks the rest. */
 bool read_init_parts(struct reader *r, struct var *var);
 /** reader_type - `: type` of a declaration or function; steps behind it. */
 bool reader_type(struct reader *r, struct var *var);
+/** reader_type_of - the same without the colon; @name: of the type that is declared so, or 0. */
+bool reader_type_of(struct reader *r, struct var *var, uint32_t name);
+/** reader_own_type - the enumeration or subrange at the cursor, if one stands here: `(Red, Green)`,
+ * behind an integer type `(0..100)`. @var has that type; @name: as above. */
+bool reader_own_type(struct reader *r, struct var *var, uint32_t name);
+/** reader_init - `:= value` behind a type, if it stands here. */
+bool reader_init(struct reader *r, struct var *var);
+/** reader_dots - `..`; steps behind it. */
+bool reader_dots(struct reader *r);
+/** reader_add_named - a new type of this name, whose declaration follows. Fails: NULL. */
+struct named_type *reader_add_named(struct reader *r, uint32_t name);
 /** reader_unescape - string id of a string token; errors go to @diags. */
 bool reader_unescape(struct reader *r, const struct token *token,
 		     struct diag_list *diags, uint32_t *id);
@@ -200,6 +214,9 @@ bool reader_unescape(struct reader *r, const struct token *token,
 const char *reader_path(struct reader *r, const char *from, const char *name);
 /** reader_view_end - behind the line whose first word is END_VIEW; NULL: none. */
 const char *reader_view_end(struct lex *lex);
+/** reader_take_word - the row that read_words() made, unless another part of the file has this
+ * name; that of @owner from now on. */
+enum word reader_take_word(struct reader *r, uint32_t name, enum word_kind kind, int owner);
 /** reader_own_word - a new row of the project's words; WORD_COUNT: an error. */
 enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind);
 void reader_add_part(struct reader *r, struct part part);

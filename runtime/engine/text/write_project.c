@@ -132,7 +132,7 @@ static void write_init(const struct sink *sink, const struct project *project,
 {
 	char text[64];
 
-	if (!var->has_init)
+	if (!var->has_init || var->inherits)
 		return;
 	sink_text(sink, " := ");
 	if (var->init_text) {
@@ -177,6 +177,13 @@ static void write_marked_var(const struct sink *sink, const struct project *proj
 	sink_mark(sink, TEXT_VAR, number, false);
 }
 
+/* Marks tell an editor where it finds a block of the variables; others have none. */
+static void mark_block(const struct sink *sink, const struct var_block *block, int index, bool open)
+{
+	if (!(block->flags & VAR_EXTERNAL))
+		sink_mark(sink, TEXT_BLOCK, index, open);
+}
+
 /* VAR … END_VAR number @index of a table. */
 static void write_block(const struct sink *sink, const struct project *project,
 			const struct var_table *table, int index)
@@ -188,17 +195,22 @@ static void write_block(const struct sink *sink, const struct project *project,
 	if (block->flags & (VAR_RESULT | VAR_SFC))
 		return;
 	write_above(sink, project, block->comment);
-	sink_mark(sink, TEXT_BLOCK, index, true);
+	mark_block(sink, block, index, true);
 	sink_text(sink, vars_head(block->flags));
 	if (block->flags & VAR_RETAIN)
 		sink_text(sink, " RETAIN");
+	if (block->flags & VAR_NON_RETAIN)
+		sink_text(sink, " NON_RETAIN");
 	if (block->flags & VAR_CONSTANT)
 		sink_text(sink, " CONSTANT");
 	sink_text(sink, "\n");
 	for (int i = 0; i < block->count; i++)
-		write_marked_var(sink, project, &var[i], block->first + i, &widths);
+		if (block->flags & VAR_EXTERNAL)
+			write_var(sink, project, &var[i], &widths);
+		else
+			write_marked_var(sink, project, &var[i], block->first + i, &widths);
 	sink_text(sink, "END_VAR\n");
-	sink_mark(sink, TEXT_BLOCK, index, false);
+	mark_block(sink, block, index, false);
 }
 
 void text_write_vars(const struct project *project, const struct var_table *table,
@@ -266,6 +278,7 @@ static void write_body(const struct sink *sink, const struct project *project,
 	const int number = (int)(pou - project->pou);
 
 	text_write_vars(project, &pou->vars, sink);
+	text_write_vars(project, &pou->external, sink);
 	sink_mark(sink, TEXT_BODY, number, true);
 	for (int i = 0; i < pou->rung_count; i++) {
 		sink_mark(sink, TEXT_RUNG, i, true);
@@ -348,12 +361,36 @@ static void write_struct(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_STRUCT, number, false);
 }
 
+/* The types of this part that are no structures and stand above structure @before. */
+static void write_named(const struct sink *sink, const struct project *project,
+			const struct part *part, int before)
+{
+	const int number = (int)(part - project->part);
+	struct widths widths = { 0, 0 };
+
+	for (int pass = 0; pass < 2; pass++)
+		for (int i = 0; i < project->named_count; i++) {
+			const struct named_type *type = &project->named[i];
+			const int width = write_width(project, type->name);
+
+			if (type->part != number || type->before != before || !type->like.var)
+				continue;
+			if (pass)
+				write_var(sink, project, type->like.var, &widths);
+			else
+				widths.name = width > widths.name ? width : widths.name;
+		}
+}
+
 static void write_types(const struct sink *sink, const struct project *project,
 			const struct part *part)
 {
 	sink_text(sink, "TYPE\n");
-	for (int i = 0; i < part->count; i++)
+	for (int i = 0; i < part->count; i++) {
+		write_named(sink, project, part, part->index + i);
 		write_struct(sink, project, &project->structure[part->index + i]);
+	}
+	write_named(sink, project, part, part->index + part->count);
 	sink_text(sink, "END_TYPE\n");
 }
 

@@ -340,7 +340,7 @@ static void store_number(struct list *list, const struct meaning *m)
 	struct spot spot = spot_of(list, m);
 	uint32_t to = CODE_OPERAND(spot.type, spot.offset);
 
-	if (meaning_is_indexed(m)) {
+	if (meaning_is_indexed(m) || (meaning_is_ranged(m) && now->kind != RESULT_LITERAL)) {
 		list_deposit(list, m, ALWAYS, result_as(list, m->type));
 		return;
 	}

@@ -379,6 +379,10 @@ void list_call(struct list *list)
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
 	if (call.out && meaning_is_indexed(call.out)) { /* the value if OUT fails */
 		to = list_fetch(list, call.out, call.en, &call.en);
+	} else if (call.out && meaning_is_ranged(call.out)) { /* compared before it is stored */
+		to = CODE_OPERAND(call.out->type,
+				  layout_tail(list->as, RUN_VALUES, call.out->type));
+		list_copy(list, to, list_number(list, call.out, call.out->type));
 	} else if (call.out && result == IEC_BOOL) {
 		out = bool_target(list, call.out, true);
 		to = CODE_OPERAND(IEC_BOOL, out.slot);
@@ -399,8 +403,17 @@ void list_call(struct list *list)
 		emit_call(list, row, word, &call, (struct fn_code){
 			.result = result, .eno = eno.slot, .to = to });
 	}
-	if (call.out && meaning_is_indexed(call.out))
+	if (call.out && meaning_is_ranged(call.out)) {
+		const uint32_t stored = list_deposit(list, call.out, eno.slot, to);
+
+		if (eno.slot == call.en)
+			eno.slot = stored;
+		else
+			list_copy(list, CODE_OPERAND(IEC_BOOL, eno.slot),
+				  CODE_OPERAND(IEC_BOOL, stored));
+	} else if (call.out && meaning_is_indexed(call.out)) {
 		list_deposit(list, call.out, call.en, to);
+	}
 	if (call.eno)
 		finish_at(list, &eno, call.eno_line);
 	if (out.m)
@@ -467,7 +480,7 @@ static void take_pin(struct list *list, const struct meaning *instance,
 		list_write_bits(list, m, &bits);
 		return;
 	}
-	if (meaning_is_indexed(m))
+	if (meaning_is_checked(m))
 		list_deposit(list, m, TRUE_SLOT,
 			     CODE_OPERAND(pin.type, spot.offset));
 	else

@@ -48,7 +48,7 @@ static uint32_t size_of(const struct list *list, const struct meaning *m)
 
 /* @fetched: place of an element that was looked up; 0: none. */
 static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
-		 const struct meaning *m, uint32_t fetched)
+		 const struct meaning *m, uint32_t fetched, const struct var_range *range)
 {
 	struct bits bits;
 
@@ -60,10 +60,24 @@ static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 			       : list_bits(list, m);
 		list_protect(list, to, 1);
 		bits_store(list->as, &bits, to);
+	} else if (range) {
+		list_keep_range(list, range, CODE_OPERAND(pin->type, to), fetched ? fetched :
+				m->kind == MEANING_LITERAL ? list_number(list, m, pin->type) :
+				list_number(list, m, m->type));
 	} else {
 		list_copy(list, CODE_OPERAND(pin->type, to), fetched ? fetched :
 			  list_number(list, m, pin->type));
 	}
+}
+
+/* Of the variable that @pin of an own block or function was made from; NULL: none. */
+static const struct var_range *range_of(const struct list *list, const struct word_row *row,
+					const struct word_pin *pin)
+{
+	const struct project *project = scope_project(list->as->translation->scope);
+	const struct var_table *table = row->owner >= 0 ? &project->pou[row->owner].vars : NULL;
+
+	return table && pin - row->pin < table->count ? table->var[pin - row->pin].range : NULL;
 }
 
 static void take(struct list *list, uint32_t from, enum iec_type type,
@@ -79,7 +93,7 @@ static void take(struct list *list, uint32_t from, enum iec_type type,
 				size_of(list, m));
 	else if (type == IEC_BOOL)
 		list_write_bits(list, m, &bits);
-	else if (meaning_is_indexed(m))
+	else if (meaning_is_checked(m))
 		list_deposit(list, m, CODE_TRUE_AT(list->as->areas),
 			     CODE_OPERAND(type, from));
 	else
@@ -108,7 +122,7 @@ static void feed_all(struct list *list, const struct word_row *row, uint32_t bas
 		if (pin && arg->kind == IL_ARG_IN)
 			feed(list, base + pin->offset, pin,
 			     list_meaning(list, arg->operand),
-			     fetched[i - list->at - 1]);
+			     fetched[i - list->at - 1], range_of(list, row, pin));
 	}
 }
 
@@ -386,7 +400,8 @@ void list_own_fn(struct list *list)
 	     i++) {
 		pin = next_input(row, pin);
 		feed(list, frame->offset + row->pin[pin].offset, &row->pin[pin],
-		     list_meaning(list, list->il->line[i].operand), 0);
+		     list_meaning(list, list->il->line[i].operand), 0,
+		     range_of(list, row, &row->pin[pin]));
 	}
 	emit_call(list, entry);
 	result_now(list, result_at(frame, row), row->pin[0].type);

@@ -21,11 +21,12 @@ static struct indices indices_of(struct list *list, const struct meaning *m)
 	return out;
 }
 
-static void emit_head(struct list *list, enum vm_op op, uint32_t n,
-		      const struct meaning *m, uint32_t en, uint32_t ok)
+/* @dims: number of indices. */
+static void emit_head(struct list *list, enum vm_op op, uint32_t n, uint32_t dims, uint32_t en,
+		      uint32_t ok)
 {
 	list_place(list);
-	emit_op(list->as, op, n | (uint32_t)(m->opens - 1) << 1);
+	emit_op(list->as, op, n | (dims - 1) << 1);
 	emit(list->as, en);
 	emit(list->as, ok);
 }
@@ -41,6 +42,16 @@ static void emit_indices(struct list *list, const struct meaning *m,
 	}
 }
 
+/* The value of a subrange is an index without effect on the place: another value is refused as
+ * another element is. */
+static void emit_range(struct list *list, const struct var_range *range, uint32_t value)
+{
+	emit(list->as, value);
+	emit(list->as, (uint32_t)range->low);
+	emit(list->as, (uint32_t)(range->high - range->low + 1));
+	emit(list->as, 0);
+}
+
 /* ---- a value ---- */
 
 static void emit_value(struct list *list, enum vm_op op, const struct meaning *m,
@@ -49,11 +60,14 @@ static void emit_value(struct list *list, enum vm_op op, const struct meaning *m
 	struct spot spot = layout_spot(list->as, m);
 	struct indices indices = indices_of(list, m);
 	uint32_t base = spot.packed ? spot.offset * 8 + spot.bit : spot.offset;
+	const bool ranged = op == VM_APUT && meaning_is_ranged(m);
 
-	emit_head(list, op, spot.packed, m, operand[0], operand[1]);
+	emit_head(list, op, spot.packed, m->opens + ranged, operand[0], operand[1]);
 	emit(list->as, operand[2]);
 	emit(list->as, CODE_OPERAND(m->type, base));
 	emit_indices(list, m, &indices, spot.packed);
+	if (ranged)
+		emit_range(list, m->like->range, operand[2]);
 }
 
 /* ---- a whole ---- */
@@ -65,7 +79,7 @@ static void emit_whole(struct list *list, const struct meaning *m, bool put,
 	struct indices indices = indices_of(list, m);
 	uint32_t base = layout_spot(list->as, m).offset;
 
-	emit_head(list, VM_ABLOCK, put, m, operand[0], operand[1]);
+	emit_head(list, VM_ABLOCK, put, m->opens, operand[0], operand[1]);
 	emit(list->as, put ? base : operand[2]);
 	emit(list->as, put ? operand[2] : base);
 	emit(list->as, scope_size(list->as->translation->scope, m));
@@ -120,4 +134,16 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 	else
 		emit_value(list, VM_APUT, m, (uint32_t[]){ en, ok, from });
 	return ok;
+}
+
+void list_keep_range(struct list *list, const struct var_range *range, uint32_t to,
+		     uint32_t from)
+{
+	const uint32_t ok = scratch_new(list->as);
+
+	list_protect(list, CODE_OFFSET(to), iec_type_row((enum iec_type)CODE_TYPE(to))->size);
+	emit_head(list, VM_APUT, 0, 1, CODE_TRUE_AT(list->as->areas), ok);
+	emit(list->as, from);
+	emit(list->as, to);
+	emit_range(list, range, from);
 }

@@ -129,6 +129,9 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
  * that tells whether it exists. */
 uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		      uint32_t from);
+/** list_keep_range - stores @from at @to, if it is a value of @range; typed words. */
+void list_keep_range(struct list *list, const struct var_range *range, uint32_t to,
+		     uint32_t from);
 /** list_fetch_whole - a structure or array behind such an index goes to @to; returns as
  * list_deposit(). */
 uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,

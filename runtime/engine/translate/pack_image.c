@@ -97,6 +97,22 @@ static size_t print_bounds(char *out, struct var_array array)
 				(long long)array.low + array.count - 1);
 }
 
+/* Of several dimensions, the indices of element @element but the last one: "[2][1]"; of one
+ * dimension nothing. */
+static size_t print_row(char *out, const struct var_array *dim, int dims, uint32_t element)
+{
+	size_t len = 0;
+
+	*out = '\0';
+	for (int i = 0; i + 1 < dims; i++) {
+		const uint32_t each = vars_flat(dim + i + 1, dims - i - 1).count;
+
+		len += (size_t)snprintf(out + len, BOUNDS, "[%lld]",
+					(long long)dim[i].low + element / each % dim[i].count);
+	}
+	return len;
+}
+
 /* The symbol of an array carries its bounds. */
 static void add_symbol_name(struct assembler *as, struct maps *maps,
 			    const struct var *var)
@@ -114,9 +130,42 @@ static void add_symbol_name(struct assembler *as, struct maps *maps,
 	maps_string(as, maps, text, len);
 }
 
+/* One symbol for each row of an array of several dimensions: Table[2][1..3]. */
+static void add_rows(struct assembler *as, struct maps *maps, const struct pou *pou,
+		     const struct var *var, int index)
+{
+	const struct names *names = &as->translation->project->names;
+	const struct var_array last = var->dim[var->dims - 1];
+	const uint32_t unit = shape_of_var(&as->translation->project->words, var).unit;
+	const uint32_t word = symbol_word(as, maps, pou, var, index);
+	const size_t head = names_len(names, var->name);
+	char text[LIMIT_NAME + (LIMIT_INDICES + 1) * BOUNDS];
+
+	memcpy(text, names_text(names, var->name), head);
+	for (uint32_t i = 0; i < var->array.count && !as->failed; i += last.count) {
+		uint32_t *symbol = arena_push(as->arena, &maps->symbol, &maps->symbol_count,
+					      sizeof(*symbol));
+		size_t len = head;
+
+		if (!symbol) {
+			as->failed = true;
+			return;
+		}
+		*symbol = word + i * (CODE_TYPE(word) & SYMBOL_BIT ? 1 : unit);
+		len += print_row(text + len, var->dim, var->dims, i);
+		len += print_bounds(text + len, last);
+		maps_string(as, maps, text, len);
+	}
+}
+
 static void add_symbol(struct assembler *as, struct maps *maps,
 		       const struct pou *pou, const struct var *var, int index)
 {
+	if (var->dims > 1) {
+		add_rows(as, maps, pou, var, index);
+		return;
+	}
+
 	uint32_t *symbol = arena_push(as->arena, &maps->symbol,
 				      &maps->symbol_count, sizeof(*symbol));
 
@@ -192,14 +241,38 @@ static size_t maps_join_index(char *out, const struct word_pin *pin, uint32_t el
 				(long long)pin->low + element);
 }
 
+/* The same of a variable or member that may have several dimensions; NULL: it has one. */
+static size_t join_indices(char *out, const struct word_pin *pin, const struct var *var,
+			   uint32_t element)
+{
+	size_t len;
+
+	if (!var || var->dims < 2)
+		return maps_join_index(out, pin, element);
+	len = print_row(out, var->dim, var->dims, element);
+	const struct var_array last = var->dim[var->dims - 1];
+
+	if (pin->type != IEC_NONE)
+		return len + print_bounds(out + len, last);
+	return len + (size_t)snprintf(out + len, BOUNDS, "[%lld]",
+				      (long long)last.low + element % last.count);
+}
+
+/* Elements of a member that one symbol names: a row of values, else one. */
+static uint32_t row_of(const struct word_pin *pin, const struct var *var)
+{
+	return pin->type == IEC_NONE ? 1 :
+	       var && var->dims > 1 ? var->dim[var->dims - 1].count : pin->elements;
+}
+
 /* The next pin to name; an array of structures gives one element at a time. */
-static const struct word_pin *next_pin(struct level *top, uint32_t *element)
+static const struct word_pin *next_pin(struct level *top, const struct var *var, uint32_t *element)
 {
 	const struct word_pin *pin = &top->row->pin[top->next];
 
-	*element = top->element++;
-	if (pin->type != IEC_NONE || pin->dir == PIN_NONE ||
-	    top->element >= pin->elements) {
+	*element = top->element;
+	top->element += pin->elements ? row_of(pin, var) : 1;
+	if (pin->dir == PIN_NONE || top->element >= pin->elements) {
 		top->next++;
 		top->element = 0;
 	}
@@ -217,6 +290,19 @@ static const char *edge_key(const struct assembler *as, const struct word_row *r
 	    !unit->temps || index >= unit->temps->edge_key_count)
 		return NULL;
 	return unit->temps->edge_key[index];
+}
+
+/* The variable that the next pin was made from; NULL: none. */
+static const struct var *member_of(const struct assembler *as, const struct level *top)
+{
+	const struct project *project = as->translation->project;
+	const struct var_table *table = NULL;
+
+	if (top->row->owner >= 0)
+		table = top->row->kind == WORD_STRUCT && *top->row->word ?
+			&project->structure[top->row->owner].vars :
+			&project->pou[top->row->owner].vars;
+	return table && top->next < table->count ? &table->var[top->next] : NULL;
 }
 
 /* All parts of one instance or structure of the project, at every depth; @name holds its own
@@ -241,7 +327,9 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 			depth--;
 			continue;
 		}
-		pin = next_pin(top, &element);
+		const struct var *var = member_of(as, top);
+
+		pin = next_pin(top, var, &element);
 		if (pin->dir == PIN_NONE)
 			continue;
 		part = *pin->name ? pin->name :
@@ -251,7 +339,7 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 		name[len++] = '.';
 		memcpy(name + len, part, strlen(part) + 1);
 		len += strlen(part);
-		len += maps_join_index(name + len, pin, element);
+		len += join_indices(name + len, pin, var, element);
 		at = top->base + pin->offset + element * shape_of(words, pin).unit;
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
 			level[++depth] = (struct level){
@@ -282,7 +370,7 @@ static void add_whole(struct assembler *as, struct maps *maps,
 	}
 	memcpy(name, project_text(project, var->name), len);
 	for (uint32_t i = 0; i < count && !as->failed; i++) {
-		maps_join_index(name + len, &like, i);
+		join_indices(name + len, &like, var, i);
 		if (word_is_own(var->fb))
 			add_parts(as, maps, name, var->fb, offset + i * unit, marks);
 		else
@@ -597,7 +685,7 @@ static void keep_instance(struct assembler *as, struct maps *maps, char *name,
 		*inner = (struct kept){ .unit = (int)unit, .base = base,
 			.len = join_name(name, len,
 					 project_text(project, var->name)) };
-		inner->len += maps_join_index(name + inner->len, &like, element);
+		inner->len += join_indices(name + inner->len, &like, var, element);
 		add_watched(as, maps, inner, name);
 		depth++;
 		while (depth >= 0 &&

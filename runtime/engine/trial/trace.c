@@ -5,6 +5,7 @@
  */
 #include "engine/trial/trace.h"
 
+#include "engine/model/named.h"
 #include "engine/scan/value.h"
 #include "engine/trial/value.h"
 
@@ -76,6 +77,17 @@ static bool trace_update(struct trace_column *column, union iec_value value)
 	return !same;
 }
 
+/* What declares @name, if its values have names. */
+static const struct var *name_values(const struct trace *trace, const char *name, size_t len)
+{
+	const struct var *var;
+
+	if (!trace->project || !trace->project->enumeration_count)
+		return NULL;
+	var = named_of_path(trace->project, name, len);
+	return var && var->enumeration ? var : NULL;
+}
+
 static bool add_column(struct trace *trace, const struct image *image, const char *name,
 		       size_t len, struct location at)
 {
@@ -91,6 +103,7 @@ static bool add_column(struct trace *trace, const struct image *image, const cha
 	column->name = copy;
 	column->at = at;
 	column->image = image;
+	column->named = name_values(trace, name, len);
 	if (at.type == IEC_STRING && !own_text(trace, column))
 		return false;
 	if (trace->begun)
@@ -284,11 +297,24 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 	       complain(diags, place, why, "", 0);
 }
 
+/* Red of an enumeration, the constant of any other type. */
+static void print_value(const struct trace *trace, const struct trace_column *column, char *text,
+			size_t size)
+{
+	const char *word = column->named ? named_word(trace->project, column->named,
+						      column->last.i) : NULL;
+
+	if (word)
+		snprintf(text, size, "%s", word);
+	else
+		iec_value_print(column->at.type, column->last, text, size);
+}
+
 static void write_value(struct trace *trace, const struct trace_column *column)
 {
 	char text[IEC_VALUE_TEXT];
 
-	iec_value_print(column->at.type, column->last, text, sizeof(text));
+	print_value(trace, column, text, sizeof(text));
 	sink_text(trace->out, text);
 }
 
@@ -373,8 +399,7 @@ static void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		const struct trace_column *column = &trace->column[i];
 
-		iec_value_print(column->at.type, column->last, text,
-				sizeof(text));
+		print_value(trace, column, text, sizeof(text));
 		sink_text(trace->out, ",");
 		csv_field(trace, text);
 	}

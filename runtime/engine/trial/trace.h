@@ -12,6 +12,7 @@
 
 #include "engine/base/arena.h"
 #include "engine/base/diag.h"
+#include "engine/model/project.h"
 #include "engine/scan/image.h"
 #include "engine/base/sink.h"
 
@@ -21,6 +22,7 @@ struct trace_column {
 	const char *name;      /* in the trace's arena                       */
 	const struct image *image; /* whose variable it is                    */
 	struct location at;
+	const struct var *named; /* declares it, with an enumeration; NULL: none */
 	bool gone;             /* the image has no such variable now           */
 	union iec_value last;  /* value shown last; 0 to begin with; a STRING's bytes are
 			        * the trace's own */
@@ -34,6 +36,7 @@ struct trace {
 	const struct sink *out;
 	enum trace_form form;
 	bool changes;          /* lines and CSV: only what changed           */
+	struct project *project; /* set likewise, or NULL: values of enumerations get their names */
 	const bool *stop;      /* set by the caller after trace_init, or NULL: when it is
 			        * true, running scans ends */
 	bool begun;            /* the head of CSV or VCD is written          */

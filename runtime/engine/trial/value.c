@@ -235,10 +235,31 @@ static bool is_ambiguous(const struct program *p, const char *name, size_t len)
 	return local;
 }
 
+/* `Table[1, 2]` as symbols have it: Table[1][2]. */
+static size_t split_indices(const char *name, size_t len, char *out, size_t size)
+{
+	size_t used = 0;
+
+	for (size_t i = 0; i < len && used + 2 < size; i++) {
+		if (name[i] == ' ')
+			continue;
+		if (name[i] == ',')
+			out[used++] = ']';
+		out[used++] = name[i] == ',' ? '[' : name[i];
+	}
+	return used;
+}
+
 struct location value_find(const struct image *image, const char *name,
 			   size_t len, enum diag_id *why)
 {
 	struct location at = { .type = IEC_NONE };
+	char split[2 * LIMIT_NAME];
+
+	if (memchr(name, ',', len)) {
+		len = split_indices(name, len, split, sizeof(split));
+		name = split;
+	}
 
 	/* In a project of ClassicLadder %QW3 has its meaning there. */
 	if (image->program->classic)

@@ -496,7 +496,13 @@ static void walk_written(struct xref_walk *walk, struct var *var)
 		return;
 	xref_all(walk, &var->written->bound[0], XREF_READ);
 	xref_all(walk, &var->written->bound[1], XREF_READ);
+	for (int i = 0; var->written->dim && i < var->own_dims; i++) {
+		xref_all(walk, &var->written->dim[i][0], XREF_READ);
+		xref_all(walk, &var->written->dim[i][1], XREF_READ);
+	}
 	xref_all(walk, &var->written->capacity, XREF_READ);
+	xref_all(walk, &var->written->range[0], XREF_READ);
+	xref_all(walk, &var->written->range[1], XREF_READ);
 	if (var->written->initial && !init_has_parts(var) && !var->array.count)
 		xref_all(walk, &var->init_text, XREF_READ);
 }

@@ -1257,8 +1257,47 @@ static bool put_indexed(struct maker *m, const struct chain *chain)
 	return true;
 }
 
+static void put_element(struct maker *m, const uint32_t *at, uint32_t n, bool store);
+
+/* A store into a subrange: its last index is the value, and moves nothing. */
+static bool put_ranged(struct maker *m, const uint32_t *at, uint32_t n)
+{
+	const uint32_t dims = 1 + (n >> 1), label = m->labels;
+	const uint32_t *last = at + 4 + (dims - 1) * CODE_DIMENSION;
+	char *ok = room(m), *value = room(m), *to = room(m), *index = room(m);
+	struct term en;
+
+	if (last[3] || !term_of(m, at[0], &en) || !operand(m, IEC_BOOL, at[1], ok) ||
+	    !typed(m, at[2], value) || (dims == 1 && !typed(m, at[3], to)))
+		return false;
+	m->labels++;
+	if (!(en.known && en.value)) {
+		load(m, &en, false);
+		jump(m, "JMPCN", "F", label);
+	}
+	if (put_range(m, last - 4, label, index)) {
+		if (dims > 1) {
+			put_element(m, at, n - 2, true);
+		} else {
+			out(m, "LD", value);
+			out(m, "ST", to);
+			out(m, "LD", "TRUE");
+			out(m, "ST", ok);
+		}
+		jump(m, "JMP", "D", label);
+	}
+	put_label(m, "F", label);
+	count_failure(m, &en);
+	out(m, "LD", "FALSE");
+	out(m, "ST", ok);
+	put_label(m, "D", label);
+	return true;
+}
+
 static void put_element(struct maker *m, const uint32_t *at, uint32_t n, bool store)
 {
+	if (store && put_ranged(m, at, n))
+		return;
 	const struct chain chain = { .at = at, .dimension = at + 4, .dimensions = 1 + (n >> 1),
 				     .bit = n & 1, .store = store };
 

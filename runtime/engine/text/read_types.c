@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_types - TYPE … END_TYPE, and types that stand in a declaration itself: enumerations,
+ * subranges.
+ *
+ * A name of a type may be used above its declaration: model/named.c finds what is behind it when
+ * the project has been read.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/literal.h"
+#include "engine/model/named.h"
+
+#include <stdio.h>
+
+/* ---- enumerations and subranges ---- */
+
+struct named_type *reader_add_named(struct reader *r, uint32_t name)
+{
+	struct project *project = r->project;
+	struct named_type *type;
+
+	if (project->named_count == LIMIT_OWN_WORDS) {
+		reader_fail_many(r, DIAG_TOO_MANY, "types", LIMIT_OWN_WORDS);
+		return NULL;
+	}
+	type = arena_push(&project->arena, &project->named, &project->named_count, sizeof(*type));
+	if (!type) {
+		r->no_memory = true;
+		return NULL;
+	}
+	*type = (struct named_type){ .name = name, .part = -1, .file = r->place.file };
+	type->fold = names_fold(&project->names, name);
+	return type;
+}
+
+/* `:= 5` behind a value; @number is the next one without it. */
+static bool read_number(struct reader *r, enum iec_type type, struct enum_value *value)
+{
+	union iec_value number;
+
+	if (!lex_is(&r->lex, ":="))
+		return true;
+	reader_step(r);
+	buffer_clear(&r->text);
+	if (!read_constant(r, type, &number))
+		return false;
+	value->text = buffer_take(r, &r->text);
+	value->number = number.i;
+	return true;
+}
+
+static bool read_value(struct reader *r, enum iec_type type, int64_t *next)
+{
+	struct project *project = r->project;
+	struct enum_value value = { .number = *next, .enumeration = project->enumeration_count - 1 };
+	struct enum_value *out;
+
+	if (!reader_name(r, "name of a value", &value.name))
+		return false;
+	value.fold = names_fold(&project->names, value.name);
+	if (named_value(project, value.enumeration, value.fold))
+		return reader_fail_token(r, DIAG_DUPLICATE_NAME);
+	reader_step(r);
+	if (!read_number(r, type, &value))
+		return false;
+	if (value.number < iec_type_row(type)->low || value.number > iec_type_row(type)->high)
+		return reader_fail_word(r, DIAG_LITERAL_RANGE, names_text(&project->names, value.name));
+	out = arena_push(&project->arena, &project->enum_value, &project->enum_value_count,
+			 sizeof(*out));
+	if (!out)
+		return r->no_memory = true, false;
+	*out = value;
+	project->enumeration[value.enumeration].count++;
+	*next = value.number + 1;
+	return true;
+}
+
+/* `(Red, Green := 5)`; the cursor stands on the (. @name: of the type; 0: of a variable. */
+static bool read_enumeration(struct reader *r, struct var *var, uint32_t name)
+{
+	struct project *project = r->project;
+	struct enumeration *list;
+	int64_t next = 0;
+
+	if (project->enumeration_count == LIMIT_OWN_WORDS)
+		return reader_fail_many(r, DIAG_TOO_MANY, "enumerations", LIMIT_OWN_WORDS);
+	list = arena_push(&project->arena, &project->enumeration, &project->enumeration_count,
+			  sizeof(*list));
+	if (!list)
+		return r->no_memory = true, false;
+	*list = (struct enumeration){ .first = project->enum_value_count, .name = name,
+				      .based = var->type != IEC_NONE };
+	var->enumeration = (uint16_t)project->enumeration_count;
+	if (var->type == IEC_NONE)
+		var->type = IEC_INT;
+	list->type = var->type;
+	do {
+		reader_step(r);
+		if (!read_value(r, var->type, &next))
+			return false;
+	} while (reader_is(r, ','));
+	if (!reader_is(r, ')'))
+		return reader_fail_word(r, DIAG_EXPECTED, ")");
+	reader_step(r);
+	return true;
+}
+
+/* A limit of a subrange: a number, or an expression that check/settle.c computes. */
+static bool read_limit(struct reader *r, struct var *var, enum written_place where, int64_t *out,
+		       uint32_t *text)
+{
+	union iec_value value = { .i = 0 };
+
+	buffer_clear(&r->text);
+	if (reader_begins_expression(r, var->type)) {
+		if (!reader_expression(r, var, where))
+			return false;
+	} else if (!read_constant(r, var->type, &value)) {
+		return false;
+	}
+	*text = buffer_take(r, &r->text);
+	*out = value.i;
+	return true;
+}
+
+/* `(0..100)` behind an integer type; the cursor stands on the (. */
+static bool read_range(struct reader *r, struct var *var)
+{
+	struct var_range *range = arena_alloc(&r->project->arena, sizeof(*range));
+	struct var_written *before = var->written;
+	uint32_t low, high;
+
+	if (!range)
+		return r->no_memory = true, false;
+	reader_step(r);
+	if (!read_limit(r, var, WRITTEN_LEAST, &range->low, &low) || !reader_dots(r) ||
+	    !read_limit(r, var, WRITTEN_MOST, &range->high, &high))
+		return false;
+	if (!reader_is(r, ')'))
+		return reader_fail_word(r, DIAG_EXPECTED, ")");
+	if (var->written != before || (var->written && var->written->at[WRITTEN_LEAST].line) ||
+	    (var->written && var->written->at[WRITTEN_MOST].line)) {
+		var->written->range[0] = low;
+		var->written->range[1] = high;
+	} else if (!var_range_fits(range)) {
+		char text[48];
+
+		snprintf(text, sizeof(text), "%lld..%lld", (long long)range->low,
+			 (long long)range->high);
+		return reader_fail_word(r, DIAG_BAD_RANGE, text);
+	}
+	reader_step(r);
+	r->project->ranges = true;
+	var->range = range;
+	return true;
+}
+
+/* Is what stands in the parentheses at the cursor a list of names? */
+static bool is_enumeration(const struct reader *r)
+{
+	struct lex lex = r->lex;
+
+	lex.newlines = lex.comments = false;
+	if (lex_next(&lex) != TOKEN_NAME)
+		return false;
+	lex_next(&lex);
+	return lex_is(&lex, ",") || lex_is(&lex, ":=") || lex_is(&lex, ")");
+}
+
+bool reader_own_type(struct reader *r, struct var *var, uint32_t name)
+{
+	const struct token *token = &r->lex.token;
+	struct enumeration *list;
+	enum iec_type base;
+
+	if (!reader_is(r, '('))
+		return true;
+	if (var->type != IEC_NONE && !(iec_type_row(var->type)->class & ANY_INT))
+		return true;
+	if (var->type != IEC_NONE && !is_enumeration(r))
+		return read_range(r, var);
+	if (!read_enumeration(r, var, name))
+		return false;
+	base = token->kind == TOKEN_NAME ? iec_type_find(token->text, token->len) : IEC_NONE;
+	list = &r->project->enumeration[var->enumeration - 1];
+	if (list->based || !(iec_type_row(base)->class & ANY_INT))
+		return true;
+	var->type = list->type = base; /* as TwinCAT writes it: (Red, Green) UINT */
+	list->based = true;
+	reader_step(r);
+	return true;
+}
+
+/* ---- TYPE ---- */
+
+/* `Name :`; steps behind the colon. */
+static bool read_head(struct reader *r, struct structure *out)
+{
+	if (!reader_name(r, "name of a type", &out->name))
+		return false;
+	out->line = r->lex.token.line;
+	reader_step(r);
+	if (!reader_is(r, ':'))
+		return reader_fail_word(r, DIAG_EXPECTED, ":");
+	reader_step(r);
+	return true;
+}
+
+/* STRUCT … END_STRUCT; with the comment behind it. */
+static bool read_struct(struct reader *r, struct structure *out)
+{
+	r->across_lines = false;
+	reader_next(r);
+	read_members(r, &out->vars);
+	if (!lex_is(&r->lex, "END_STRUCT"))
+		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
+	reader_next(r);
+	if (reader_is(r, ';'))
+		reader_next(r);
+	else if (!lex_is(&r->lex, "END_TYPE") && r->lex.token.kind != TOKEN_NEWLINE)
+		return reader_fail_word(r, DIAG_EXPECTED, ";");
+	out->comment = buffer_take(r, &r->note);
+	return true;
+}
+
+/* The type that read_words() made, unless another one has this name. */
+static struct named_type *take_named(struct reader *r, uint32_t name)
+{
+	struct project *project = r->project;
+	const int at = named_find(project, names_fold(&project->names, name));
+
+	if (at < 0 || project->named[at].like.var)
+		return reader_add_named(r, name);
+	return &project->named[at];
+}
+
+/* A type that is no structure, behind its colon. */
+static bool add_named(struct reader *r, const struct structure *head, const struct part *part)
+{
+	struct project *project = r->project;
+	struct var *like = arena_alloc(&project->arena, sizeof(*like));
+	struct var_block *block = arena_alloc(&project->arena, sizeof(*block));
+	struct named_type *type;
+	bool good;
+
+	if (!like || !block)
+		return r->no_memory = true, false;
+	*like = (struct var){ .name = head->name, .line = head->line };
+	like->fold = names_fold(&project->names, like->name);
+	type = take_named(r, head->name);
+	if (!type)
+		return false;
+	*block = (struct var_block){ .count = 1, .line = head->line };
+	type->part = project->part_count;
+	type->before = part->index + part->count;
+	type->file = r->place.file;
+	type->line = head->line;
+	type->like = (struct var_table){ .var = like, .count = 1, .block = block, .block_count = 1 };
+	const int own = (int)(type - project->named);
+
+	good = reader_type_of(r, like, head->name) && reader_init(r, like);
+	if (good && reader_is(r, ';'))
+		reader_next(r);
+	else if (good)
+		good = reader_fail_word(r, DIAG_EXPECTED, ";");
+	project->named[own].like.var->comment = buffer_take(r, &r->note);
+	return good;
+}
+
+static void add_struct(struct reader *r, const struct structure *head, struct part *part)
+{
+	struct project *project = r->project;
+	int index = project->structure_count;
+	struct structure *out = arena_push(&project->arena, &project->structure,
+					   &project->structure_count, sizeof(*out));
+	struct structure made = *head;
+	bool good;
+
+	if (!out) {
+		r->no_memory = true;
+		return;
+	}
+	good = read_struct(r, &made);
+	made.word = reader_take_word(r, made.name, WORD_STRUCT, index);
+	project->structure[index] = made;
+	part->count++;
+	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
+	       !lex_is(&r->lex, "END_STRUCT") && !lex_is(&r->lex, "END_TYPE"))
+		reader_next(r);
+	if (!good && lex_is(&r->lex, "END_STRUCT"))
+		reader_skip_line(r);
+}
+
+/* `Name : … ;` */
+static void add_type(struct reader *r, struct part *part)
+{
+	struct structure head = { .file = r->place.file, .word = WORD_COUNT };
+	bool good;
+
+	r->across_lines = true;
+	good = read_head(r, &head);
+	if (good && lex_is(&r->lex, "STRUCT")) {
+		add_struct(r, &head, part);
+		return;
+	}
+	r->begun = r->lex.token.line;
+	good = good && add_named(r, &head, part);
+	r->across_lines = false;
+	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
+	       !lex_is(&r->lex, "END_TYPE") && !lex_is(&r->lex, "END_STRUCT")) {
+		good = reader_is(r, ';');
+		reader_next(r);
+	}
+	if (!good && lex_is(&r->lex, "END_STRUCT"))
+		reader_skip_line(r);
+}
+
+void read_types(struct reader *r)
+{
+	const struct token head = r->lex.token;
+	struct part part = { .kind = PART_TYPES,
+			     .index = r->project->structure_count };
+
+	part.comment = buffer_take(r, &r->above);
+	r->comments = COMMENT_NOTE;
+	reader_next(r);
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
+		    lex_is(&r->lex, "END_TYPE") || read_ends_block(r))
+			break;
+		add_type(r, &part);
+	}
+	if (r->note.len > 0 && part.count > 0) {
+		struct structure *last = &r->project->structure[
+			r->project->structure_count - 1];
+
+		last->comment = comment_join(r, last->comment, &r->note, COMMENT_NOTE);
+	} else if (r->note.len > 0) {
+		part.comment = comment_join(r, part.comment, &r->note, COMMENT_ABOVE);
+	}
+	r->comments = COMMENT_ABOVE;
+	reader_add_part(r, part);
+	if (lex_is(&r->lex, "END_TYPE")) {
+		reader_next(r);
+		reader_end_head(r);
+		return;
+	}
+	reader_fail_open(r, &head);
+}
