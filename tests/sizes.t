@@ -35,9 +35,9 @@ measure() {
 	if [ "$bytes" -eq 0 ] || [ "$bytes" -gt "$limit" ]; then not='not ' failed=1; fi
 	echo "${not}ok $n - $title has $bytes bytes, at most $limit"
 }
-# 342 KB with the link; 20 KB more for tasks that interrupt, alarms, clocks and what the guard needs; 22 KB for
+# 342 KB with the link; 20 KB more for tasks that interrupt, alarms, clocks and what the guard needs; 27 KB for
 # Structured Text and the declarations of plain IEC files.
-measure 'ladderd' 393216 '' CFLAGS=-O2
+measure 'ladderd' 398336 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core

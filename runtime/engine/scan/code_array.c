@@ -95,7 +95,8 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 	uint32_t offset = CODE_OFFSET(first), type = CODE_TYPE(first);
 	uint64_t end;
 
-	if (!count || !verify_use(v, offset, type, write))
+	/* A store with a stride of 0 is the check of a subrange: only its index matters. */
+	if (!count || (!stride && !write) || !verify_use(v, offset, type, write))
 		return false;
 	end = offset + (uint64_t)(count - 1) * stride +
 	      iec_type_row((enum iec_type)type)->size;

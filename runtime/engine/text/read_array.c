@@ -310,6 +310,8 @@ bool reader_init_text(struct reader *r, struct var *var)
 			return reader_fail_word(r, DIAG_EXPECTED, "name of a member");
 		if (!count_bracket(r, &open, &depth))
 			return false;
+		if (bare && depth == 0) /* its ] was not opened */
+			return reader_fail_word(r, DIAG_EXPECTED, ";");
 		add_part(r, last, sign);
 		sign = (is_symbol(token, "-") || is_symbol(token, "+")) && is_before_value(last);
 		before = *token;

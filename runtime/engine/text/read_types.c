@@ -236,7 +236,8 @@ static struct named_type *take_named(struct reader *r, uint32_t name)
 }
 
 /* A type that is no structure, behind its colon. */
-static bool add_named(struct reader *r, const struct structure *head, const struct part *part)
+static bool add_named(struct reader *r, const struct structure *head, const struct part *part,
+		      uint32_t **comment)
 {
 	struct project *project = r->project;
 	struct var *like = arena_alloc(&project->arena, sizeof(*like));
@@ -264,7 +265,8 @@ static bool add_named(struct reader *r, const struct structure *head, const stru
 		reader_next(r);
 	else if (good)
 		good = reader_fail_word(r, DIAG_EXPECTED, ";");
-	project->named[own].like.var->comment = buffer_take(r, &r->note);
+	*comment = &project->named[own].like.var->comment;
+	**comment = buffer_take(r, &r->note);
 	return good;
 }
 
@@ -292,8 +294,8 @@ static void add_struct(struct reader *r, const struct structure *head, struct pa
 		reader_skip_line(r);
 }
 
-/* `Name : … ;` */
-static void add_type(struct reader *r, struct part *part)
+/* `Name : … ;` @comment: gets the place of its comment. */
+static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 {
 	struct structure head = { .file = r->place.file, .word = WORD_COUNT };
 	bool good;
@@ -302,10 +304,12 @@ static void add_type(struct reader *r, struct part *part)
 	good = read_head(r, &head);
 	if (good && lex_is(&r->lex, "STRUCT")) {
 		add_struct(r, &head, part);
+		*comment = part->count ? &r->project->structure[r->project->structure_count - 1].comment :
+					 NULL;
 		return;
 	}
 	r->begun = r->lex.token.line;
-	good = good && add_named(r, &head, part);
+	good = good && add_named(r, &head, part, comment);
 	r->across_lines = false;
 	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
 	       !lex_is(&r->lex, "END_TYPE") && !lex_is(&r->lex, "END_STRUCT")) {
@@ -321,6 +325,7 @@ void read_types(struct reader *r)
 	const struct token head = r->lex.token;
 	struct part part = { .kind = PART_TYPES,
 			     .index = r->project->structure_count };
+	uint32_t *last = NULL; /* comment of the last type                    */
 
 	part.comment = buffer_take(r, &r->above);
 	r->comments = COMMENT_NOTE;
@@ -330,13 +335,10 @@ void read_types(struct reader *r)
 		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
 		    lex_is(&r->lex, "END_TYPE") || read_ends_block(r))
 			break;
-		add_type(r, &part);
+		add_type(r, &part, &last);
 	}
-	if (r->note.len > 0 && part.count > 0) {
-		struct structure *last = &r->project->structure[
-			r->project->structure_count - 1];
-
-		last->comment = comment_join(r, last->comment, &r->note, COMMENT_NOTE);
+	if (r->note.len > 0 && last) {
+		*last = comment_join(r, *last, &r->note, COMMENT_NOTE);
 	} else if (r->note.len > 0) {
 		part.comment = comment_join(r, part.comment, &r->note, COMMENT_ABOVE);
 	}

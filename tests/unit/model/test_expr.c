@@ -108,7 +108,7 @@ static void indices(void)
 	CHECK_TEXT(tree("a[(1])"), "LD122");
 	CHECK_TEXT(tree("a]"), "LD122");
 	CHECK_TEXT(tree("a[]"), "LD122");
-	CHECK_TEXT(tree("a[1][2]"), "LD122");
+	CHECK_TEXT(tree("a[1][2]"), "a[1][2]");
 	CHECK_TEXT(tree("5[1]"), "LD122");
 	CHECK_TEXT(tree("a[i := 1]"), "LD122");
 	CHECK_TEXT(tree("a[i] := b"), "b");

@@ -111,13 +111,13 @@ static void test_array_errors(void)
 	fails(V("A : ARRAY OF INT;"), "LD156 3 0 (0,0) 11 [" DIAG_AND "OF");
 	fails(V("A : ARRAY[1] OF INT;"), "LD156 3 0 (0,0) 12 .." DIAG_AND "]");
 	fails(V("A : ARRAY[1..] OF INT;"), "LD140 3 0 (0,0) 14 ]");
-	fails(V("A : ARRAY[1..2, 1..2] OF INT;"), "LD156 3 0 (0,0) 15 ]" DIAG_AND ",");
+	fails(V("A : ARRAY[1..2, 1] OF INT;"), "LD156 3 0 (0,0) 18 .." DIAG_AND "]");
 	fails(V("A : ARRAY[2..1] OF INT;"), "LD140 3 0 (0,0) 15 2..1");
 	fails(V("A : ARRAY[-9223372036854775808..1] OF INT;"),
 	      "LD140 3 0 (0,0) 12 9223372036854775808");
 	fails(V("A : ARRAY[1..2] INT;"), "LD156 3 0 (0,0) 17 OF" DIAG_AND "INT");
 	fails(V("A : ARRAY[1..2] OF FOO;"), "LD118 3 0 (0,0) 20 FOO");
-	fails(V("A : ARRAY[1..2] OF INT := 1;"), "LD156 3 0 (0,0) 27 [" DIAG_AND "1");
+	fails(V("A : ARRAY[1..2] OF INT := 1];"), "LD156 3 0 (0,0) 28 ;" DIAG_AND "]");
 	fails(V("A : ARRAY[1..2] OF INT := [];"), "LD107 3 0 (0,0) 28 constant" DIAG_AND "]");
 	fails(V("A : ARRAY[1..2] OF INT := [1 2];"), "LD157 3 0 (0,0) 30 ," DIAG_AND "]" DIAG_AND "2");
 	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD362 3 0 (0,0) 28 0");
@@ -131,7 +131,6 @@ static void test_array_errors(void)
 	fails(LD("RUNG\n| NO A[ | COIL B |\n"), "LD107 5 1 (1,1) 9 index" DIAG_AND "|");
 	fails(LD("RUNG\n| NO A[i | COIL B |\n"), "LD156 5 1 (1,1) 10 ]" DIAG_AND "|");
 	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD156 5 1 (1,1) 10 ]" DIAG_AND "+");
-	fails(LD("RUNG\n| NO A[i][j] | COIL B |\n"), "LD121 5 1 (1,1) 10 [");
 	fails(LD("RUNG\n| NO A] | COIL B |\n"), "LD121 5 1 (1,1) 7 ]");
 	fails(LD("RUNG\n| [ A[i + 1 ] | COIL B |\n"), "LD122 5 1 (1,1) 15 |");
 	fails(LD("RUNG\n| [ A[(i + 1] ] | COIL B |\n"), "LD122 5 1 (1,1) 13 ]");
