@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void complain_output(struct call *call)
 {
@@ -222,7 +223,9 @@ static bool load_project(struct ladder *ladder, const char *path)
 
 bool report_read_program(struct ladder *ladder, const char *path)
 {
-	const bool many = strchr(path, '\n') || (path_is_folder(path) && !ladder_is_classic(path));
+	/* Several files stand one a line; but a name may have a newline, too. */
+	const bool many = (strchr(path, '\n') && access(path, F_OK) != 0) ||
+			  (path_is_folder(path) && !ladder_is_classic(path));
 
 	return many ? load_project(ladder, path) : ladder_load(ladder, path);
 }

@@ -139,7 +139,8 @@ static bool open_block(struct st_reader *s, enum st_kind kind)
 		return said_of(s, DIAG_TOO_DEEP, &s->r->lex.token, "");
 	const struct st_item *last = s->st->count > 0 ? &s->st->item[s->st->count - 1] : NULL;
 
-	if (kind == ST_IF && last && last->kind == ST_ELSE && last->line == s->r->lex.token.line)
+	if (kind == ST_IF && s->depth > 0 && last && last->kind == ST_ELSE &&
+	    last->line == s->r->lex.token.line)
 		s->block[s->depth - 1].second = s->r->lex.token;
 	s->block[s->depth++] = (struct st_block){ .kind = kind, .head = s->r->lex.token };
 	return true;
@@ -355,7 +356,7 @@ static int depth_of(const struct st_reader *s, enum st_kind kind)
 
 	for (int i = 0; i < s->depth; i++)
 		depth += 1 + (s->block[i].kind == ST_CASE);
-	if (kind == ST_ELSE || kind == ST_ELSIF)
+	if (s->depth > 0 && (kind == ST_ELSE || kind == ST_ELSIF))
 		depth -= 1 + (s->block[s->depth - 1].kind == ST_CASE);
 	else if (kind == ST_CHOICE)
 		depth--;
