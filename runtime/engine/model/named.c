@@ -81,7 +81,7 @@ static void print_types(struct project *project, const char *name, char *out, si
 
 		if (value->fold == fold && type)
 			used += (size_t)snprintf(out + used, size - used, "%s%.40s#%.40s",
-						 used ? " or " : "", project_text(project, type),
+						 used ? ", " : "", project_text(project, type),
 						 project_text(project, value->name));
 	}
 }

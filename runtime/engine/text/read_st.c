@@ -112,7 +112,7 @@ static void drop_block(struct st_reader *s)
 			st_said(s, DIAG_ST_ELSE_IF, &block->second, "");
 		else if (pairs[i].begin == block->kind)
 			said_of(s, DIAG_ST_OPEN, &block->head, pairs[i].begin == ST_REPEAT ?
-				"UNTIL condition END_REPEAT" : pairs[i].word);
+				"UNTIL … END_REPEAT" : pairs[i].word);
 }
 
 static bool has_block(const struct st_reader *s, enum st_kind kind)

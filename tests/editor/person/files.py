@@ -278,6 +278,7 @@ def one_history(screen):
     """Ctrl+Z undoes the last change, on a sheet or in a scenario, and shows it; Ctrl+Y redoes it"""
     editor, path = scenario(screen)
     editor.click(editor.find('Main', 'label'), count=2)
+    until(lambda: editor.all('• new.scn'), 'the change of the scenario to be known')
     editor.to_sheet()
     editor.keys('slash')
     until(lambda: any('negated' in cell or 'closed' in cell for cell in editor.cells()), 'the negated contact')

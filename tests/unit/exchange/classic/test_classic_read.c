@@ -268,7 +268,7 @@ static void test_texts(void)
 static void test_messages(void)
 {
 	CHECK_TEXT(told(""), "LD101 0: ");
-	CHECK_TEXT(told("hello\n"), "LD713 1: hello");
+	CHECK_TEXT(told("hello\n"), "LD046 0: gzip");
 	CHECK_TEXT(told("_FILES_CLASSICLADDER2\n"), "LD103 1: _FILES_CLASSICLADDER2");
 	CHECK_TEXT(told("_FILES_CLASSICLADDER\n" RUNG), "LD702 4: ");
 	CHECK_TEXT(told("_FILES_CLASSICLADDER\n"), "LD702 1: ");
@@ -514,7 +514,7 @@ static void test_packed(void)
 	changed[sizeof(dynamic) - 1] = changed[sizeof(dynamic) - 2] = 0;
 	CHECK_AS(!unpack(changed, sizeof(changed), 10000, &len, &why) && why == DIAG_TOO_LARGE,
 		 "unpacking stops at its limit of bytes");
-	CHECK(!read_bytes(stored, sizeof(stored)) && diags.diag[0].id == DIAG_IMPORT_LINE);
+	CHECK(!read_bytes(stored, sizeof(stored)) && diags.diag[0].id == DIAG_IS_PACKED);
 }
 
 static void put_file(const char *folder, const char *name, const char *text)
