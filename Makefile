@@ -347,7 +347,10 @@ $(EDITOR_TEST_O): | $(BUILD)/tests/toolkit.h.gch
 $(BUILD)/rung.lang: $(HERE)/rung-language
 	@mkdir -p $(@D)
 	$< >$@.new && mv $@.new $@
-$(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(BUILD)/rung.lang $(wildcard editor-gtk/ui/*)
+$(BUILD)/rung-st.lang: $(HERE)/rung-language
+	@mkdir -p $(@D)
+	$< st >$@.new && mv $@.new $@
+$(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(BUILD)/rung.lang $(BUILD)/rung-st.lang $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
 	glib-compile-resources --sourcedir=editor-gtk --sourcedir=packaging --sourcedir=$(BUILD) --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
 $(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
@@ -414,7 +417,7 @@ install-editor: $(BUILD)/ladder-editor $(MO)
 	install -m 644 packaging/rungboard.xml $(appdir)/mime/packages/
 	install -m 644 packaging/org.rungboard.Editor.svg $(appdir)/icons/hicolor/scalable/apps/
 	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
-	install -m 644 $(BUILD)/rung.lang $(appdir)/gtksourceview-5/language-specs/
+	install -m 644 $(BUILD)/rung.lang $(BUILD)/rung-st.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
 	install -m 644 ladders/boards/*.io $(appdir)/rungboard/ladders/boards/
 	install -m 644 docs/*.md docs/*.png $(appdir)/rungboard/docs/

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_language - prints the language file of rung files and lists for GtkSourceView.
+ * rung_language - prints a language file for GtkSourceView: of rung files and lists, or with the
+ * argument "st" of Structured Text.
  *
  * The build runs it. The words come from the catalogue and the reader. The colour of a word
  * depends on its place, as its meaning does: an element after a bar, an operator at the
@@ -9,6 +10,7 @@
 #include "engine/base/catalog.h"
 #include "engine/check/reserved.h"
 #include "engine/model/sfc.h"
+#include "engine/model/st.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -83,13 +85,14 @@ static void types(void)
 	words_of_boxes(&first, WORD_FB);
 }
 
-static void keywords(void)
+/* @operators: also AND, which begins an instruction of a list. */
+static void keywords(bool operators)
 {
 	const char *word;
 
 	for (int i = 0; (word = reserved_word(i)); i++)
-		if (is_word(word) && strlen(word) > 1 && !is_type(word) &&
-		    !is_constant(word) && op_find(word, strlen(word)) == OP_COUNT)
+		if (is_word(word) && strlen(word) > 1 && !is_type(word) && !is_constant(word) &&
+		    (operators || op_find(word, strlen(word)) == OP_COUNT))
 			printf("      <keyword>%s</keyword>\n", word);
 }
 
@@ -122,24 +125,25 @@ static void match(const char *id, const char *style, const char *before, void (*
 	       "      </include>\n    </context>\n", behind, style);
 }
 
-static void head(void)
+static void head(const char *id, const char *name, const char *mime, const char *globs)
 {
 	static const char *const styles[][2] = {
 		{ "comment", "comment" }, { "string", "string" }, { "keyword", "keyword" },
 		{ "element", "keyword" }, { "operator", "keyword" }, { "type", "type" },
 		{ "constant", "special-constant" }, { "number", "number" },
-		{ "address", "identifier" },
+		{ "address", "identifier" }, { "function", "function" },
+		{ "pragma", "preprocessor" }, { "escape", "special-char" },
 	};
 
 	printf("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-	       "<language id=\"rung\" name=\"Rungboard\" version=\"2.0\" section=\"Source\">\n"
+	       "<language id=\"%s\" name=\"%s\" version=\"2.0\" section=\"Source\">\n"
 	       "  <metadata>\n"
-	       "    <property name=\"mimetypes\">text/x-rungboard</property>\n"
-	       "    <property name=\"globs\">*.rung</property>\n"
+	       "    <property name=\"mimetypes\">%s</property>\n"
+	       "    <property name=\"globs\">%s</property>\n"
 	       "    <property name=\"line-comment-start\">//</property>\n"
 	       "    <property name=\"block-comment-start\">(*</property>\n"
 	       "    <property name=\"block-comment-end\">*)</property>\n"
-	       "  </metadata>\n  <styles>\n");
+	       "  </metadata>\n  <styles>\n", id, name, mime, globs);
 	for (size_t i = 0; i < sizeof(styles) / sizeof(styles[0]); i++)
 		printf("    <style id=\"%s\" name=\"%s\" map-to=\"def:%s\"/>\n",
 		       styles[i][0], styles[i][0], styles[i][1]);
@@ -167,14 +171,22 @@ static void literals(void)
 	       "</match>\n    </context>\n");
 }
 
-int main(void)
+static void foot(const char *id, const char *const *order)
+{
+	printf("    <context id=\"%s\">\n      <include>\n", id);
+	for (; *order; order++)
+		printf("        <context ref=\"%s\"/>\n", *order);
+	printf("      </include>\n    </context>\n  </definitions>\n</language>\n");
+}
+
+static void rung_files(void)
 {
 	static const char *const order[] = {
 		"block-comment", "line-comment", "string", "text", "address", "element",
-		"type", "chart", "chart-end", "operator", "keyword", "constant", "number",
+		"type", "chart", "chart-end", "operator", "keyword", "constant", "number", NULL,
 	};
 
-	head();
+	head("rung", "Rungboard", "text/x-rungboard", "*.rung");
 	literals();
 	match("element", "element", "(?&lt;=\\|)\\s*", words_of_elements, "\\b");
 	match("type", "type", ":\\s*", types, "\\b");
@@ -182,10 +194,104 @@ int main(void)
 	match("chart-end", "keyword", "\\b", ends_of_charts, "\\b");
 	match("operator", "operator", "^\\s*(?:\\w+:\\s*)?", operators, "\\b(?!\\s*:)");
 	printf("    <context id=\"keyword\" style-ref=\"keyword\">\n");
-	keywords();
-	printf("    </context>\n    <context id=\"rung\">\n      <include>\n");
-	for (size_t i = 0; i < sizeof(order) / sizeof(order[0]); i++)
-		printf("        <context ref=\"%s\"/>\n", order[i]);
-	printf("      </include>\n    </context>\n  </definitions>\n</language>\n");
+	keywords(false);
+	printf("    </context>\n");
+	foot("rung", order);
+}
+
+/* ---- Structured Text ---- */
+
+/* Comments are nested; $ escapes a character of a string. */
+static void st_literals(void)
+{
+	static const char *const quoted[][2] = { { "string", "\"" }, { "text", "'" } };
+
+	printf("    <context id=\"block-comment\" style-ref=\"comment\" class=\"comment\">\n"
+	       "      <start>\\(\\*</start><end>\\*\\)</end>\n      <include>\n"
+	       "        <context ref=\"block-comment\"/>\n      </include>\n    </context>\n"
+	       "    <context id=\"pragma\" style-ref=\"pragma\" class=\"comment\">\n"
+	       "      <start>\\{</start><end>\\}</end>\n    </context>\n"
+	       "    <context id=\"line-comment\" style-ref=\"comment\" class=\"comment\" end-at-line-end=\"true\">\n"
+	       "      <start>//</start>\n    </context>\n");
+	for (size_t i = 0; i < sizeof(quoted) / sizeof(quoted[0]); i++)
+		printf("    <context id=\"%s\" style-ref=\"string\" class=\"string\" end-at-line-end=\"true\">\n"
+		       "      <start>%s</start><end>%s</end>\n      <include>\n"
+		       "        <context id=\"%s-escape\" style-ref=\"escape\">\n"
+		       "          <match>\\$([0-9A-F]{2}|.)</match>\n        </context>\n"
+		       "      </include>\n    </context>\n", quoted[i][0], quoted[i][1],
+		       quoted[i][1], quoted[i][0]);
+	printf("    <context id=\"address\" style-ref=\"address\">\n"
+	       "      <match>%%\\w[\\w.]*</match>\n    </context>\n"
+	       "    <context id=\"literal\" style-ref=\"number\">\n"
+	       "      <match>\\b\\w+#(\\w+#)?[+-]?\\w[\\w.:]*(-[0-9][\\w.:]*)*</match>\n    </context>\n"
+	       "    <context id=\"number\" style-ref=\"number\">\n"
+	       "      <match>\\b[0-9][0-9_]*(\\.[0-9][0-9_]*)?(E[+-]?[0-9]+)?\\b</match>\n"
+	       "    </context>\n"
+	       "    <context id=\"constant\" style-ref=\"constant\">\n"
+	       "      <keyword>TRUE</keyword>\n      <keyword>FALSE</keyword>\n"
+	       "    </context>\n");
+}
+
+static void st_keywords(void)
+{
+	static const char *const other[] = {
+		"TO", "BY", "VAR_EXTERNAL", "NON_RETAIN", "R_EDGE", "F_EDGE", "RESOURCE", "ON",
+		"END_RESOURCE", "TASK", "WITH",
+	};
+
+	printf("    <context id=\"keyword\" style-ref=\"keyword\">\n");
+	keywords(true);
+	for (int i = 0; i < ST_KINDS; i++) {
+		const struct st_form *form = st_form((enum st_kind)i);
+
+		if (is_word(form->word))
+			printf("      <keyword>%s</keyword>\n", form->word);
+		if (is_word(form->end))
+			printf("      <keyword>%s</keyword>\n", form->end);
+	}
+	for (size_t i = 0; i < sizeof(other) / sizeof(other[0]); i++)
+		printf("      <keyword>%s</keyword>\n", other[i]);
+	printf("    </context>\n    <context id=\"type\" style-ref=\"type\">\n");
+	for (int i = 1; i < IEC_TYPE_COUNT; i++)
+		printf("      <keyword>%s</keyword>\n", iec_type_row((enum iec_type)i)->word);
+	printf("    </context>\n");
+}
+
+static void blocks(void)
+{
+	bool first = true;
+
+	words_of_boxes(&first, WORD_FB);
+}
+
+static void functions(void)
+{
+	bool first = true;
+
+	words_of_boxes(&first, WORD_FN);
+	printf("|(?:\\w+_)?TO_\\w+|(?:\\w+_)?TRUNC(?:_\\w+)?");
+}
+
+static void structured_text(void)
+{
+	static const char *const order[] = {
+		"block-comment", "pragma", "line-comment", "string", "text", "address", "literal",
+		"block", "keyword", "type", "constant", "function", "number", NULL,
+	};
+
+	head("rung-st", "Structured Text", "text/x-iec-st", "*.st;*.iec");
+	st_literals();
+	match("block", "type", "(?::|\\bOF\\b)\\s*", blocks, "\\b");
+	st_keywords();
+	match("function", "function", "\\b", functions, "\\b(?=\\s*\\()");
+	foot("rung-st", order);
+}
+
+int main(int argc, char **argv)
+{
+	if (argc > 1 && strcmp(argv[1], "st") == 0)
+		structured_text();
+	else
+		rung_files();
 	return 0;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_complete - syntax colours of IL and rung files, and completion.
+ * text_complete - syntax colours of IL, ST and rung files, and completion.
  */
 #include "editor-gtk/text/text_complete.h"
 
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/name_fold.h"
 
@@ -11,7 +12,7 @@
 
 #include <string.h>
 
-GtkSourceLanguage *text_language(void)
+static GtkSourceLanguage *language(const char *id)
 {
 	GtkSourceLanguageManager *manager = gtk_source_language_manager_get_default();
 	static gsize added;
@@ -21,7 +22,23 @@ GtkSourceLanguage *text_language(void)
 			"resource:///org/rungboard/Editor/language-specs");
 		g_once_init_leave(&added, 1);
 	}
-	return gtk_source_language_manager_get_language(manager, "rung");
+	return gtk_source_language_manager_get_language(manager, id);
+}
+
+GtkSourceLanguage *text_language(void)
+{
+	return language("rung");
+}
+
+GtkSourceLanguage *text_language_of(LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	const char *path = ladder_document_path(document);
+	const bool st = pou < 0 ? path && plain_file_is(path) :
+		project && pou < project->pou_count &&
+		project->pou[pou].language == LANGUAGE_ST;
+
+	return language(st ? "rung-st" : "rung");
 }
 
 /* ---- a candidate ---- */

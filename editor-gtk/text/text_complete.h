@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_complete - syntax colours of IL and rung files, and completion.
+ * text_complete - syntax colours of IL, ST and rung files, and completion.
  *
  * The words come from the catalogue (packaging/rung_language.c), the candidates from the
  * engine.
@@ -14,6 +14,9 @@
 
 /** text_language - the language of rung files; NULL: not installed. Borrowed. */
 GtkSourceLanguage *text_language(void);
+/** text_language_of - of the text of POU @pou of @document, -1: of the whole file: that of rung
+ * files, or that of Structured Text. Borrowed. */
+GtkSourceLanguage *text_language_of(LadderDocument *document, int pou);
 /** text_complete_attach - offers words while one types in @view
  * @pou: whose number of a POU of @document the text is, -1: all of it; read each time,
  * for as long as @view lives */

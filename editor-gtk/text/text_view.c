@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_view - a program in IL, or a file that cannot be read, as text.
+ * text_view - a program in IL or ST, or a file that cannot be read, as text.
  */
 #include "editor-gtk/text/text_view.h"
 
@@ -197,11 +197,13 @@ static void typed(LadderTextView *view)
 		view->taking = g_timeout_add(SEEN_MS, take_now, view);
 }
 
-/* The POU may have got another name. */
+/* The POU may have got another name or language. */
 static void name_pou(LadderTextView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 
+	gtk_source_buffer_set_language(view->buffer,
+				       text_language_of(view->document, view->pou));
 	line_values_set_pou(view->values, !project || view->pou < 0 ||
 			    view->pou >= project->pou_count ? "" :
 			    project_text(project, project->pou[view->pou].name));
@@ -590,7 +592,6 @@ static void make_buffer(LadderTextView *view)
 
 	view->buffer = gtk_source_buffer_new(NULL);
 	buffer = GTK_TEXT_BUFFER(view->buffer);
-	gtk_source_buffer_set_language(view->buffer, text_language());
 	/* Undo is the document's. */
 	gtk_text_buffer_set_enable_undo(buffer, FALSE);
 	view->error = gtk_text_buffer_create_tag(buffer, NULL, "underline",
@@ -665,5 +666,6 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(show_errors), view);
 	text_scheme_follow(view->buffer);
 	show_text(view);
+	name_pou(view);
 	return GTK_WIDGET(view);
 }

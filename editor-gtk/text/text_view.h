@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_view - a program in IL, or a file that cannot be read, as text.
+ * text_view - a program in IL or ST, or a file that cannot be read, as text.
  *
  * With syntax colours, completion, and errors while typing. Each change goes into the document
  * and its history.

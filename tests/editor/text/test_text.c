@@ -135,6 +135,45 @@ static void test_chart_colours(void)
 	g_object_unref(chart);
 }
 
+/* A body of Structured Text: what has a colour, and what has none. */
+static void test_statement_colours(void)
+{
+	static const struct {
+		const char *line;
+		int column;
+		bool coloured;
+	} cases[] = {
+		{ "  IF Start AND Stop THEN", 3, true }, { "  IF Start AND Stop THEN", 6, false },
+		{ "  IF Start AND Stop THEN", 12, true }, { "  IF Start AND Stop THEN", 21, true },
+		{ "  Iffy := 1;", 3, false }, { "  Level := 16#FF;", 13, true },
+		{ "  Level := 16#FF;", 4, false }, { "  T1(PT := T#-1d2h);", 13, true },
+		{ "  Now := Phase#Idle;", 11, true }, { "  FOR i := 1 TO 10 BY -2 DO", 13, true },
+		{ "  Name := 'a$'IF';", 14, true }, { "  Name := 'a'; // why", 18, true },
+		{ "  (* a (* b *) c *) Level := 1;", 14, true },
+		{ "  (* a (* b *) c *) Level := 1;", 21, false },
+		{ "  {region}", 4, true }, { "  Sum := INT_TO_REAL(Level);", 11, true },
+		{ "  Sum := Level(1);", 11, false }, { "  Wait : TON;", 10, true },
+		{ "  Wait : ARRAY[1..2] OF TON;", 25, true }, { "  END_REPEAT", 4, true },
+		{ "  Level := %IW2;", 12, true }, { "  Level := TRUE;", 12, true },
+		{ "  X : LREAL;", 8, true },
+	};
+	LadderDocument *other = ladder_document_new();
+	GtkSourceBuffer *body;
+	const char *file = "PROGRAM Main ST\n  ;\nEND_PROGRAM\n";
+
+	ladder_document_open_text(other, "/tmp/x/main.st", file, strlen(file), true);
+	CHECK(text_language_of(other, 0) != text_language());
+	CHECK(text_language_of(other, -1) == text_language_of(other, 0));
+	CHECK(text_language_of(document, 1) == text_language() &&
+	      text_language_of(document, -1) == text_language());
+	body = gtk_source_buffer_new_with_language(text_language_of(other, 0));
+	for (gsize i = 0; i < G_N_ELEMENTS(cases); i++)
+		CHECK_AS(is_coloured_in(GTK_TEXT_BUFFER(body), cases[i].line, 0,
+					cases[i].column) == cases[i].coloured, cases[i].line);
+	g_object_unref(body);
+	g_object_unref(other);
+}
+
 static bool offers(const char *text, int line, int column, const char *word, gsize *len)
 {
 	GListStore *words = text_complete_words(document, 1, text, line, column, len);
@@ -511,6 +550,7 @@ int main(void)
 	turn(0);
 	test_colours();
 	test_chart_colours();
+	test_statement_colours();
 	test_words();
 	test_errors();
 	test_typing();
