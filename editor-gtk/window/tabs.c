@@ -617,13 +617,15 @@ static void stay(struct tabs *tabs, AdwTabPage *page)
 			adw_tab_view_set_selected_page(tabs->view, page);
 }
 
-/* A sheet says its place anew when the cursor moves; another widget would keep @text for ever. */
+/* A sheet says its place anew when the cursor moves. */
 static void say(struct tabs *tabs, const char *text)
 {
 	GtkWidget *focus = gtk_window_get_focus(tabs->core->window);
 
 	if (focus && LADDER_IS_CANVAS(focus))
 		spoken_say(focus, text);
+	else if (focus)
+		spoken_once(focus, text);
 }
 
 void tabs_step(struct tabs *tabs, bool redo)

@@ -88,6 +88,34 @@ void spoken_say(GtkWidget *widget, const char *text)
 				       text, -1);
 }
 
+/* GTK makes the tooltip the description, but not anew. */
+static gboolean say_tooltip(gpointer data)
+{
+	GtkWidget *widget = data;
+	const char *tip = gtk_widget_get_tooltip_text(widget);
+
+	g_object_steal_data(data, "spoken-once");
+	if (tip)
+		spoken_say(widget, tip);
+	else
+		gtk_accessible_reset_property(GTK_ACCESSIBLE(widget),
+					      GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
+	return G_SOURCE_REMOVE;
+}
+
+static void stop_timer(gpointer timer)
+{
+	g_source_remove(GPOINTER_TO_UINT(timer));
+}
+
+void spoken_once(GtkWidget *widget, const char *text)
+{
+	spoken_say(widget, text);
+	g_object_set_data_full(G_OBJECT(widget), "spoken-once",
+			       GUINT_TO_POINTER(g_timeout_add_seconds(1, say_tooltip, widget)),
+			       stop_timer);
+}
+
 static void hide_empty(GtkLabel *label)
 {
 	gtk_widget_set_visible(GTK_WIDGET(label), *gtk_label_get_text(label));

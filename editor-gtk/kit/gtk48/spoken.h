@@ -26,6 +26,9 @@ void spoken_parts(GtkWidget *root);
 void spoken_choice(GtkToggleButton *button);
 /** spoken_say - @widget, which has the focus, says @text at once, also when it has just said the same. */
 void spoken_say(GtkWidget *widget, const char *text);
+/** spoken_once - the same, of a widget that says nothing else: a second later its description is that of its
+ * tooltip again. */
+void spoken_once(GtkWidget *widget, const char *text);
 /** spoken_text - from now on @label is visible only while it has a text. */
 void spoken_text(GtkLabel *label);
 

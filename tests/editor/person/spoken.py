@@ -6,6 +6,8 @@ import re
 import subprocess
 import sys
 
+import dbus
+
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import A11Y, ROLES, Editor, main, new_file, until  # noqa: E402
 
@@ -53,6 +55,7 @@ HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessib
                    r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
                                  'push button', 'table', 'table cell', 'text', 'toggle button', 'entry')]
+SHOWN = ROLES['push button'], ROLES['label']  # the buttons whose tips name the step, and the status bar
 ROWS = ROLES['list item'], ROLES['panel']  # the row, or its content
 
 TWICE = re.compile(r'(.+) \1$')
@@ -71,8 +74,11 @@ def nameless(editor):
 
 def described(editor, node):
     """The description that a reader adds to the name: the text of the tooltip."""
-    return editor.bus.call_blocking(editor.name, node.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
-                                    (A11Y + 'Accessible', 'Description'))
+    try:
+        return editor.bus.call_blocking(editor.name, node.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                        (A11Y + 'Accessible', 'Description'))
+    except dbus.exceptions.DBusException:
+        return ''  # the widget is gone
 
 
 def tips(screen):
@@ -165,6 +171,10 @@ class Reader:
         sheet = self.sheet().path
         return [text for path, text in HEARD.findall(open(self.path).read()) if path == sheet]
 
+    def all(self, begin):
+        """The widgets that have said a text with that begin."""
+        return [path for path, text in HEARD.findall(open(self.path).read()) if text.startswith(begin)]
+
     def says(self, text, then=None):
         """Waits for the next announcement after @then."""
         before = len(self.said())
@@ -173,6 +183,24 @@ class Reader:
         said = until(lambda: self.said()[before:], text)
         assert said == [text], (text, said)
         assert self.sheet().has(12), 'the focus went away'
+
+
+def undone(screen):
+    """undo and redo in a table and in the tree: what has the focus says the step, and a moment later no more"""
+    editor = Editor(screen, new_file(screen, PROJECT + PROJECT[PROJECT.index('\nPROGRAM'):].replace('Main', 'Other')))
+    reader = Reader(editor)
+    editor.to_sheet()
+    editor.keys('ctrl+alt+s')
+    editor.click(until(lambda: editor.all('Start, Retain', 'check box'), 'the symbol')[0])
+    for change in None, lambda: (editor.click(editor.find('Other', 'label')), editor.keys('alt+Up')):
+        if change:
+            change()
+        for key, what in ('ctrl+z', 'Undone: '), ('ctrl+shift+z', 'Redone: '):
+            until(lambda: editor.find('Undo' if key == 'ctrl+z' else 'Redo', 'push button').has(24), 'a step')
+            editor.keys(key)
+            editor.says(what)
+            until(lambda: set(reader.all(what)) - {node.path for node in editor.walk() if node.role in SHOWN}, what)
+            until(lambda: not [node for node in editor.walk() if node.has(12) and described(editor, node).startswith(what)], 'silence')
 
 
 def at_cursor(editor):
@@ -291,4 +319,4 @@ def chart(screen):
 
 
 if __name__ == '__main__':
-    main([window, imported, simulated, tips, cursor, edited, boxes, chart])
+    main([window, imported, simulated, tips, undone, cursor, edited, boxes, chart])
