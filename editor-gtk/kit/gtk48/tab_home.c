@@ -27,6 +27,18 @@ static gulong own_handler(gpointer gesture, GtkWidget *widget)
 				     update_signal(), 0, NULL, NULL, widget);
 }
 
+/* Tabs of closed pages stay for a moment, and the bar counts them among the places. */
+static bool is_closing(GtkWidget *box)
+{
+	AdwTabBar *bar = ADW_TAB_BAR(gtk_widget_get_ancestor(box, ADW_TYPE_TAB_BAR));
+	int tabs = 0;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(box); child;
+	     child = gtk_widget_get_next_sibling(child))
+		tabs += strcmp(gtk_widget_get_css_name(child), "tabboxchild") == 0;
+	return bar && tabs > adw_tab_view_get_n_pages(adw_tab_bar_get_view(bar));
+}
+
 /* @own is blocked except here. */
 static void update(GtkGestureDrag *gesture, double dx, double dy, gpointer unused)
 {
@@ -35,7 +47,7 @@ static void update(GtkGestureDrag *gesture, double dx, double dy, gpointer unuse
 	double x, y;
 
 	(void)unused;
-	if (!gtk_gesture_drag_get_start_point(gesture, &x, &y))
+	if (!gtk_gesture_drag_get_start_point(gesture, &x, &y) || is_closing(widget))
 		return;
 	g_signal_handlers_block_by_func(gesture, update, NULL);
 	g_signal_handler_unblock(gesture, own);
@@ -46,7 +58,14 @@ static void update(GtkGestureDrag *gesture, double dx, double dy, gpointer unuse
 	g_signal_handlers_unblock_by_func(gesture, update, NULL);
 }
 
-static void keep(GtkWidget *widget)
+/* The drag ends where the tab is now, as long as the place is one of the view. */
+static gboolean end_drag(GtkEventController *gesture)
+{
+	gtk_event_controller_reset(gesture);
+	return FALSE; /* other handlers close the page */
+}
+
+static void keep(GtkWidget *widget, AdwTabView *view)
 {
 	GListModel *controllers = gtk_widget_observe_controllers(widget);
 
@@ -57,21 +76,23 @@ static void keep(GtkWidget *widget)
 		if (own) {
 			g_signal_handler_block(each, own);
 			g_signal_connect(each, "drag-update", G_CALLBACK(update), NULL);
+			g_signal_connect_object(view, "close-page", G_CALLBACK(end_drag), each,
+						G_CONNECT_SWAPPED);
 		}
 		g_object_unref(each);
 	}
 	g_object_unref(controllers);
 }
 
-static void keep_inside(GtkWidget *widget)
+static void keep_inside(GtkWidget *widget, AdwTabView *view)
 {
-	keep(widget);
+	keep(widget, view);
 	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
 	     child = gtk_widget_get_next_sibling(child))
-		keep_inside(child);
+		keep_inside(child, view);
 }
 
 void tab_home_make(AdwTabBar *bar)
 {
-	keep_inside(GTK_WIDGET(bar));
+	keep_inside(GTK_WIDGET(bar), adw_tab_bar_get_view(bar));
 }

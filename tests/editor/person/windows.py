@@ -315,4 +315,30 @@ def a_tab(screen):
     assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
 
 
-main([other_window, declared, charts, from_text, hostile, many, a_tab])
+def closing(screen):
+    """a tab is dragged while a key closes another, and right after that: the editor goes on with the tabs that are left"""
+    more = SOURCE + ''.join('\nPROGRAM P%d LD\nRUNG\n  | NO Stop | COIL %%QX0.%d |\nEND_PROGRAM\n' % (n, n) for n in range(1, 6))
+    editor = Editor(screen, new_file(screen, more, 'many.rung'))
+    editor.to_sheet()
+
+    def tab(name):
+        found = [node for node in editor.all(name, 'label') if node.name == name and node.box()[0] > PANEL]
+        return found[0] if found else None
+
+    def left(*names):
+        until(lambda: [name for name in ('Main', 'P1', 'P2', 'P3', 'P4', 'P5') if tab(name)] == list(names), names)
+    left('Main', 'P1', 'P2', 'P3', 'P4', 'P5')
+    (first, y), (last, _) = editor.centre(tab('Main')), editor.centre(tab('P5'))
+    editor.keys('ctrl+Page_Up')
+    way = ['mousedown', '1', *[word for x in range(first, last + 30, 20) for word in ('mousemove', str(x), str(y), 'sleep', '0.02')]]
+    sh('xdotool', 'mousemove', str(first), str(y), *way, 'key', 'ctrl+shift+w', 'sleep', '0.02', 'mouseup', '1')
+    left('P1', 'P2', 'P3', 'P4', 'P5')
+    editor.click(tab('P1'))
+    (first, y), (last, _) = editor.centre(tab('P2')), editor.centre(tab('P5'))
+    way = ['mousedown', '1', *[word for x in range(first, last + 30, 60) for word in ('mousemove', str(x), str(y))]]
+    sh('xdotool', 'mousemove', str(first), str(y), 'key', 'ctrl+shift+w', *way, 'sleep', '0.02', 'mouseup', '1')
+    left('P2', 'P3', 'P4', 'P5')
+    editor.alive()
+
+
+main([other_window, declared, charts, from_text, hostile, many, a_tab, closing])
