@@ -458,7 +458,7 @@ static GtkWidget *choice_popover(GPtrArray *choices, const char *now,
 
 		gtk_accessible_update_property(GTK_ACCESSIBLE(search),
 			GTK_ACCESSIBLE_PROPERTY_LABEL, _("Filter"), -1);
-		g_signal_connect_swapped(search, "search-changed",
+		g_signal_connect_swapped(search, "changed",
 			G_CALLBACK(gtk_list_box_invalidate_filter), list);
 		gtk_list_box_set_filter_func(GTK_LIST_BOX(list), is_wanted, search, NULL);
 		g_signal_connect_swapped(search, "activate", G_CALLBACK(search_activated),
@@ -498,6 +498,7 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 	g_object_set_data(G_OBJECT(popover), "column", (gpointer)column);
 	g_object_set_data_full(G_OBJECT(popover), "row", g_object_ref(row), g_object_unref);
 	popover_put(popover, scroller);
+	popover_form(popover, cell);
 	if (gtk_widget_compute_bounds(cell, scroller, &bounds))
 		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &(GdkRectangle){
 			(int)bounds.origin.x, (int)bounds.origin.y,

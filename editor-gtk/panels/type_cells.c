@@ -280,6 +280,7 @@ static void open_array(LadderDocument *document, LadderPanelRow *row, GtkWidget 
 	g_object_set_data_full(G_OBJECT(form->popover), "form", form, array_form_free);
 	g_signal_connect(form->popover, "closed", G_CALLBACK(popover_drop_later), NULL);
 	popover_put(form->popover, cell);
+	popover_form(form->popover, cell);
 	spoken_parts(form->popover);
 	gtk_popover_popup(GTK_POPOVER(form->popover));
 	gtk_widget_grab_focus(form->low);

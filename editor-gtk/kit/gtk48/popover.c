@@ -124,6 +124,71 @@ void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void))
 	gtk_menu_button_set_create_popup_func(button, make_menu, (gpointer)make, NULL);
 }
 
+/* ---- keys of a form ---- */
+
+/* The last row that can have the focus, or the first. */
+static GtkWidget *end_of(GtkWidget *list, bool last)
+{
+	GtkWidget *row = last ? gtk_widget_get_last_child(list) : gtk_widget_get_first_child(list);
+
+	while (row && !gtk_widget_get_child_visible(row))
+		row = last ? gtk_widget_get_prev_sibling(row) : gtk_widget_get_next_sibling(row);
+	return row;
+}
+
+/* From the last widget to the first, and back. A list counts once: arrows move in it. */
+static void go_on(GtkWidget *popover, GtkDirectionType direction)
+{
+	GtkWidget *child = gtk_popover_get_child(GTK_POPOVER(popover)), *focus = focus_of(popover);
+	GtkWidget *list = focus ? gtk_widget_get_ancestor(focus, GTK_TYPE_LIST_BOX) : NULL;
+	GtkWidget *end = list ? end_of(list, direction == GTK_DIR_TAB_FORWARD) : NULL;
+
+	if (end)
+		gtk_widget_grab_focus(end);
+	if (!gtk_widget_child_focus(child, direction)) {
+		gtk_root_set_focus(gtk_widget_get_root(popover), NULL);
+		gtk_widget_child_focus(child, direction);
+	}
+	/* GTK enters a list at its selected row, also if a filter hides it. */
+	focus = focus_of(popover);
+	list = focus ? gtk_widget_get_ancestor(focus, GTK_TYPE_LIST_BOX) : NULL;
+	if (list && !gtk_widget_get_child_visible(focus) && end_of(list, false))
+		gtk_widget_grab_focus(end_of(list, false));
+}
+
+static gboolean form_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType held,
+			 GtkWidget *back)
+{
+	GtkWidget *popover = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
+
+	(void)code;
+	if (held & (GDK_CONTROL_MASK | GDK_ALT_MASK))
+		return FALSE;
+	switch (key) {
+	case GDK_KEY_Tab: case GDK_KEY_KP_Tab:
+		go_on(popover, held & GDK_SHIFT_MASK ? GTK_DIR_TAB_BACKWARD : GTK_DIR_TAB_FORWARD);
+		return TRUE;
+	case GDK_KEY_ISO_Left_Tab:
+		go_on(popover, GTK_DIR_TAB_BACKWARD);
+		return TRUE;
+	case GDK_KEY_Escape:
+		gtk_popover_popdown(GTK_POPOVER(popover));
+		gtk_widget_grab_focus(back);
+		return TRUE;
+	default:
+		return FALSE;
+	}
+}
+
+void popover_form(GtkWidget *popover, GtkWidget *back)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(form_key), back);
+	gtk_widget_add_controller(popover, keys);
+}
+
 void popover_tell(GtkLabel *label, const char *text)
 {
 	GtkWidget *widget = GTK_WIDGET(label);

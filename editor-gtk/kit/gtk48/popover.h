@@ -25,6 +25,7 @@
  *   the screen. To see it: the menu of an element in the middle of a screen of 1024x700.
  * - Focus, popover_menu() and popover_menu_of(): when a menu closes, GTK gives the focus back
  *   only to the widget that had it when the menu was first drawn.
+ * - Tab, popover_form(): a popover whose parent is in a table is left by Tab, and closes.
  * Remove each of them on a new floor, and run test_popover and tests/editor/person/seal_in.py.
  */
 #ifndef EDITOR_POPOVER_H
@@ -53,6 +54,9 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 /** popover_menu_of - @button opens the menu that @make gives, which is called the first time:
  * most menus are never seen. When it closes, the focus goes back. Owns: takes the menu. */
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
+/** popover_form - from now on Tab goes round inside @popover, and Escape closes it and gives the focus to
+ * @back, which must live as long as @popover. */
+void popover_form(GtkWidget *popover, GtkWidget *back);
 /** popover_tell - sets the text of a label inside a popover, and shows all of its lines; "":
  * hides the label. Call it when the label has a parent. */
 void popover_tell(GtkLabel *label, const char *text);

@@ -249,6 +249,34 @@ def array(screen):
     assert editor.save(path) == PROGRAM
 
 
+def keys_alone(screen):
+    """choices and the form of an array by keys: Tab goes round in them, Escape goes back to the cell, a filter acts at once"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    sh('xdotool', 'windowsize', '--sync', editor.window, '800', '560')
+    editor.keys('ctrl+alt+s')
+    editor.into('Level, Type')
+
+    def press(*steps):
+        for key, name in steps:
+            editor.keys(key)
+            until(lambda: [node for node in editor.all(name) if node.has(12)], '%s: the focus on %s' % (key, name))
+    press(('ctrl+space', 'Filter'), ('Tab', 'INT '), ('Down', 'DINT '), ('Tab', 'Array…'), ('Tab', 'Filter'), ('shift+Tab', 'Array…'),
+          ('shift+Tab', 'INT '), ('Escape', 'Level, Type'))
+    press(('ctrl+space', 'Filter'))
+    editor.type('dint')
+    press(('Tab', 'DINT '), ('Down', 'UDINT '), ('Return', 'Level, Type'))
+    assert '  Level : UDINT;\n' in editor.save(path)
+    press(('ctrl+z', 'Level, Type'), ('ctrl+space', 'Filter'), ('shift+Tab', 'Array…'), ('Return', 'First index'), ('Tab', 'Last index'),
+          ('Tab', 'Type of the elements'), ('Tab', 'Set the type'), ('Tab', 'First index'), ('shift+Tab', 'Set the type'),
+          ('space', 'Level, Type'))
+    assert '  Level : ARRAY[0..9] OF INT;\n' in editor.save(path)
+    press(('ctrl+space', 'Filter'))
+    editor.type('real')
+    press(('Return', 'Level, Type'))
+    assert '  Level : REAL;\n' in editor.save(path)
+
+
 MEMORY = '''RUNGBOARD 1
 
 VAR
@@ -305,4 +333,4 @@ def addresses(screen):
     check(path)
 
 
-main([structure, completed, everywhere, array, addresses])
+main([structure, completed, everywhere, array, keys_alone, addresses])
