@@ -126,13 +126,21 @@ static bool make_marks(struct names_check *c)
 	return true;
 }
 
+/* Plain IEC text has no rungs, whose words may be names there, and may have functions and blocks
+ * with names of the catalogue. */
 static bool is_reserved(struct names_check *c, const char *name, uint32_t fold)
 {
 	const struct mark *mark = mark_of(c, fold);
 
-	return (mark && mark->reserved) ||
+	return (mark && mark->reserved &&
+		!(c->project->words.own_first && reserved_of_rungs(name))) ||
 	       (strlen(name) >= 4 && ascii_same(name, "SYS_", 4)) ||
 	       strchr(name, '.');
+}
+
+static bool is_taken(const struct names_check *c, const char *name)
+{
+	return !c->project->words.own_first && words_is_taken(name);
 }
 
 /* ---- declarations ---- */
@@ -392,7 +400,7 @@ static void check_structures(struct names_check *c)
 		struct mark *mark = mark_of(c, fold);
 		const char *name = text_of(c, structure->name);
 
-		if (is_reserved(c, name, fold) || words_is_taken(name))
+		if (is_reserved(c, name, fold) || is_taken(c, name))
 			report_struct(c, DIAG_RESERVED_NAME, structure,
 				      structure->line, structure->name);
 		if (mark && mark->pou)
@@ -421,7 +429,7 @@ static void check_named(struct names_check *c)
 
 		if (!type->like.var)
 			continue;
-		if (is_reserved(c, name, type->fold) || words_is_taken(name))
+		if (is_reserved(c, name, type->fold) || is_taken(c, name))
 			report_named(c, DIAG_RESERVED_NAME, type);
 		if (mark && mark->pou)
 			report_named(c, DIAG_DUPLICATE_NAME, type);
@@ -446,7 +454,7 @@ static void check_pous(struct names_check *c)
 		const char *name = text_of(c, pou->name);
 
 		if (is_reserved(c, name, fold) ||
-		    (pou_has_frame(pou) && words_is_taken(name)))
+		    (pou_has_frame(pou) && is_taken(c, name)))
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
 		if (mark && mark->pou)

@@ -545,6 +545,8 @@ static void note_place(struct operand_check *c, struct operand_spot at,
 	if (!pin->elements && pin->type != IEC_NONE && pin->dir != PIN_IN_OUT)
 		return;
 	value->whole = true;
+	if (value->op == EXPR_CALL && pin->dir != PIN_IN_OUT)
+		return; /* check_il compares the types */
 	if (value->op != EXPR_NAME && value->op != EXPR_INDEX)
 		operand_report(c, pin->dir == PIN_IN_OUT ? DIAG_WRITE_CONSTANT :
 			       DIAG_WRONG_TYPE, at, pin->name);
@@ -563,6 +565,8 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	struct expr_args args = { .wrong = -1, .text = "" };
 	enum diag_id why;
 
+	if (word == WORD_COUNT && !c->rung && expr_is_clock(call))
+		return;
 	if (word == WORD_COUNT) {
 		report_call(c, at, words_find(words, call->text, call->len) == WORD_COUNT ?
 			    DIAG_UNKNOWN_WORD : DIAG_NOT_FUNCTION, call, row, &args);

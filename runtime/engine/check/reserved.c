@@ -33,6 +33,11 @@ const char *reserved_word(int i)
 	       iec_type_row((enum iec_type)(i - KEYWORDS))->word;
 }
 
+bool reserved_of_rungs(const char *name)
+{
+	return ascii_is("OFF", name, strlen(name));
+}
+
 bool reserved_generated(const char *name)
 {
 	if (name[0] != '_' || ascii_upper(name[1]) < 'A' ||

@@ -10,6 +10,8 @@
 /** reserved_word - reserved word number @i, in any order; "" for an empty slot, NULL after the
  * last. Scan-safe: yes. */
 const char *reserved_word(int i);
+/** reserved_of_rungs - a reserved word that only rung files have. Scan-safe: yes. */
+bool reserved_of_rungs(const char *name);
 /** reserved_generated - `_T12`: translation makes names of this form. Scan-safe: yes. */
 bool reserved_generated(const char *name);
 /**

@@ -4,6 +4,8 @@
  */
 #include "engine/model/expr_args.h"
 
+#include "engine/base/ascii.h"
+
 #include <stdio.h>
 
 enum word expr_function(struct word_table *words, const struct expr_node *call)
@@ -11,6 +13,11 @@ enum word expr_function(struct word_table *words, const struct expr_node *call)
 	enum word word = words_find(words, call->text, call->len);
 
 	return words_row(words, word)->kind == WORD_FN ? word : WORD_COUNT;
+}
+
+bool expr_is_clock(const struct expr_node *node)
+{
+	return node->op == EXPR_CALL && node->left < 0 && ascii_is("TIME", node->text, node->len);
 }
 
 int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)

@@ -24,6 +24,8 @@ struct expr_args {
 
 /** expr_function - the function of an EXPR_CALL; WORD_COUNT: it is none. Scan-safe: no. */
 enum word expr_function(struct word_table *words, const struct expr_node *call);
+/** expr_is_clock - TIME(): the time since the controller started. Scan-safe: yes. */
+bool expr_is_clock(const struct expr_node *node);
 /**
  * expr_match - matches the arguments of @call to the pins of @row
  *

@@ -19,6 +19,7 @@ enum var_flag {
 			      * in the same block */
 	VAR_EXTERNAL = 512,  /* names globals that the POU uses; a table of its own */
 	VAR_NON_RETAIN = 1024, /* as without a word; kept for the file          */
+	VAR_FIXED = 2048,    /* of VAR_INPUT CONSTANT: the POU does not write it */
 	VAR_SFC = 256,       /* variables of a chart (model/sfc.h): programs can read them;
 			      * they are not in the file */
 };

@@ -139,12 +139,14 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 	enum word word = word_find(text, len);
 	uint16_t found = 0;
 
-	if (word != WORD_COUNT || !len)
+	if ((word != WORD_COUNT && !table->own_first) || !len)
 		return word;
 	if (table->count)
 		found = *slot_of(table, text, len);
 	if (found)
 		return (enum word)(WORD_FIRST_OWN + found - 1);
+	if (word != WORD_COUNT)
+		return word;
 	word = words_find_short(text, len);
 	return word != WORD_COUNT ? word : find_made(table, text, len);
 }

@@ -24,6 +24,7 @@ struct word_table {
 	int made_count;
 	uint16_t *slot;        /* open hash of index + 1, by name, any case   */
 	uint32_t mask;
+	bool own_first;        /* plain IEC text: its words hide those of the catalogue */
 };
 
 /** words_init - the catalogue only. @arena owns rows that are added. */

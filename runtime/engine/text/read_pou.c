@@ -29,7 +29,8 @@ bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
 			*kind = (enum pou_kind)i;
 			return true;
 		}
-	return false;
+	*kind = POU_BLOCK;
+	return lex_is(&r->lex, "FUNCTIONBLOCK"); /* CODESYS 2.3 reads and exports it */
 }
 
 /* ---- bodies ---- */

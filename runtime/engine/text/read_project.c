@@ -431,7 +431,7 @@ static void read_parts(struct reader *r)
 bool text_is_plain(const char *text, size_t len)
 {
 	static const char *const words[] = {
-		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
+		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "FUNCTIONBLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
 	};
 	struct lex lex;
 
@@ -533,6 +533,7 @@ static bool look_ahead(struct reader *r, const struct text_file *file, int count
 	at->foreign = file->foreign;
 	at->read = is_readable(r, file->text, file->len);
 	at->plain = r->plain;
+	r->project->words.own_first |= r->plain;
 	if (at->read && count > 1 && !r->plain)
 		reader_fail_word(r, DIAG_MIXED_FILES, "");
 	if (at->read)

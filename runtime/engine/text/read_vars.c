@@ -444,8 +444,8 @@ static uint16_t may_be(uint16_t head)
 		return 0;
 	if (head & VAR_EXTERNAL)
 		return VAR_CONSTANT;
-	return head & (VAR_INPUT | VAR_OUTPUT) ? VAR_RETAIN | VAR_NON_RETAIN :
-						 VAR_RETAIN | VAR_NON_RETAIN | VAR_CONSTANT;
+	return VAR_RETAIN | VAR_NON_RETAIN |
+	       (head & VAR_INPUT ? VAR_FIXED : head & VAR_OUTPUT ? 0 : VAR_CONSTANT);
 }
 
 /* The flag of a heading at the cursor; -1: there is none. */
@@ -495,7 +495,8 @@ static uint16_t read_flags(struct reader *r, bool global)
 		reader_next(r);
 		flag = lex_is(&r->lex, "RETAIN") ? VAR_RETAIN :
 		       lex_is(&r->lex, "NON_RETAIN") ? VAR_NON_RETAIN :
-		       lex_is(&r->lex, "CONSTANT") ? VAR_CONSTANT : 0;
+		       !lex_is(&r->lex, "CONSTANT") ? 0 :
+		       head & VAR_INPUT ? VAR_FIXED : VAR_CONSTANT;
 		if (!flag)
 			break;
 		if (!(may_be(head) & flag) ||

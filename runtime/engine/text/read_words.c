@@ -74,10 +74,13 @@ static void add_name(struct look *look, const struct lex *lex,
 {
 	struct reader *r = look->r;
 	const struct token *token = &lex->token;
+	enum word word;
 
 	if (token->kind != TOKEN_NAME || token->len > LIMIT_NAME ||
-	    memchr(token->text, '.', token->len) ||
-	    words_find(&r->project->words, token->text, token->len) != WORD_COUNT)
+	    memchr(token->text, '.', token->len))
+		return;
+	word = words_find(&r->project->words, token->text, token->len);
+	if (word_is_own(word) || (word != WORD_COUNT && !r->project->words.own_first))
 		return;
 	reader_own_word(r, reader_intern(r, token->text, token->len), kind);
 }
@@ -200,7 +203,7 @@ static void look_into(struct look *look, const char *file, const char *text,
 			skip_view(&lex);
 		else if (lex_is(&lex, "FUNCTION"))
 			add_name(look, &head, WORD_FN);
-		else if (lex_is(&lex, "FUNCTION_BLOCK"))
+		else if (lex_is(&lex, "FUNCTION_BLOCK") || lex_is(&lex, "FUNCTIONBLOCK"))
 			add_name(look, &head, WORD_FB);
 		else if (lex_is(&lex, "TYPE"))
 			look_at_types(look, &lex);

@@ -201,7 +201,7 @@ static void write_block(const struct sink *sink, const struct project *project,
 		sink_text(sink, " RETAIN");
 	if (block->flags & VAR_NON_RETAIN)
 		sink_text(sink, " NON_RETAIN");
-	if (block->flags & VAR_CONSTANT)
+	if (block->flags & (VAR_CONSTANT | VAR_FIXED))
 		sink_text(sink, " CONSTANT");
 	sink_text(sink, "\n");
 	for (int i = 0; i < block->count; i++)

@@ -5,7 +5,7 @@
  * Every operation that can fail gets EN from the ENO of the one before, the first from the
  * power of the cell, as the same boxes in series would.
  */
-#include "engine/check/check_il.h"
+#include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/shape.h"
 #include "engine/translate/ladder_unit.h"
@@ -17,6 +17,7 @@
 struct value {
 	uint32_t operand;
 	enum iec_type type;     /* IEC_NONE: a constant without a type        */
+	bool whole;             /* a LINT that was computed from bit strings: not cut yet */
 };
 
 struct chain {
@@ -107,6 +108,14 @@ static enum op operator_of(const struct expr_node *node)
 
 static enum iec_type chain_infer(struct chain *c, int index);
 
+/* A bit string and a number, or two bit strings, in arithmetic of Structured Text. */
+static bool mixes(const struct chain *c, enum iec_type left, enum iec_type right)
+{
+	if (c->ld->rung || (!mixed_is_bits(left) && !mixed_is_bits(right)))
+		return false;
+	return mixed_join(left, right) != IEC_TYPE_COUNT;
+}
+
 /* The type of AND OR XOR NOT: BOOL, unless a side is a bit string that the other fits;
  * IEC_NONE for constants alone. */
 static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
@@ -149,12 +158,60 @@ static enum iec_type shared_type(struct chain *c, const struct word_row *row,
 
 	for (int i = 0; i < args->count && type != IEC_TYPE_COUNT; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
+		enum iec_type is;
 
-		if (!pin->own)
-			type = types_join(type, pin->type != IEC_NONE ? pin->type :
-					  chain_infer(c, args->arg[i].at));
+		if (pin->own)
+			continue;
+		is = pin->type != IEC_NONE ? pin->type : chain_infer(c, args->arg[i].at);
+		if (types_join(type, is) == IEC_TYPE_COUNT && mixes(c, type, is))
+			type = mixed_join(type, is);
+		else
+			type = types_join(type, is);
 	}
 	return type == IEC_TYPE_COUNT ? IEC_NONE : type;
+}
+
+/* The type that the function works on: of SHL on an INT it is WORD. */
+static enum iec_type work_type(struct chain *c, const struct word_row *row,
+			       const struct expr_args *args)
+{
+	const enum iec_type type = shared_type(c, row, args);
+
+	for (int i = 0; i < args->count && !c->ld->rung; i++) {
+		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
+
+		if (!pin->own && pin->type == IEC_NONE)
+			return mixed_pin(pin->classes, type);
+	}
+	return type;
+}
+
+/* Of a function that works on @work instead of @type. */
+static enum iec_type result_type(enum iec_type type, enum iec_type work)
+{
+	return mixed_is_bits(work) ? type : work;
+}
+
+/* @type, or a wider one that can hold the constant at @index. */
+static enum iec_type roomy(const struct chain *c, enum iec_type type, int index)
+{
+	const struct expr_node *node = &c->expr->node[index];
+	struct literal literal;
+	union iec_value value;
+
+	if (c->ld->rung || node->op != EXPR_LITERAL || !(iec_type_row(type)->class & ANY_INT) ||
+	    literal_parse(node->text, node->len, &literal) != LITERAL_OK ||
+	    literal.type != IEC_NONE || literal.real || literal_fit(&literal, type, &value))
+		return type;
+	return literal_fit(&literal, IEC_DINT, &value) ? IEC_DINT : IEC_LINT;
+}
+
+/* Does a constant of the operation need a wider type than the other side has? */
+static bool is_roomy(struct chain *c, const struct expr_node *node)
+{
+	const enum iec_type left = chain_infer(c, node->left), right = chain_infer(c, node->right);
+
+	return roomy(c, left, node->right) != left || roomy(c, right, node->left) != right;
 }
 
 static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *node)
@@ -168,12 +225,14 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 		result = result_of(c, word);
 		return result ? result->type : IEC_NONE;
 	}
+	if (word == WORD_COUNT && expr_is_clock(node))
+		return IEC_TIME;
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
 		return IEC_NONE;
 	row = ld_row(c->ld, overloaded(c, word, &args));
 	if (word_shares(row))
-		return shared_type(c, row, &args);
+		return result_type(shared_type(c, row, &args), work_type(c, row, &args));
 	return row->result == RESULT_OPEN ? IEC_NONE : (enum iec_type)row->result;
 }
 
@@ -190,7 +249,8 @@ static enum iec_type chain_infer(struct chain *c, int index)
 	case EXPR_INDEX: /* that of its array's elements */
 		return type_of_element(c, node);
 	case EXPR_NEG:
-		return chain_infer(c, node->left);
+		left = chain_infer(c, node->left);
+		return mixes(c, left, IEC_SINT) ? mixed_join(left, IEC_SINT) : left;
 	case EXPR_NOT:
 	case EXPR_AND:
 	case EXPR_XOR:
@@ -210,7 +270,9 @@ static enum iec_type chain_infer(struct chain *c, int index)
 	if (fn_overload(node->fn, left, right) != node->fn)
 		return fn_result(word_row(fn_overload(node->fn, left, right)), left,
 				 IEC_NONE);
-	left = types_join(left, right);
+	if (mixes(c, left, right))
+		return mixed_join(left, right);
+	left = types_join(roomy(c, left, node->right), roomy(c, right, node->left));
 	return left == IEC_TYPE_COUNT ? right : left;
 }
 
@@ -243,7 +305,7 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 {
 	char out[LIMIT_NAME + 32];
 	const char *word = iec_type_row(hint)->word;
-	struct value value = { 0, IEC_NONE };
+	struct value value = { .type = IEC_NONE };
 	bool prefix = hint != IEC_NONE && !memchr(text, '#', len) &&
 		      fits(text, len, hint);
 	int size = snprintf(out, sizeof(out), "%s%s%s%.*s", prefix ? word : "",
@@ -280,7 +342,7 @@ static struct value operate(struct chain *c, enum word fn, struct value left,
 	struct ld *ld = c->ld;
 	const struct word_row *row = word_row(fn);
 	uint32_t en = chain_power(c), eno = temps_bool(ld->temps);
-	struct value out = { target, type };
+	struct value out = { .operand = target, .type = type };
 
 	if (!target)
 		out.operand = temps_number(ld->temps, type);
@@ -301,7 +363,7 @@ static struct value operate(struct chain *c, enum word fn, struct value left,
 /* A value that LD cannot take comes from a MOVE, which can fail. */
 static struct value settle(struct chain *c, struct value value)
 {
-	struct value none = { 0, IEC_NONE };
+	struct value none = { .type = IEC_NONE };
 
 	const struct meaning *m = value.operand ? meaning(c, value.operand) : NULL;
 
@@ -312,6 +374,69 @@ static struct value settle(struct chain *c, struct value value)
 
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target);
+static struct value compute_raw(struct chain *c, int index, enum iec_type hint, uint32_t target);
+static struct value chain_side(struct chain *c, int index, enum iec_type type);
+
+/* ---- bit strings as numbers ---- */
+
+/* @value as a value of @type; a bit string as the number that it is. */
+static struct value chain_convert(struct chain *c, struct value value, enum iec_type type,
+				  uint32_t target)
+{
+	const struct value none = { .type = IEC_NONE };
+
+	if (mixed_is_bits(value.type) && iec_type_row(type)->class == CLASS_REAL)
+		value = operate(c, FN_CONVERT, value, none, IEC_LINT, 0);
+	return operate(c, FN_CONVERT, value, none, type, target);
+}
+
+/* The same, if that needs no conversion in the text. */
+static struct value chain_fit(struct chain *c, struct value value, enum iec_type type)
+{
+	if (c->ld->rung || value.type == type || !value.operand || !type || !value.type ||
+	    iec_can_widen(value.type, type) || !mixed_converts(value.type, type))
+		return value;
+	return chain_convert(c, value, type, 0);
+}
+
+/* What was computed from bit strings, cut to where it goes. */
+static struct value cut(struct chain *c, struct value value, enum iec_type as, enum iec_type hint,
+			uint32_t target)
+{
+	const uint16_t class = iec_type_row(hint)->class;
+
+	if (class & ANY_NUM || mixed_is_bits(hint))
+		as = hint;
+	else
+		target = 0;
+	if (as == IEC_LINT)
+		return (struct value){ .operand = value.operand, .type = IEC_LINT };
+	return chain_convert(c, value, as, target);
+}
+
+/* An operand of an operation in @type. */
+static struct value mixed_side(struct chain *c, int index, enum iec_type type)
+{
+	struct value value = c->expr->node[index].op == EXPR_LITERAL ?
+		chain_side(c, index, type) : compute_raw(c, index, type, 0);
+
+	if (value.type == type || value.type == IEC_NONE)
+		return value;
+	return chain_convert(c, value, type, 0);
+}
+
+/* Arithmetic in 64 bits, which no BYTE, WORD or DWORD leaves. */
+static struct value compute_mixed(struct chain *c, const struct expr_node *node)
+{
+	const enum iec_type left = chain_infer(c, node->left), right = chain_infer(c, node->right);
+	const enum iec_type join = mixed_join(left, right);
+	const enum iec_type type = iec_type_row(join)->class == CLASS_REAL ? join : IEC_LINT;
+	struct value a = mixed_side(c, node->left, type), b = mixed_side(c, node->right, type);
+	struct value out = operate(c, node->fn, a, b, type, 0);
+
+	out.whole = type == IEC_LINT;
+	return out;
+}
 
 /* An input beside one of @type: a bare constant takes that type without help, an operation on
  * constants needs it. */
@@ -328,7 +453,7 @@ static struct value chain_side(struct chain *c, int index, enum iec_type type)
 static struct value compute_bits(struct chain *c, const struct expr_node *node,
 				 enum iec_type type, uint32_t target)
 {
-	struct value left, right = { 0, IEC_NONE };
+	struct value left, right = { .type = IEC_NONE };
 
 	if (node->op == EXPR_NOT) {
 		left = chain_compute(c, node->left, type, 0);
@@ -343,7 +468,7 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 				  enum iec_type hint, uint32_t target)
 {
 	enum iec_type type = infer_logic(c, node);
-	struct value left, right, out = { 0, IEC_BOOL };
+	struct value left, right, out = { .type = IEC_BOOL };
 
 	if (type == IEC_NONE && is_bits(hint))
 		type = hint;
@@ -367,13 +492,21 @@ static struct value compute_compare(struct chain *c,
 {
 	enum iec_type type = types_join(chain_infer(c, node->left),
 					chain_infer(c, node->right));
-	struct value left, right, out = { 0, IEC_BOOL };
+	struct value left, right, out = { .type = IEC_BOOL };
 	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
 
 	if (type == IEC_TYPE_COUNT)
 		type = IEC_NONE;
-	left = chain_side(c, node->left, type);
-	right = chain_side(c, node->right, type);
+	if (mixes(c, chain_infer(c, node->left), chain_infer(c, node->right)) && type == IEC_NONE) {
+		type = mixed_join(chain_infer(c, node->left), chain_infer(c, node->right));
+		type = iec_type_row(type)->class == CLASS_REAL ? type : IEC_LINT;
+		left = mixed_side(c, node->left, type);
+		right = mixed_side(c, node->right, type);
+	} else {
+		type = mixed_is_bits(type) && !c->ld->rung && type != IEC_LWORD ? IEC_DWORD : type;
+		left = chain_side(c, node->left, type);
+		right = chain_side(c, node->right, type);
+	}
 	left = settle(c, left);
 	right = settle(c, right);
 	ld_emit(c->ld, OP_LD, 0, left.operand);
@@ -406,7 +539,12 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	word = fn_overload(node->fn, chain_infer(c, node->left), chain_infer(c, node->right));
 	if (word != node->fn)
 		return compute_overload(c, node, word, type, target);
-	if (type) {
+	if (mixes(c, chain_infer(c, node->left), chain_infer(c, node->right)))
+		return compute_mixed(c, node);
+	if (type != IEC_NONE && is_roomy(c, node)) { /* the constant says the type */
+		left = chain_compute(c, node->left, type, 0);
+		right = chain_compute(c, node->right, type, 0);
+	} else if (type) {
 		left = chain_side(c, node->left, type);
 		right = chain_side(c, node->right, type);
 	} else {
@@ -426,8 +564,9 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
 			compute_element(c, &c->expr->node[node->right]);
 	const struct expr_tail tail = node->tail;
-	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
-	struct value none = { 0, IEC_NONE };
+	const bool bits = mixes(c, chain_infer(c, node->left), IEC_NONE);
+	struct value index = chain_compute(c, node->left, bits ? IEC_DWORD : IEC_NONE, 0);
+	struct value none = { .type = IEC_NONE };
 	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
 	int size;
 
@@ -459,7 +598,7 @@ static struct value chain_place(struct chain *c, int index)
 /* Freezes what the bodies of functions further right may write. */
 static struct value keep_value(struct chain *c, struct value value)
 {
-	const struct value none = { 0, IEC_NONE };
+	const struct value none = { .type = IEC_NONE };
 	const struct meaning *m;
 
 	if (!c->calls || !value.operand)
@@ -512,14 +651,19 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	struct ld *ld = c->ld;
 	const struct word_row *row = ld_row(ld, word);
 	const struct var *result = result_of(c, word);
-	struct value in[LIMIT_ARGS], out = { target, result ? result->type : IEC_NONE };
+	struct value in[LIMIT_ARGS], out = {
+		.operand = target, .type = result ? result->type : IEC_NONE };
 
 	for (int i = 0; i < args->count; i++) {
 		const struct word_pin *pin = &row->pin[args->arg[i].pin];
 		bool place = is_whole(pin) || pin->dir == PIN_IN_OUT;
 
-		in[i] = place ? chain_place(c, args->arg[i].at) :
-				chain_side(c, args->arg[i].at, pin->type);
+		if (place && c->expr->node[args->arg[i].at].op == EXPR_CALL)
+			in[i] = chain_compute(c, args->arg[i].at, IEC_NONE, 0);
+		else
+			in[i] = place ? chain_place(c, args->arg[i].at) :
+				chain_fit(c, chain_side(c, args->arg[i].at, pin->type),
+					  pin->type);
 		if (pin->dir == PIN_IN_OUT)
 			ld_freeze(ld, in[i].operand);
 	}
@@ -533,14 +677,34 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	return emit_call(c, word, args, in, out);
 }
 
+/* At a pin of a function of the catalogue, whose shared pins get @given. */
+static struct value argument(struct chain *c, int index, const struct word_pin *pin,
+			     enum iec_type given)
+{
+	struct value value = chain_side(c, index, pin->own ? IEC_NONE : given);
+	enum iec_type type = pin->type ? pin->type : pin->own ?
+		mixed_pin(pin->classes, value.type) : given;
+
+	if (c->ld->rung || !value.type || !type || value.type == type)
+		return value;
+	if (iec_can_widen(value.type, type) && iec_type_row(value.type)->class & pin->classes)
+		return value;
+	if (pin->own || mixed_converts(value.type, type) ||
+	    mixed_pin(iec_type_row(type)->class, value.type) == type)
+		return chain_convert(c, value, type, 0);
+	return value;
+}
+
 /* Of the catalogue. */
 static struct value call_known(struct chain *c, enum word word, const struct expr_args *args,
 			       int index, enum iec_type hint, uint32_t target)
 {
 	const struct word_row *row = ld_row(c->ld, word);
 	enum word runs = overloaded(c, word, args);
-	enum iec_type type = shared_type(c, row, args), given;
-	struct value in[LIMIT_ARGS], out = { target, IEC_NONE };
+	enum iec_type type = work_type(c, row, args), given;
+	const enum iec_type back = result_type(shared_type(c, row, args), type);
+	const bool other = word_shares(row) && back != type;
+	struct value in[LIMIT_ARGS], out = { .operand = other ? 0 : target };
 
 	if (type == IEC_REAL && word_shares(row))
 		type = infer_wanted(c, index, hint);
@@ -549,8 +713,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	for (int i = 0; i < args->count; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
 
-		in[i] = chain_side(c, args->arg[i].at,
-				   pin->own || runs != word ? IEC_NONE : given);
+		in[i] = argument(c, args->arg[i].at, pin, runs == word ? given : IEC_NONE);
 		if (!pin->own && !type)
 			given = types_join(given, in[i].type);
 	}
@@ -559,9 +722,37 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	if (runs != word)
 		given = chain_infer(c, args->arg[0].at);
 	out.type = fn_result(ld_row(c->ld, runs), given, hint);
-	if (!target)
+	if (!out.operand)
 		out.operand = temps_number(c->ld->temps, out.type);
-	return emit_call(c, word, args, in, out);
+	out = emit_call(c, word, args, in, out);
+	return other ? chain_convert(c, out, back, target) : out;
+}
+
+/* TIME(): milliseconds in 32 bits, which begin again at 0. */
+static struct value chain_clock(struct chain *c)
+{
+	struct ld *ld = c->ld;
+	const struct value none = { .type = IEC_NONE };
+	const struct value mask = { .operand = chain_intern(c, "LWORD#16#FFFFFFFF", 17),
+				    .type = IEC_LWORD };
+	const uint32_t last = temps_number(ld->temps, IEC_TIME), no = chain_intern(c, "FALSE", 5);
+	struct value now = { .operand = temps_number(ld->temps, IEC_TIME), .type = IEC_TIME };
+	const struct { const char *pin; uint32_t operand; } arg[] = {
+		{ "HOLD", no }, { "X", temps_bool(ld->temps) },
+		{ "T", temps_number(ld->temps, IEC_TIME) },
+	};
+
+	ld_emit(ld, OP_LD, 0, no);
+	ld_emit(ld, OP_ST, 0, arg[1].operand); /* nothing else is counted */
+	ld_emit(ld, OP_LD, 0, chain_intern(c, "T#0s", 4));
+	ld_emit(ld, OP_ST, 0, last);
+	ld_emit_line(ld, (struct il_line){ .kind = IL_TICK, .operand = now.operand, .pin = last,
+					   .word = 1 });
+	for (size_t i = 0; i < sizeof(arg) / sizeof(*arg); i++)
+		ld_arg(ld, false, chain_intern(c, arg[i].pin, strlen(arg[i].pin)), arg[i].operand);
+	now = operate(c, FN_CONVERT, now, none, IEC_LWORD, 0);
+	now = operate(c, FN_AND, now, mask, IEC_LWORD, 0);
+	return operate(c, FN_CONVERT, now, none, IEC_TIME, 0);
 }
 
 static struct value chain_call(struct chain *c, int index, enum iec_type hint,
@@ -569,9 +760,11 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 {
 	const struct expr_node *node = &c->expr->node[index];
 	enum word word = function_of(c->ld, node);
-	struct value none = { 0, IEC_NONE };
+	struct value none = { .type = IEC_NONE };
 	struct expr_args args;
 
+	if (word == WORD_COUNT && expr_is_clock(node))
+		return chain_clock(c);
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, ld_row(c->ld, word), &args) != DIAG_COUNT) {
 		c->ld->failed = true;
@@ -596,12 +789,20 @@ static void chain_at(struct chain *c, const char *text)
 	ld->row = ld->col = column > UINT16_MAX ? 0 : (uint16_t)column;
 }
 
-/* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target)
 {
+	const struct value value = compute_raw(c, index, hint, target);
+
+	return value.whole ? cut(c, value, chain_infer(c, index), hint, target) : value;
+}
+
+/* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
+static struct value compute_raw(struct chain *c, int index, enum iec_type hint,
+				  uint32_t target)
+{
 	const struct expr_node *node = &c->expr->node[index];
-	struct value value = { 0, IEC_NONE };
+	struct value value = { .type = IEC_NONE };
 
 	chain_at(c, node->text);
 	switch (node->op) {
@@ -636,6 +837,12 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 
 	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
 		return constant(c, inner->text, inner->len, true, hint);
+	if (mixes(c, chain_infer(c, node->left), IEC_NONE)) {
+		zero = constant(c, "0", 1, false, IEC_LINT);
+		value = operate(c, FN_SUB, zero, mixed_side(c, node->left, IEC_LINT), IEC_LINT, 0);
+		value.whole = true;
+		return value;
+	}
 	value = chain_compute(c, node->left, hint, 0);
 	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
 				      : constant(c, "0", 1, false, IEC_NONE);
@@ -712,7 +919,7 @@ void ld_assign(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
-	const struct value none = { 0, IEC_NONE };
+	const struct value none = { .type = IEC_NONE };
 	struct value value;
 	uint32_t target;
 
@@ -749,11 +956,15 @@ static bool is_loadable(struct chain *c, uint32_t from, uint32_t to)
 void ld_store(struct ld *ld)
 {
 	struct chain c = statement(ld);
-	const struct value none = { 0, IEC_NONE };
+	const struct value none = { .type = IEC_NONE };
 	const uint32_t target = chain_target(&c);
-	struct value value = chain_compute(&c, ld->expr->root, type_of(&c, target), target);
+	const enum iec_type type = type_of(&c, target);
+	const bool other = mixed_converts(chain_infer(&c, ld->expr->root), type) &&
+			   !iec_can_widen(chain_infer(&c, ld->expr->root), type);
+	struct value value = chain_compute(&c, ld->expr->root, type, other ? 0 : target);
 
 	chain_at(&c, ld->expr->target);
+	value = chain_fit(&c, value, type);
 	if (value.operand == target && !is_place(ld->expr))
 		return;
 	if (c.can_fail || !is_loadable(&c, value.operand, target)) {
@@ -769,6 +980,7 @@ uint32_t ld_value(struct ld *ld, enum iec_type *type, uint32_t *good)
 	struct chain c = statement(ld);
 	struct value value = chain_compute(&c, ld->expr->root, *type, 0);
 
+	value = chain_fit(&c, value, *type);
 	*type = value.type;
 	*good = c.can_fail ? c.en : 0;
 	return value.operand;

@@ -31,7 +31,8 @@ enum line_kind { LINE_TEXT, LINE_POU, LINE_END, LINE_BODY, LINE_PART };
 /* A name at the beginning of a line, @len bytes. */
 static enum line_kind kind_of(const char *name, size_t len, bool inside)
 {
-	static const char *const pous[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK" };
+	static const char *const pous[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK",
+					    "FUNCTIONBLOCK" };
 	static const char *const parts[] = { "LIBRARY", "VISUALISATION", "ACTION", "TRANSITION" };
 	static const char body[] = "_BODY";
 

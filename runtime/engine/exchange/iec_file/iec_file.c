@@ -38,25 +38,56 @@ static size_t put_byte(unsigned char byte, char *out)
 	return len;
 }
 
-/* @out: room for 3 * @len bytes. */
-static size_t from_windows(const char *text, size_t len, char *out)
+/* Where in a text of CODESYS a byte stands. */
+struct text_place { int comments; bool text, line; };
+
+static void step(struct text_place *place, const char *at, const char *end)
 {
+	const char next = end - at > 1 ? at[1] : '\0', last = at[-1];
+
+	if (place->line)
+		place->line = *at != '\n';
+	else if (place->text)
+		place->text = *at != '\'' && *at != '\n';
+	else if (*at == '*' && last == '(')
+		place->comments++;
+	else if (*at == ')' && last == '*' && place->comments)
+		place->comments--;
+	else if (!place->comments && *at == '\'')
+		place->text = true;
+	else if (!place->comments && *at == '/' && next == '/')
+		place->line = true;
+}
+
+/* @out: room for 3 * @len bytes. @exported: a STRING keeps its bytes, as the controllers of
+ * CODESYS 2.3 have them. */
+static size_t from_windows(const char *text, size_t len, char *out, bool exported)
+{
+	static const char digit[] = "0123456789ABCDEF";
+	struct text_place place = { .comments = 0 };
 	size_t at = 0;
 
 	for (size_t i = 0; i < len; i++) {
 		const unsigned char byte = (unsigned char)text[i];
 
-		if (byte < 0x80)
+		if (exported && i > 0 && !(place.text && text[i - 1] == '$'))
+			step(&place, text + i, text + len);
+		if (byte < 0x80) {
 			out[at++] = text[i];
-		else
+		} else if (exported && place.text) {
+			out[at++] = '$';
+			out[at++] = digit[byte >> 4];
+			out[at++] = digit[byte & 15];
+		} else {
 			at += put_byte(byte, out + at);
+		}
 	}
 	return at;
 }
 
 /* The text of a file in UTF-8; NULL: no memory. */
 static char *text_of(const char *file, const char *bytes, size_t len, size_t *out_len, bool *same,
-		     struct diag_list *diags)
+		     bool exported, struct diag_list *diags)
 {
 	struct diag place = { .id = DIAG_WINDOWS_TEXT, .file = file };
 	char *out;
@@ -70,7 +101,7 @@ static char *text_of(const char *file, const char *bytes, size_t len, size_t *ou
 		memcpy(out, bytes, len);
 		*out_len = len;
 	} else {
-		*out_len = from_windows(bytes, len, out);
+		*out_len = from_windows(bytes, len, out, exported);
 		place.line = 1;
 		for (size_t i = 0; i < bad; i++)
 			place.line += bytes[i] == '\n';
@@ -130,7 +161,7 @@ bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, 
 		return open_twincat(place, bytes, len, out, out_len, diags);
 	if (!exported && (!text_is_plain(bytes, len) || stranger_is_siemens(bytes, len)))
 		return refuse(place, bytes, len, diags);
-	*out = text_of(file, bytes, len, out_len, &same, diags);
+	*out = text_of(file, bytes, len, out_len, &same, exported, diags);
 	if (!*out)
 		return no_memory(diags, place);
 	if (exported)
