@@ -7,9 +7,11 @@
 #include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/name_fold.h"
+#include "editor-gtk/text/st_typing.h"
 
 #include "engine/base/name.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static GtkSourceLanguage *language(const char *id)
@@ -50,6 +52,8 @@ struct _LadderProposal {
 	GObject parent;
 	char *text, *kind, *note;
 	char *key;          /* by which it is sorted                           */
+	int rank;           /* kinds that are meant more often stand above      */
+	bool skeleton;      /* a whole statement begins with it                 */
 };
 
 static char *typed_text(GtkSourceCompletionProposal *proposal)
@@ -88,12 +92,32 @@ static void ladder_proposal_init(LadderProposal *proposal)
 
 /* ---- all candidates ---- */
 
+/* What is of the place stands above what is everywhere. */
+static int rank_of(const struct ladder_word *word)
+{
+	static const struct {
+		const char *kind;
+		int rank;
+	} ranks[] = {
+		{ N_("pin"), 0 }, { N_("value"), 0 }, { N_("keyword"), 2 }, { N_("function"), 3 },
+	};
+
+	if (g_str_has_prefix(word->text, "SYS_"))
+		return 4;
+	for (gsize i = 0; i < G_N_ELEMENTS(ranks); i++)
+		if (strcmp(ranks[i].kind, word->kind) == 0)
+			return ranks[i].rank;
+	return 1;
+}
+
 static void take_word(void *context, const struct ladder_word *word)
 {
 	LadderProposal *proposal = g_object_new(LADDER_TYPE_PROPOSAL, NULL);
 
 	proposal->text = g_strdup(word->text);
 	proposal->key = name_fold(word->text);
+	proposal->rank = rank_of(word);
+	proposal->skeleton = strcmp(word->kind, "keyword") == 0 && st_skeleton_is(word->text);
 	proposal->kind = g_strdup(_(word->kind));
 	proposal->note = g_strdup(word->note[0] ? _(word->note) : "");
 	g_list_store_append(context, proposal);
@@ -105,7 +129,7 @@ static int by_key(gconstpointer a, gconstpointer b, gpointer unused)
 	const LadderProposal *one = a, *other = b;
 
 	(void)unused;
-	return strcmp(one->key, other->key);
+	return one->rank != other->rank ? one->rank - other->rank : strcmp(one->key, other->key);
 }
 
 /* The file with @text as the POU; @line becomes a line of the file. */
@@ -125,6 +149,28 @@ static char *whole_text(LadderDocument *document, int pou, const char *text, int
 				outline + span.at + span.len);
 	g_free(outline);
 	return whole;
+}
+
+char *text_complete_call(LadderDocument *document, int pou, const char *text, int line,
+			 int column)
+{
+	struct ladder *checked = ladder_document_checked(document);
+	char *whole = whole_text(document, pou, text, &line), *call, *part[3], *marked;
+	gsize from, to;
+
+	call = checked ? ladder_call_at(checked, whole, strlen(whole), line + 1, column + 1, &from,
+					&to) : NULL;
+	g_free(whole);
+	if (!call)
+		return NULL;
+	part[0] = g_markup_escape_text(call, (gssize)from);
+	part[1] = g_markup_escape_text(call + from, (gssize)(to - from));
+	part[2] = g_markup_escape_text(call + to, -1);
+	marked = g_strdup_printf("%s<b>%s</b>%s", part[0], part[1], part[2]);
+	for (gsize i = 0; i < G_N_ELEMENTS(part); i++)
+		g_free(part[i]);
+	free(call);
+	return marked;
 }
 
 GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
@@ -167,14 +213,14 @@ static char *text_before(GtkTextBuffer *buffer, int *line, int *column)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
-/* A complete word is not offered: Enter then ends the line. */
+/* A complete word is not offered: Enter then ends the line. The statement that begins with it is. */
 static bool is_whole(GListStore *found, const char *prefix, gsize len)
 {
 	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(found)); i++) {
 		LadderProposal *word = g_list_model_get_item(G_LIST_MODEL(found), i);
 
 		g_object_unref(word); /* the list holds it */
-		if (name_is(word->text, prefix, len))
+		if (!word->skeleton && name_is(word->text, prefix, len))
 			return true;
 	}
 	return false;
@@ -255,6 +301,7 @@ static void display(GtkSourceCompletionProvider *provider,
 		break;
 	case GTK_SOURCE_COMPLETION_COLUMN_AFTER:
 		gtk_source_completion_cell_set_text(cell,
+			word->skeleton ? _("whole statement") :
 			word->note[0] ? word->note : word->kind);
 		break;
 	case GTK_SOURCE_COMPLETION_COLUMN_ICON:
@@ -286,7 +333,10 @@ static void activate(GtkSourceCompletionProvider *provider,
 				     (int)prefix_len);
 	gtk_text_buffer_begin_user_action(buffer);
 	gtk_text_buffer_delete(buffer, &start, &end);
-	gtk_text_buffer_insert(buffer, &start, text, -1);
+	if (LADDER_PROPOSAL(proposal)->skeleton)
+		st_skeleton_put(words->view, &start, text);
+	else
+		gtk_text_buffer_insert(buffer, &start, text, -1);
 	gtk_text_buffer_end_user_action(buffer);
 	g_object_unref(proposal);
 }
@@ -296,7 +346,7 @@ static gboolean is_trigger(GtkSourceCompletionProvider *provider, const GtkTextI
 {
 	(void)provider;
 	(void)at;
-	return c == '.' || c == '%';
+	return c == '.' || c == '%' || c == '#';
 }
 
 static void provider_interface(GtkSourceCompletionProviderInterface *interface)

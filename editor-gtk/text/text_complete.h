@@ -28,4 +28,9 @@ void text_complete_attach(GtkSourceView *view, LadderDocument *document, const i
 GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
 				int line, int column, gsize *prefix_len);
 
+/** text_complete_call - the call of Structured Text around the cursor, as markup, the argument that
+ * is written bold; otherwise as text_complete_words(). NULL: none. Caller frees. */
+char *text_complete_call(LadderDocument *document, int pou, const char *text, int line,
+			 int column);
+
 #endif

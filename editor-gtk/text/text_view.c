@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/text/line_values.h"
+#include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
@@ -37,12 +38,14 @@ struct _LadderTextView {
 	GtkSourceBuffer *buffer;
 	GtkTextTag *error, *warning;
 	GtkLabel *told;          /* why the line of the cursor is wrong         */
+	GtkLabel *call;          /* what the call at the cursor takes           */
 	GArray *faults;          /* of struct flaw, as of the last check       */
 	bool ours;               /* the view itself changes the text            */
 	int typed_line;          /* line, time and number of the last step of typing */
 	gint64 typed_at;
 	guint typed_step;
 	guint taking;            /* timer: puts the text into the document      */
+	guint looking;           /* timer: looks for a call at the cursor       */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
@@ -197,6 +200,14 @@ static void typed(LadderTextView *view)
 		view->taking = g_timeout_add(SEEN_MS, take_now, view);
 }
 
+static gboolean is_st(LadderTextView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+
+	return project && view->pou >= 0 && view->pou < project->pou_count &&
+	       project->pou[view->pou].language == LANGUAGE_ST;
+}
+
 /* The POU may have got another name or language. */
 static void name_pou(LadderTextView *view)
 {
@@ -204,6 +215,7 @@ static void name_pou(LadderTextView *view)
 
 	gtk_source_buffer_set_language(view->buffer,
 				       text_language_of(view->document, view->pou));
+	st_typing_set(view->view, is_st(view));
 	line_values_set_pou(view->values, !project || view->pou < 0 ||
 			    view->pou >= project->pou_count ? "" :
 			    project_text(project, project->pou[view->pou].name));
@@ -286,12 +298,43 @@ static char *reasons_of(LadderTextView *view, int line)
 	return text ? g_string_free(text, FALSE) : NULL;
 }
 
+/* ---- the call at the cursor ---- */
+
+static gboolean look_at_call(gpointer data)
+{
+	LadderTextView *view = data;
+	GtkTextIter at;
+	char *text, *call = NULL;
+
+	view->looking = 0;
+	gtk_text_buffer_get_iter_at_mark(GTK_TEXT_BUFFER(view->buffer), &at,
+		gtk_text_buffer_get_insert(GTK_TEXT_BUFFER(view->buffer)));
+	if (is_st(view)) {
+		text = text_of_buffer(view);
+		call = text_complete_call(view->document, view->pou, text,
+					  gtk_text_iter_get_line(&at),
+					  gtk_text_iter_get_line_index(&at));
+		g_free(text);
+	}
+	gtk_label_set_markup(view->call, call ? call : "");
+	gtk_widget_set_visible(GTK_WIDGET(view->call), call != NULL);
+	g_free(call);
+	return G_SOURCE_REMOVE;
+}
+
+static void look_soon(LadderTextView *view)
+{
+	if (!view->looking)
+		view->looking = g_timeout_add(SEEN_MS, look_at_call, view);
+}
+
 static void tell_line(LadderTextView *view)
 {
 	char *text = reasons_of(view, cursor_line(view));
 
 	gtk_label_set_text(view->told, text ? text : "");
 	g_free(text);
+	look_soon(view);
 }
 
 /* ---- values ---- */
@@ -560,6 +603,7 @@ static void ladder_text_view_dispose(GObject *object)
 	LadderTextView *view = LADDER_TEXT_VIEW(object);
 
 	g_clear_handle_id(&view->taking, g_source_remove);
+	g_clear_handle_id(&view->looking, g_source_remove);
 	if (view->document)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	g_clear_object(&view->document);
@@ -624,6 +668,7 @@ static void build(LadderTextView *view)
 	view->values = line_values_new(view->buffer);
 	view->view = GTK_SOURCE_VIEW(view->values);
 	view->told = GTK_LABEL(gtk_label_new(""));
+	view->call = GTK_LABEL(gtk_label_new(""));
 	gtk_source_view_set_show_line_numbers(view->view, TRUE);
 	gtk_source_view_set_highlight_current_line(view->view, TRUE);
 	gtk_source_view_set_auto_indent(view->view, TRUE);
@@ -638,6 +683,12 @@ static void build(LadderTextView *view)
 	gtk_widget_set_margin_start(GTK_WIDGET(view->told), 14);
 	gtk_widget_add_css_class(GTK_WIDGET(view->told), "error");
 	gtk_box_append(GTK_BOX(view), scroller);
+	gtk_label_set_xalign(view->call, 0);
+	gtk_label_set_ellipsize(view->call, PANGO_ELLIPSIZE_END);
+	gtk_widget_set_margin_start(GTK_WIDGET(view->call), 14);
+	gtk_widget_add_css_class(GTK_WIDGET(view->call), "monospace");
+	gtk_widget_set_visible(GTK_WIDGET(view->call), FALSE);
+	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->call));
 	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->told));
 	leaves = gtk_event_controller_focus_new();
 	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);

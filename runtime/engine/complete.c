@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * complete - the part of the facade that completes words.
+ * complete - the part of the facade that completes words and tells the call around a cursor.
  *
  * It uses the project as far as it could be read, and builds nothing.
  */
@@ -9,6 +9,7 @@
 
 #include "engine/check/expect.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 struct filter {
@@ -58,6 +59,27 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 	}
 	arena_free(&arena);
 	return good;
+}
+
+char *ladder_call_at(struct ladder *ladder, const char *text, size_t len, int line, int column,
+		     size_t *from, size_t *to)
+{
+	struct project *project = ladder_read_project(ladder);
+	struct expect_call *call = project ? malloc(sizeof(*call)) : NULL;
+	struct arena arena;
+	struct scope *scope;
+	char *found = NULL;
+
+	arena_init(&arena);
+	scope = call ? scope_new(project, &arena) : NULL;
+	if (scope && expect_call(scope, text, len, line, column, call)) {
+		found = strdup(call->text);
+		*from = call->from;
+		*to = call->to;
+	}
+	arena_free(&arena);
+	free(call);
+	return found;
 }
 
 struct function_taker {

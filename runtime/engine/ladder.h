@@ -165,6 +165,13 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 		     void (*take)(void *context, const struct ladder_word *word),
 		     void *context, struct ladder_place *place);
 
+/** ladder_call_at - the call of Structured Text whose arguments are written at the cursor, as
+ * ladder_complete finds it: "Wait(IN : BOOL, PT : TIME, Q => BOOL)"
+ * @from, @to: get the bytes of the argument at the cursor; equal: none
+ * Owns: the caller, free(). Scan-safe: no. Fails: NULL: there is none. */
+char *ladder_call_at(struct ladder *ladder, const char *text, size_t len, int line, int column,
+		     size_t *from, size_t *to);
+
 /**
  * ladder_functions - the functions that an expression may call, in no order
  * @begun: the prefix of the name. Words made by rule, such as INT_TO_REAL, are given if

@@ -4,13 +4,18 @@
  */
 #include "engine/check/expect.h"
 
+#include "engine/check/st_place.h"
+
 #include "engine/base/ascii.h"
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/model/dialect.h"
+#include "engine/base/name.h"
 #include "engine/base/nearest.h"
 #include "engine/model/convert.h"
+#include "engine/model/named.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +29,7 @@ struct before {
 	const struct pou *pou;
 	struct token token[TOKENS_MOST];
 	int count;
+	struct st_place st; /* in Structured Text                              */
 };
 
 struct offer {
@@ -71,7 +77,12 @@ static void offer_keywords(const struct offer *o)
 	static const char *const inside[] = { "VAR", "VAR_TEMP" };
 	static const char *const called[] = { "VAR_INPUT", "VAR_OUTPUT",
 					      "VAR_IN_OUT" };
+	const char *const *words = o->want->words;
 
+	for (; words && *words; words++)
+		give(o, EXPECT_KEYWORD, *words, "");
+	if (o->want->words)
+		return;
 	for (size_t i = 0; !o->pou && i < sizeof(outside) / sizeof(*outside); i++)
 		give(o, EXPECT_KEYWORD, outside[i], "");
 	if (!o->pou)
@@ -246,7 +257,9 @@ static void offer_var(const struct offer *o, const struct var *var, uint16_t fla
 	if (flags & VAR_SFC && o->want->write == (strchr(name, '.') != NULL))
 		return;
 	if (var->type == IEC_NONE || is_class(o, var->type))
-		give(o, EXPECT_VARIABLE, name, type_text(o, var->type, var->fb));
+		give(o, EXPECT_VARIABLE, name, var->named ?
+		     project_text(o->project, o->project->named[var->named - 1].name) :
+		     type_text(o, var->type, var->fb));
 }
 
 static void offer_table(const struct offer *o, const struct var_table *table)
@@ -300,12 +313,49 @@ static void offer_sfc(const struct offer *o)
 	}
 }
 
+/* Its name, with the type before it where another value of the project has this name too. */
+static void offer_value(const struct offer *o, const struct enum_value *value)
+{
+	const struct project *project = o->project;
+	const uint32_t type = project->enumeration[value->enumeration].name;
+	bool alone = true;
+	char text[2 * LIMIT_NAME + 2];
+
+	for (int i = 0; i < project->enum_value_count; i++)
+		alone = alone && (&project->enum_value[i] == value ||
+				  project->enum_value[i].fold != value->fold);
+	snprintf(text, sizeof(text), "%s%s%s", alone || !type ? "" : project_text(project, type),
+		 alone || !type ? "" : "#", project_text(project, value->name));
+	give(o, EXPECT_VALUE, o->want->marks ? project_text(project, value->name) : text,
+	     type ? project_text(project, type) : "");
+}
+
+static void offer_values(const struct offer *o)
+{
+	for (int i = 0; i < o->project->enum_value_count; i++)
+		if (o->want->enumeration < 0 ||
+		    o->project->enum_value[i].enumeration == o->want->enumeration)
+			offer_value(o, &o->project->enum_value[i]);
+}
+
 static void offer_routines(const struct offer *o)
 {
 	for (int i = 0; i < o->project->pou_count; i++)
 		if (o->project->pou[i].kind == POU_SUBROUTINE)
 			give(o, EXPECT_SUBROUTINE,
 			     project_text(o->project, o->project->pou[i].name), "");
+}
+
+/* "PT := " and "Q => ", as an argument begins. */
+static void give_argument(const struct offer *o, const struct expect_word *pin)
+{
+	struct expect_word word = *pin;
+	char text[LIMIT_NAME + 8];
+
+	snprintf(text, sizeof(text), "%s %s ", pin->text,
+		 pin->row->kind == WORD_FB && pin->row->pin[pin->pin].dir == PIN_OUT ? "=>" : ":=");
+	word.text = text;
+	o->taker->take(o->taker->context, &word);
 }
 
 static void offer_pins(const struct offer *o)
@@ -322,10 +372,12 @@ static void offer_pins(const struct offer *o)
 		    (dirs && !(dirs & 1u << pin->dir)) ||
 		    (pin->type != IEC_NONE && !is_class(o, pin->type)))
 			continue;
-		if (*pin->name)
+		if (*pin->name && o->want->marks)
+			give_argument(o, &word);
+		else if (*pin->name)
 			o->taker->take(o->taker->context, &word);
 	}
-	if (!row || row->kind != WORD_FN || !o->want->call)
+	if (o->want->marks || !row || row->kind != WORD_FN || !o->want->call)
 		return;
 	give(o, EXPECT_PIN, "EN", "BOOL");
 	give(o, EXPECT_PIN, "ENO", "BOOL");
@@ -366,6 +418,8 @@ void expect_offer(const struct project *project, const struct pou *pou,
 		offer_sfc(&o);
 	if (want->kinds & EXPECT_PIN)
 		offer_pins(&o);
+	if (want->kinds & EXPECT_VALUE)
+		offer_values(&o);
 }
 
 void expect_functions(const struct project *project, const char *begun, size_t len,
@@ -428,6 +482,8 @@ const char *expect_kind_text(enum expect_kind kind)
 		return "qualifier";
 	case EXPECT_STEP_PART:
 		return "part of a step";
+	case EXPECT_VALUE:
+		return "value";
 	}
 	return "";
 }
@@ -437,6 +493,8 @@ static bool stays(const struct expect_word *word)
 {
 	if (word->kind == EXPECT_OPERATOR)
 		return word->text == op_row(word->op)->word;
+	if (word->kind == EXPECT_VALUE)
+		return false;
 	return word->kind != EXPECT_FUNCTION || word->text == word->row->word;
 }
 
@@ -500,11 +558,6 @@ static bool is_name_byte(char c)
 	       (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z');
 }
 
-static bool expect_is(const struct token *token, const char *text)
-{
-	return token->len == strlen(text) && ascii_same(token->text, text, token->len);
-}
-
 /* expect_value, expect_write - a value of these classes, a variable that is written. */
 static struct expect_want expect_value(uint16_t classes)
 {
@@ -545,7 +598,7 @@ static uint16_t pin_classes(const struct word_row *row, const struct token *pin)
 	int index = row ? word_pin_find(row, pin->text, pin->len) : -1;
 
 	if (index < 0 || index >= row->pin_count)
-		return expect_is(pin, "EN") || expect_is(pin, "ENO") ? CLASS_BOOL : 0;
+		return st_is(pin, "EN") || st_is(pin, "ENO") ? CLASS_BOOL : 0;
 	return row->pin[index].type != IEC_NONE ?
 	       iec_type_row(row->pin[index].type)->class : row->pin[index].classes;
 }
@@ -556,9 +609,9 @@ static struct expect_want parameter_want(const struct before *b, int at,
 {
 	const struct token *last = &b->token[b->count - 1];
 
-	if (b->count - at >= 2 && expect_is(last, ":="))
+	if (b->count - at >= 2 && st_is(last, ":="))
 		return expect_value(pin_classes(row, last - 1));
-	if (b->count - at >= 2 && expect_is(last, "=>"))
+	if (b->count - at >= 2 && st_is(last, "=>"))
 		return expect_write(pin_classes(row, last - 1));
 	return (struct expect_want){ .kinds = EXPECT_PIN, .row = row, .call = true,
 				     .block = WORD_COUNT };
@@ -585,7 +638,7 @@ static struct expect_want operator_want(const struct before *b, int at, enum op 
 		return expect_write(CLASS_BOOL);
 	if (row->operand == OPND_ANY_W && !more)
 		return expect_write(0);
-	if (row->operand == OPND_NONE || (more && !expect_is(&b->token[at + 1], "(")))
+	if (row->operand == OPND_NONE || (more && !st_is(&b->token[at + 1], "(")))
 		return (struct expect_want){ .block = WORD_COUNT };
 	return expect_value(word_operator(word_row(op_function(op))) == op ? ANY_BIT : 0);
 }
@@ -606,7 +659,7 @@ static enum op find_op(const struct token *token)
 static bool has_parameters(const struct before *b, int at)
 {
 	for (int i = at; i < b->count; i++)
-		if (expect_is(&b->token[i], ":=") || expect_is(&b->token[i], "=>"))
+		if (st_is(&b->token[i], ":=") || st_is(&b->token[i], "=>"))
 			return true;
 	return false;
 }
@@ -617,7 +670,7 @@ static struct expect_want expect_list(const struct before *b)
 	struct word_table *words = &scope_project(b->scope)->words;
 	const struct word_row *row;
 	struct expect_want want = expect_value(0);
-	int at = b->count >= 2 && expect_is(&b->token[1], ":") ? 2 : 0;
+	int at = b->count >= 2 && st_is(&b->token[1], ":") ? 2 : 0;
 	enum op op;
 
 	if (b->count == at)
@@ -632,7 +685,7 @@ static struct expect_want expect_list(const struct before *b)
 	row = words_row(words, words_find(words, b->token[at].text, b->token[at].len));
 	if (row->kind != WORD_FN)
 		return (struct expect_want){ .block = WORD_COUNT };
-	if (b->count - at >= 2 && expect_is(&b->token[at + 1], "(")) {
+	if (b->count - at >= 2 && st_is(&b->token[at + 1], "(")) {
 		struct expect_want pins = parameter_want(b, at + 2, row);
 
 		if (b->count - at == 2 && word_opens(row))
@@ -684,10 +737,10 @@ static bool expect_ends_value(const struct token *token)
 	static const char *const words[] = { "AND", "OR", "XOR", "MOD", "NOT" };
 
 	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (expect_is(token, words[i]))
+		if (st_is(token, words[i]))
 			return false;
-	return token->kind != TOKEN_SYMBOL || expect_is(token, ")") ||
-	       expect_is(token, "]");
+	return token->kind != TOKEN_SYMBOL || st_is(token, ")") ||
+	       st_is(token, "]");
 }
 
 /* In brackets: values, and functions that make some. */
@@ -714,7 +767,7 @@ static struct expect_want expect_cell(const struct before *b)
 		want.boxes = true;
 		return want;
 	}
-	if (expect_is(&b->token[0], "["))
+	if (st_is(&b->token[0], "["))
 		return expression_want(b);
 	word = words_find(words, b->token[0].text, b->token[0].len);
 	row = words_row(words, word);
@@ -825,7 +878,7 @@ static struct expect_want declaration_want(const struct before *b)
 {
 	struct expect_want want = { .block = WORD_COUNT };
 
-	if (b->count > 0 && expect_is(&b->token[b->count - 1], ":"))
+	if (b->count > 0 && st_is(&b->token[b->count - 1], ":"))
 		want.kinds = EXPECT_TYPE | EXPECT_BLOCK;
 	return want;
 }
@@ -838,8 +891,80 @@ static bool is_step(const struct before *b, const char *word, size_t len)
 	       sfc_find_step(b->pou->sfc, names, names_find(names, word, len)) >= 0;
 }
 
+/* `Recipes[i].Steps[2].`: where the path begins that ends with the word at @word. */
+static const char *path_start(const char *text, const char *word)
+{
+	while (word > text && word[-1] == ']') {
+		int open = 0;
+
+		do {
+			word--;
+			open += *word == ']';
+			open -= *word == '[';
+		} while (word > text && open > 0 && *word != '\n');
+		while (word > text && is_name_byte(word[-1]))
+			word--;
+	}
+	return word;
+}
+
+/* Appends "[1,1]", the first element of @array. */
+static size_t print_first(const struct meaning *array, char *out, size_t size)
+{
+	size_t used = 0;
+	const int dims = array->dims > 1 ? array->dims : 1;
+
+	for (int i = 0; i < dims && used < size; i++)
+		used += (size_t)snprintf(out + used, size - used, "%s%" PRId32, i ? "," : "[",
+					 dims > 1 ? array->dim[i].low : array->array.low);
+	if (used < size)
+		used += (size_t)snprintf(out + used, size - used, "]");
+	return used;
+}
+
+/* What a path means, whatever its indices are: parts of all elements are the same. */
+static const struct meaning *meaning_of_path(const struct before *b, const char *path, size_t len)
+{
+	const struct meaning *m = meaning_of(b, path, len);
+	char plain[2 * LIMIT_NAME];
+	size_t used = 0;
+
+	for (size_t i = 0; !m && i < len && used + 1 < sizeof(plain); i++) {
+		const struct meaning *array;
+		int open = 0;
+
+		if (path[i] != '[') {
+			plain[used++] = path[i];
+			continue;
+		}
+		array = meaning_of(b, plain, used);
+		if (!array || array->kind != MEANING_ARRAY)
+			return NULL;
+		used += print_first(array, plain + used, sizeof(plain) - used);
+		for (; i < len && (open += (path[i] == '[') - (path[i] == ']')) > 0; i++)
+			;
+	}
+	return m || used + 1 >= sizeof(plain) ? m : meaning_of(b, plain, used);
+}
+
+/* The values of the enumeration of this name. */
+static bool values_want(const struct before *b, const char *type, size_t len,
+			struct expect_want *want)
+{
+	const struct project *project = scope_project(b->scope);
+	const int found = named_find(project, names_fold(names_of(b->scope),
+				     names_intern(names_of(b->scope), type, len)));
+	const struct var *like = found < 0 ? NULL : project->named[found].like.var;
+
+	if (!like || !like->enumeration)
+		return false;
+	*want = (struct expect_want){ .kinds = EXPECT_VALUE, .block = WORD_COUNT, .marks = true,
+				      .enumeration = like->enumeration - 1 };
+	return true;
+}
+
 /* `Delay.`: the word under the cursor is a part of the variable before the dot. */
-static bool part_want(const struct before *b, const char *word, size_t *len,
+static bool part_want(const struct before *b, const char *text, const char *word, size_t *len,
 		      struct expect_want *want, const char **prefix)
 {
 	const char *dot = NULL;
@@ -851,14 +976,17 @@ static bool part_want(const struct before *b, const char *word, size_t *len,
 			dot = word + i;
 	if (!dot)
 		return true;
-	m = meaning_of(b, word, (size_t)(dot - word));
 	*len -= (size_t)(dot + 1 - word);
 	*prefix = dot + 1;
+	word = path_start(text, word);
+	m = meaning_of_path(b, word, (size_t)(dot - word));
 	if (!m && is_step(b, word, (size_t)(dot - word))) {
 		*want = (struct expect_want){ .kinds = write ? 0 : EXPECT_STEP_PART,
 					      .block = WORD_COUNT };
 		return true;
 	}
+	if (!m && !write && values_want(b, word, (size_t)(dot - word), want))
+		return true;
 	if (!m || (m->kind != MEANING_INSTANCE && m->kind != MEANING_STRUCT))
 		return false;
 	*want = (struct expect_want){ .kinds = EXPECT_PIN, .classes = want->classes,
@@ -977,7 +1105,7 @@ static const struct expect_want nothing = { .block = WORD_COUNT };
 /* The word before the last one, which is `:=`; NULL: it is not. */
 static const struct token *setting(const struct before *b)
 {
-	return b->count >= 2 && expect_is(&b->token[b->count - 1], ":=") ?
+	return b->count >= 2 && st_is(&b->token[b->count - 1], ":=") ?
 	       &b->token[b->count - 2] : NULL;
 }
 
@@ -985,7 +1113,7 @@ static struct expect_want step_want(const struct before *b)
 {
 	const struct token *word = setting(b);
 
-	if (word && expect_is(word, "ALARM"))
+	if (word && st_is(word, "ALARM"))
 		return expect_write(CLASS_BOOL);
 	return word ? expect_value(CLASS_TIME) : nothing;
 }
@@ -994,8 +1122,8 @@ static struct expect_want step_want(const struct before *b)
 static int condition_at(const struct before *b)
 {
 	for (int i = 1; i < b->count; i++)
-		if (expect_is(&b->token[i], ":=") &&
-		    !expect_is(&b->token[i - 1], "PRIORITY"))
+		if (st_is(&b->token[i], ":=") &&
+		    !st_is(&b->token[i - 1], "PRIORITY"))
 			return i + 1;
 	return 0;
 }
@@ -1012,9 +1140,9 @@ static struct expect_want transition_want(const struct before *b)
 	if (condition)
 		return b->count > condition && expect_ends_value(last) ? nothing : want;
 	for (int i = 1; i < b->count; i++)
-		named |= expect_is(&b->token[i], "FROM") || expect_is(&b->token[i], "TO");
-	if (named && (expect_is(last, "FROM") || expect_is(last, "TO") ||
-		      expect_is(last, "(") || expect_is(last, ",")))
+		named |= st_is(&b->token[i], "FROM") || st_is(&b->token[i], "TO");
+	if (named && (st_is(last, "FROM") || st_is(last, "TO") ||
+		      st_is(last, "(") || st_is(last, ",")))
 		return kinds_want(EXPECT_STEP);
 	return nothing;
 }
@@ -1025,7 +1153,7 @@ static struct expect_want control_want(const struct before *b)
 
 	if (!word)
 		return nothing;
-	return expect_value(expect_is(word, "FORCE") ? ANY_INT : CLASS_BOOL);
+	return expect_value(st_is(word, "FORCE") ? ANY_INT : CLASS_BOOL);
 }
 
 /* ---- lines ---- */
@@ -1039,11 +1167,11 @@ static struct expect_want use_want(const struct before *b)
 		want.kinds |= EXPECT_ACTION | EXPECT_KEYWORD;
 		return want;
 	}
-	if (expect_is(&b->token[0], "SET") || expect_is(&b->token[0], "RESET"))
-		return b->count == 1 || expect_is(last, ",") ? want : nothing;
-	if (expect_is(last, "("))
+	if (st_is(&b->token[0], "SET") || st_is(&b->token[0], "RESET"))
+		return b->count == 1 || st_is(last, ",") ? want : nothing;
+	if (st_is(last, "("))
 		return kinds_want(EXPECT_QUALIFIER);
-	return expect_is(last, ",") ? expect_value(CLASS_TIME) : nothing;
+	return st_is(last, ",") ? expect_value(CLASS_TIME) : nothing;
 }
 
 static bool is_sfc_step(const struct token *token)
@@ -1051,7 +1179,7 @@ static bool is_sfc_step(const struct token *token)
 	const struct sfc_word *word;
 
 	for (int i = 0; (word = sfc_word(i)); i++)
-		if (word->kind == SFC_WORD_STEP && expect_is(token, word->word))
+		if (word->kind == SFC_WORD_STEP && st_is(token, word->word))
 			return true;
 	return false;
 }
@@ -1070,9 +1198,9 @@ static struct expect_want expect_sfc(struct before *b, const char *text, size_t 
 	expect_tokens(b, text, expect_statement(text, line), to);
 	if (b->count && is_sfc_step(&b->token[0]))
 		return step_want(b);
-	if (b->count && expect_is(&b->token[0], "TRANSITION"))
+	if (b->count && st_is(&b->token[0], "TRANSITION"))
 		return transition_want(b);
-	if (b->count && expect_is(&b->token[0], "CONTROL"))
+	if (b->count && st_is(&b->token[0], "CONTROL"))
 		return control_want(b);
 	in = inside_at(text, line);
 	if (in == IN_STEP)
@@ -1080,6 +1208,252 @@ static struct expect_want expect_sfc(struct before *b, const char *text, size_t 
 	if (in == IN_BODY)
 		return expect_list(b);
 	return kinds_want(b->count ? 0 : EXPECT_KEYWORD);
+}
+
+/* ---- Structured Text ---- */
+
+/* Where the lines below the heading of the POU begin. */
+static size_t body_of(const char *text, size_t line)
+{
+	static const char *const heads[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "SUBROUTINE" };
+	size_t begin = line;
+
+	while (begin > 0) {
+		const size_t end = begin - 1;
+
+		begin = expect_line(text, end);
+		for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+			if (begins(text, begin, end, heads[i]))
+				return end + 1;
+	}
+	return 0;
+}
+
+static struct expect_want words_want(const char *const *words)
+{
+	return (struct expect_want){ .kinds = EXPECT_KEYWORD, .words = words,
+				     .block = WORD_COUNT };
+}
+
+/* The enumeration of what a path names; -1: it has none. */
+static int enumeration_of(const struct before *b, const char *text, const struct token *last)
+{
+	const char *from, *end = last->text + last->len;
+	const struct meaning *m;
+
+	if (last->kind != TOKEN_NAME && !st_is(last, "]"))
+		return -1;
+	from = path_start(text, last->kind == TOKEN_NAME ? last->text : end);
+	m = meaning_of_path(b, from, (size_t)(end - from));
+	return m && m->kind != MEANING_LITERAL && m->like ? (int)m->like->enumeration - 1 : -1;
+}
+
+/* A value, compared with or stored in one of this enumeration; -1: any. */
+static struct expect_want st_value_want(int enumeration)
+{
+	struct expect_want want = expect_value(0);
+
+	want.boxes = true;
+	want.enumeration = enumeration;
+	want.kinds |= EXPECT_FUNCTION | EXPECT_VALUE;
+	return want;
+}
+
+static const struct word_row *row_of_call(const struct before *b, const struct st_open *open)
+{
+	struct word_table *words = &scope_project(b->scope)->words;
+	const struct token *name = &b->st.token[open->at - 1];
+	const struct word_row *row;
+
+	if (open->at < 1 || !st_is(name + 1, "(") || name->kind != TOKEN_NAME)
+		return NULL;
+	row = row_of_instance(b, name);
+	if (row)
+		return row;
+	row = words_row(words, words_find(words, name->text, name->len));
+	return row->kind == WORD_FN ? row : NULL;
+}
+
+/* The variable of the project that a pin is; NULL: one of the catalogue. */
+static const struct var *var_of_pin(const struct before *b, const struct word_row *row,
+				    const char *pin, size_t len)
+{
+	const struct project *project = scope_project(b->scope);
+	const struct var_table *vars;
+
+	if (!row || row->kind == WORD_STRUCT || row->number < WORD_COUNT || row->owner < 0 ||
+	    row->owner >= project->pou_count)
+		return NULL;
+	vars = &project->pou[row->owner].vars;
+	for (int i = 0; i < vars->count; i++)
+		if (name_is(project_text(project, vars->var[i].name), pin, len))
+			return &vars->var[i];
+	return NULL;
+}
+
+static const char *const st_operators[] = { "AND", "OR", "XOR", "MOD", NULL };
+
+/* What the value before the cursor is compared with or stored in. */
+static int st_compared(const struct before *b, const char *text)
+{
+	static const char *const signs[] = { ":=", "=", "<>" };
+
+	for (size_t i = 0; b->st.count > 1 && i < sizeof(signs) / sizeof(*signs); i++)
+		if (st_is(&b->st.token[b->st.count - 1], signs[i]))
+			return enumeration_of(b, text, &b->st.token[b->st.count - 2]);
+	return -1;
+}
+
+static struct expect_want st_argument_want(const struct before *b, const char *text,
+					   const struct st_open *open)
+{
+	const struct word_row *row = row_of_call(b, open);
+	const struct token *last = &b->st.token[b->st.count - 1];
+	struct expect_want want = st_value_want(-1);
+	const struct var *var;
+
+	if (row && last - b->st.token == open->last + 1 && st_is(last, "=>"))
+		return expect_write(pin_classes(row, last - 1));
+	if (row && last - b->st.token == open->last + 1 && st_is(last, ":=")) {
+		var = var_of_pin(b, row, last[-1].text, last[-1].len);
+		want.enumeration = var ? (int)var->enumeration - 1 : -1;
+		return want;
+	}
+	if (st_ends_value(&b->st) && b->st.count > open->last)
+		return words_want(st_operators);
+	if (row && b->st.count == open->last) {
+		want.kinds |= EXPECT_PIN;
+		want.row = row;
+		want.marks = true;
+		want.kinds &= ~(unsigned)EXPECT_VALUE;
+		return want;
+	}
+	want.enumeration = st_compared(b, text);
+	return want;
+}
+
+static bool has_word(const struct st_place *st, const char *word)
+{
+	for (int i = 0; i < st->count; i++)
+		if (st_is(&st->token[i], word))
+			return true;
+	return false;
+}
+
+/* Words that may follow the value which ends before the cursor. */
+static struct expect_want st_behind_want(const struct before *b)
+{
+	static const char *const then[] = { "THEN", "AND", "OR", "XOR", "MOD", NULL };
+	static const char *const of[] = { "OF", "AND", "OR", "XOR", "MOD", NULL };
+	static const char *const doing[] = { "DO", "AND", "OR", "XOR", "MOD", NULL };
+	static const char *const to[] = { "TO", "MOD", NULL };
+	static const char *const by[] = { "BY", "DO", "MOD", NULL };
+	static const char *const until[] = { "END_REPEAT", "AND", "OR", "XOR", "MOD", NULL };
+	const struct token *first = b->st.token;
+
+	if (st_is(first, "IF") || st_is(first, "ELSIF"))
+		return words_want(then);
+	if (st_is(first, "CASE"))
+		return words_want(of);
+	if (st_is(first, "UNTIL"))
+		return words_want(until);
+	if (st_is(first, "FOR"))
+		return !has_word(&b->st, ":=") ? nothing :
+		       words_want(has_word(&b->st, "BY") ? doing :
+				  has_word(&b->st, "TO") ? by : to);
+	return words_want(st_is(first, "WHILE") ? doing : st_operators);
+}
+
+/* Words that end the innermost block, or begin its next branch. */
+static const char *const *ends_of_block(const struct before *b)
+{
+#define STATEMENTS "IF", "CASE", "FOR", "WHILE", "REPEAT", "EXIT", "CONTINUE", "RETURN"
+	static const char *const branch[] = { STATEMENTS, "ELSIF", "ELSE", "END_IF", NULL };
+	static const char *const last[] = { STATEMENTS, "END_IF", NULL };
+	static const char *const choice[] = { STATEMENTS, "ELSE", "END_CASE", NULL };
+	static const char *const other[] = { STATEMENTS, "END_CASE", NULL };
+	static const char *const repeat[] = { STATEMENTS, "UNTIL", "END_REPEAT", NULL };
+	static const char *const counted[] = { STATEMENTS, "END_FOR", NULL };
+	static const char *const whiles[] = { STATEMENTS, "END_WHILE", NULL };
+	static const char *const outside[][12] = {
+		[POU_PROGRAM] = { STATEMENTS, "VAR", "VAR_TEMP", "END_PROGRAM" },
+		[POU_FUNCTION] = { STATEMENTS, "VAR", "VAR_INPUT", "END_FUNCTION" },
+		[POU_BLOCK] = { STATEMENTS, "VAR", "VAR_INPUT", "END_FUNCTION_BLOCK" },
+		[POU_SUBROUTINE] = { STATEMENTS, "VAR", "END_SUBROUTINE" },
+	};
+	const struct st_block *block = st_place_block(&b->st);
+
+	if (!block)
+		return outside[b->pou->kind];
+	if (block->kind == ST_IF)
+		return block->other ? last : branch;
+	if (block->kind == ST_CASE)
+		return block->other ? other : choice;
+	return block->kind == ST_REPEAT ? repeat : block->kind == ST_FOR ? counted : whiles;
+#undef STATEMENTS
+}
+
+/* At the beginning of a statement: in a CASE also the values that choose a branch. */
+static struct expect_want st_begin_want(const struct before *b, const char *text)
+{
+	const struct st_block *block = st_place_block(&b->st);
+	struct expect_want want = words_want(ends_of_block(b));
+
+	want.kinds |= EXPECT_VARIABLE | EXPECT_INSTANCE | EXPECT_SUBROUTINE;
+	want.write = true;
+	if (block && block->kind == ST_CASE && !block->other && block->selector.len) {
+		want.enumeration = enumeration_of(b, text, &block->selector);
+		want.kinds |= want.enumeration >= 0 ? (unsigned)EXPECT_VALUE : 0;
+	}
+	return want;
+}
+
+/* Behind `1, ` of a choice of CASE. */
+static bool in_choice(const struct before *b)
+{
+	const struct st_block *block = st_place_block(&b->st);
+
+	return block && block->kind == ST_CASE && b->st.count > 0 &&
+	       st_is(&b->st.token[b->st.count - 1], ",") && !has_word(&b->st, ":=");
+}
+
+static struct expect_want expect_st(struct before *b, const char *text, size_t line, size_t to)
+{
+	const size_t body = body_of(text, line);
+	struct expect_want want;
+	struct st_open open;
+
+	st_place_find(&b->st, text + body, to - body);
+	if (b->st.count == 0)
+		return st_begin_want(b, text);
+	open = st_place_open(&b->st);
+	if (open.at >= 0)
+		return st_argument_want(b, text, &open);
+	if (in_choice(b)) {
+		want = kinds_want(EXPECT_VALUE);
+		want.enumeration = enumeration_of(b, text, &st_place_block(&b->st)->selector);
+		return want;
+	}
+	if (b->st.count == 1 && st_is(b->st.token, "FOR"))
+		return expect_write(ANY_INT);
+	if (st_ends_value(&b->st))
+		return b->st.count == 1 ? nothing : st_behind_want(b);
+	return st_value_want(st_compared(b, text));
+}
+
+/* Phase#: the values of the enumeration before the cursor's word. */
+static bool typed_want(const struct before *b, const char *text, size_t word,
+		       struct expect_want *want)
+{
+	size_t from = word - (word > 0);
+
+	if (word == 0 || text[word - 1] != '#')
+		return false;
+	while (from > 0 && is_name_byte(text[from - 1]))
+		from--;
+	if (!values_want(b, text + from, word - 1 - from, want))
+		*want = nothing;
+	return true;
 }
 
 static struct expect_want want_at(struct before *b, const char *text, size_t line,
@@ -1103,6 +1477,8 @@ static struct expect_want want_at(struct before *b, const char *text, size_t lin
 		expect_tokens(b, text, expect_statement(text, line), to);
 		return expect_list(b);
 	}
+	if (b->pou && b->pou->language == LANGUAGE_ST)
+		return expect_st(b, text, line, to);
 	expect_tokens(b, text, line, to);
 	return (struct expect_want){ .kinds = b->count ? 0 : EXPECT_KEYWORD,
 				     .block = WORD_COUNT };
@@ -1117,10 +1493,11 @@ static void find_want(struct before *b, const char *text, size_t at, int line,
 		word--;
 	b->pou = out->pou = pou_at(scope_project(b->scope), text,
 				   expect_line(text, at), line);
-	out->want = want_at(b, text, expect_line(text, at), word);
+	if (!typed_want(b, text, word, &out->want))
+		out->want = want_at(b, text, expect_line(text, at), word);
 	out->prefix = text + word;
 	out->prefix_len = at - word;
-	if (!part_want(b, text + word, &out->prefix_len, &out->want, &out->prefix))
+	if (!part_want(b, text, text + word, &out->prefix_len, &out->want, &out->prefix))
 		out->want.kinds = 0;
 }
 
@@ -1142,4 +1519,127 @@ bool expect_at(struct scope *scope, const char *text, size_t len, int line,
 	out->want.begun_len = out->prefix_len;
 	free(before);
 	return true;
+}
+
+/* ---- the call around the cursor ---- */
+
+static const char *type_of_pin(const struct before *b, const struct word_row *row,
+			       const struct word_pin *pin)
+{
+	const struct var *var = var_of_pin(b, row, pin->name, strlen(pin->name));
+	static const struct { uint16_t classes; const char *text; } any[] = {
+		{ ANY_INT, "ANY_INT" }, { ANY_NUM, "ANY_NUM" }, { ANY_BIT, "ANY_BIT" },
+	};
+
+	if (var && var->named)
+		return project_text(scope_project(b->scope),
+				    scope_project(b->scope)->named[var->named - 1].name);
+	if (pin->type != IEC_NONE)
+		return iec_type_row(pin->type)->word;
+	if (pin->classes == 0 && pin->word)
+		return scope_row(b->scope, (enum word)pin->word)->word;
+	for (size_t i = 0; i < sizeof(any) / sizeof(*any); i++)
+		if (pin->classes == any[i].classes)
+			return any[i].text;
+	return "ANY";
+}
+
+/* Which pin the argument at the cursor goes to; -1: none yet. */
+static int pin_at(const struct before *b, const struct word_row *row, const struct st_open *open)
+{
+	const struct st_place *st = &b->st;
+	int pin = -1;
+
+	if (st->count > open->last + 1 && (st_is(&st->token[open->last + 1], ":=") ||
+					   st_is(&st->token[open->last + 1], "=>")))
+		return word_pin_find(row, st->token[open->last].text, st->token[open->last].len);
+	for (int i = 0; i <= open->argument && pin < row->pin_count; i++)
+		do
+			pin++;
+		while (pin < row->pin_count && row->pin[pin].dir != PIN_IN &&
+		       row->pin[pin].dir != PIN_IN_OUT);
+	return pin;
+}
+
+static void say(struct expect_call *out, size_t *used, const char *before, const char *text)
+{
+	int written = *used < sizeof(out->text) ?
+		snprintf(out->text + *used, sizeof(out->text) - *used, "%s%s", before, text) : 0;
+
+	*used += written > 0 ? (size_t)written : 0;
+	if (*used >= sizeof(out->text))
+		*used = sizeof(out->text) - 1;
+}
+
+/* The inputs, or the outputs of a block. Pins of a function without a name outside are left out. */
+static void print_pins(const struct before *b, const struct word_row *row, bool outputs, int at,
+		       struct expect_call *out, size_t *used)
+{
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+
+		if (pin->dir == PIN_VAR || pin->dir == PIN_NONE || !pin->name || !*pin->name ||
+		    (row->kind == WORD_FB && pin->dir == PIN_OUT) != outputs)
+			continue;
+		say(out, used, out->text[*used - 1] == '(' ? "" : ", ", "");
+		if (i == at)
+			out->from = *used;
+		say(out, used, pin->name, outputs ? " => " : " : ");
+		say(out, used, type_of_pin(b, row, pin), "");
+		if (i == at)
+			out->to = *used;
+	}
+}
+
+static void print_call(const struct before *b, const struct word_row *row, const char *name,
+		       int at, struct expect_call *out)
+{
+	size_t used = 0;
+
+	out->from = out->to = 0;
+	say(out, &used, name, "(");
+	print_pins(b, row, false, at, out, &used);
+	print_pins(b, row, true, at, out, &used);
+	say(out, &used, row->kind == WORD_FN && row->most_inputs > row->pin_count ? ", \xe2\x80\xa6" : "",
+	    ")");
+}
+
+static bool find_call(struct before *b, const char *text, size_t at, int line,
+		      struct expect_call *out)
+{
+	const size_t body = body_of(text, expect_line(text, at));
+	const struct word_row *row;
+	struct st_open open;
+	char name[LIMIT_NAME + 1];
+
+	b->pou = pou_at(scope_project(b->scope), text, expect_line(text, at), line);
+	if (!b->pou || b->pou->language != LANGUAGE_ST || body > at)
+		return false;
+	st_place_find(&b->st, text + body, at - body);
+	open = st_place_open(&b->st);
+	row = open.at > 0 ? row_of_call(b, &open) : NULL;
+	if (!row)
+		return false;
+	snprintf(name, sizeof(name), "%.*s", (int)b->st.token[open.at - 1].len,
+		 b->st.token[open.at - 1].text);
+	print_call(b, row, name, pin_at(b, row, &open), out);
+	return true;
+}
+
+bool expect_call(struct scope *scope, const char *text, size_t len, int line, int column,
+		 struct expect_call *out)
+{
+	struct before *before;
+	bool found;
+	size_t at;
+
+	if (!offset_of(text, len, line, column, &at))
+		return false;
+	before = calloc(1, sizeof(*before));
+	if (!before)
+		return false;
+	before->scope = scope;
+	found = find_call(before, text, at, line, out);
+	free(before);
+	return found;
 }

@@ -29,6 +29,9 @@ struct expect_want {
 				      are hundreds: those whose first type it
 				      has, up to the _, are offered           */
 	size_t begun_len;
+	const char *const *words;  /* the keywords, up to NULL; NULL: those of a file */
+	int enumeration;           /* whose values; -1: of all                  */
+	bool marks;                /* of pins: with := or => behind             */
 };
 
 struct expect_word {
@@ -86,4 +89,14 @@ struct expect_place {
  */
 bool expect_at(struct scope *scope, const char *text, size_t len, int line,
 	       int column, struct expect_place *out);
+
+/* A call whose arguments are being written. */
+struct expect_call {
+	char text[512];            /* Wait(IN : BOOL, PT : TIME, Q => BOOL)     */
+	size_t from, to;           /* of it the argument at the cursor; equal: none */
+};
+/** expect_call - the call of Structured Text around the cursor, otherwise as expect_at. Fails:
+ * false: there is none. */
+bool expect_call(struct scope *scope, const char *text, size_t len, int line, int column,
+		 struct expect_call *out);
 #endif

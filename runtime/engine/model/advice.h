@@ -34,6 +34,7 @@ enum expect_kind {
 	EXPECT_ACTION      = 1 << 13, /* likewise                               */
 	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: qualifiers of a line of a step  */
 	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
+	EXPECT_VALUE       = 1 << 16, /* of an enumeration                      */
 };
 
 struct mend_line;

@@ -3,6 +3,7 @@
  * test_text - a list in its view: colours, words that could follow, errors in their
  * lines, typing and undoing in the one history.
  */
+#include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/text/text_view.h"
@@ -172,6 +173,46 @@ static void test_statement_colours(void)
 					cases[i].column) == cases[i].coloured, cases[i].line);
 	g_object_unref(body);
 	g_object_unref(other);
+}
+
+/* Each line of a body stands where it would be put. */
+static void test_indents(void)
+{
+	static const char body[] =
+		"PROGRAM Main ST\nVAR\n  i : INT;\nEND_VAR\n"
+		"  IF Start THEN // DO\n    i := 1;\n    IF Stop THEN i := 2; END_IF;\n    i := 3;\n"
+		"  ELSIF Stop THEN\n    (* THEN *)\n    REPEAT\n      i := 'DO' +\n      1;\n"
+		"    UNTIL Stop END_REPEAT;\n    WHILE Stop DO\n      i := 4;\n    END_WHILE;\n"
+		"  ELSE\n    CASE i OF\n      1, 2:\n        i := 5;\n        FOR i := 1 TO 3 DO\n"
+		"          ;\n        END_FOR;\n    END_CASE;\n  END_IF;\n  i := 6;\n";
+	char **lines = g_strsplit(body, "\n", -1);
+
+	for (int i = 4; lines[i] && *lines[i]; i++) {
+		if (st_indent(body, i) != (int)strspn(lines[i], " "))
+			printf("# %d blanks: %s\n", st_indent(body, i), lines[i]);
+		CHECK(st_indent(body, i) == (int)strspn(lines[i], " "));
+	}
+	CHECK(st_skeleton_is("if") && st_skeleton_is("REPEAT") && !st_skeleton_is("EXIT"));
+	g_strfreev(lines);
+}
+
+/* A whole statement, and the way of the cursor through it. */
+static void test_skeleton(void)
+{
+	GtkSourceView *body = g_object_ref_sink(GTK_SOURCE_VIEW(gtk_source_view_new()));
+	GtkTextBuffer *text = gtk_text_view_get_buffer(GTK_TEXT_VIEW(body));
+	GtkTextIter at, end;
+	char *now;
+
+	gtk_text_buffer_set_text(text, "    ", -1);
+	gtk_text_buffer_get_end_iter(text, &at);
+	st_skeleton_put(body, &at, "for");
+	gtk_text_buffer_insert_at_cursor(text, "i", -1);
+	gtk_text_buffer_get_bounds(text, &at, &end);
+	now = gtk_text_buffer_get_text(text, &at, &end, TRUE);
+	CHECK_TEXT(now, "    FOR i :=  TO  DO\n      \n    END_FOR;");
+	g_free(now);
+	g_object_unref(body);
 }
 
 static bool offers(const char *text, int line, int column, const char *word, gsize *len)
@@ -551,6 +592,8 @@ int main(void)
 	test_colours();
 	test_chart_colours();
 	test_statement_colours();
+	test_indents();
+	test_skeleton();
 	test_words();
 	test_errors();
 	test_typing();

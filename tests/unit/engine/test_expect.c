@@ -8,6 +8,7 @@
 
 #include "tests/tap.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static const char text[] =
@@ -72,6 +73,138 @@ static bool has(const char *words, const char *word)
 
 	snprintf(between, sizeof(between), " %s ", word);
 	return strstr(words, between) != NULL;
+}
+
+/* A body of Structured Text, in which ^ is the cursor. */
+static const char head_st[] =
+	"RUNGBOARD 1\n"
+	"TYPE\n"
+	"  Phase : (Idle, Filling := 3, Draining);\n"
+	"  Gear  : (Idle := 7, First);\n"
+	"  Step : STRUCT\n    Level : INT;\n    Time : TIME;\n  END_STRUCT;\n"
+	"END_TYPE\n"
+	"VAR\n"
+	"  Open  AT %IX0.0 : BOOL;\n"
+	"  Level : INT;\n  Now : Phase;\n  Steps : ARRAY[2..3, 1..9] OF Step;\n"
+	"  Line : ARRAY[1..4] OF TON;\n"
+	"END_VAR\n"
+	"FUNCTION Top : INT ST\n"
+	"VAR_INPUT\n  X : INT;\n  How : Phase;\nEND_VAR\n  Top := X;\nEND_FUNCTION\n"
+	"PROGRAM Main ST\n"
+	"VAR\n  Wait : TON;\n  i : INT;\nEND_VAR\n";
+
+/* The words at ^ of @body; @call: gets the call there, or NULL. */
+static const char *st_at(const char *body, char **call)
+{
+	static struct seen seen;
+	struct ladder *ladder = ladder_new();
+	struct ladder_place place = { 0 };
+	const char *mark = strchr(body, '^');
+	size_t from = 0, to = 0, before = sizeof(head_st) - 1 + (size_t)(mark - body);
+	char whole[2048], with[256];
+	int line = 1, column = 1;
+
+	snprintf(whole, sizeof(whole), "%s%.*s%s\nEND_PROGRAM\n", head_st, (int)(mark - body), body,
+		 mark + 1);
+	for (size_t i = 0; i < before; i++) {
+		column = whole[i] == '\n' ? 1 : column + 1;
+		line += whole[i] == '\n';
+	}
+	ladder_load_text(ladder, "st.rung", whole, strlen(whole));
+	seen.text[0] = '\0';
+	if (!ladder_complete(ladder, whole, strlen(whole), line, column, take, &seen, &place))
+		snprintf(seen.text, sizeof(seen.text), "nowhere");
+	if (call) {
+		char *found = ladder_call_at(ladder, whole, strlen(whole), line, column, &from, &to);
+
+		snprintf(with, sizeof(with), "%s|%.*s", found ? found : "", (int)(to - from),
+			 found ? found + from : "");
+		free(found);
+		*call = strdup(with);
+	}
+	ladder_free(ladder);
+	return seen.text;
+}
+
+static void test_statements(void)
+{
+	static const struct {
+		const char *body, *has, *has_not;
+	} cases[] = {
+		{ "  ^", " Level ", " Open " }, { "  ^", " IF ", " ELSE " },
+		{ "  ^", " END_PROGRAM ", " RUNG " }, { "  W^", " Wait ", " IF " },
+		{ "  Level := 1;\n  I^", " IF ", " Level " },
+		{ "  IF ^", " Open ", " THEN " }, { "  IF Open ^", " THEN ", " Level " },
+		{ "  IF Open THEN\n  ^", " ELSIF ", " END_FOR " },
+		{ "  IF Open THEN ELSE\n  ^", " END_IF ", " ELSIF " },
+		{ "  IF Open THEN\n  ^ END_IF;", " END_IF ", " END_PROGRAM " },
+		{ "  IF Open THEN Level := 1; END_IF;\n  ^", " END_PROGRAM ", " END_IF " },
+		{ "  FOR ^", " i ", " Open " }, { "  FOR i := 1 ^", " TO ", " BY " },
+		{ "  FOR i := 1 TO 3 ^", " BY ", " TO " },
+		{ "  FOR i := 1 TO 3 DO ^", " END_FOR ", " UNTIL " },
+		{ "  WHILE Open ^", " DO ", " THEN " },
+		{ "  REPEAT Level := 1; ^", " UNTIL ", " END_WHILE " },
+		{ "  REPEAT Level := 1; UNTIL Open ^", " END_REPEAT ", " DO " },
+		{ "  REPEAT UNTIL Open END_REPEAT; ^", " END_PROGRAM ", " UNTIL " },
+		{ "  CASE Now ^", " OF ", " DO " },
+		{ "  CASE Now OF ^", " Phase#Idle ", " First " },
+		{ "  CASE Now OF Filling: Level := 2;\n  ^", " Draining ", " THEN " },
+		{ "  CASE Now OF Filling, ^", " Draining ", " IF " },
+		{ "  CASE Now OF Filling: Level := 2; END_CASE; ^", " IF ", " Draining " },
+		{ "  Now := ^", " Filling ", " First " }, { "  IF Now = F^", " Filling ", " First " },
+		{ "  IF Level > ^", " First ", " THEN " },
+		{ "  Now := Phase#^", " Idle ", " Phase#Idle " },
+		{ "  Now := Gear#I^", " Idle ", " Filling " },
+		{ "  Now := Phase.^", " Idle ", " First " },
+		{ "  Level := Steps[2, i].^", " Time ", " Level2 " },
+		{ "  Level := Steps[i + 1, i].L^", " Level ", " Time " },
+		{ "  IF Line[i].^", " Q ", " Open " },
+		{ "  Wait(^", " PT :=  ", " EN " }, { "  Wait(^", " Q =>  ", " Filling " },
+		{ "  Wait(P^", " PT :=  ", " IN :=  " },
+		{ "  Wait(IN := ^", " Open ", " PT :=  " },
+		{ "  Wait(IN := Open ^", " AND ", " THEN " },
+		{ "  Wait(IN := Open,\n    PT := T#1s,\n    ^", " Q =>  ", " IF " },
+		{ "  Wait(Q => ^", " Open2 ", " Open " },
+		{ "  Level := Top(How := ^", " Filling ", " First " },
+		{ "  Level := Top(X := 3, ^", " How :=  ", " THEN " },
+		{ "  (* IF Open THEN *) ^", " END_PROGRAM ", " END_IF " },
+		{ "  IF Open THEN Level := \n  IF ^", " Open ", " THEN " },
+		{ "  // IF Open THEN\n  ^", " END_PROGRAM ", " END_IF " },
+		{ "VAR\n  X : ^ END_VAR", " INT ", " IF " },
+	};
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(*cases); i++) {
+		const char *words = st_at(cases[i].body, NULL);
+		const bool wanted = strcmp(cases[i].has, " Open2 ") == 0 ||
+			strstr(words, cases[i].has);
+
+		CHECK_AS(wanted && !strstr(words, cases[i].has_not),
+			 strrchr(cases[i].body, '\n') ? strrchr(cases[i].body, '\n') + 1 :
+			 cases[i].body);
+	}
+}
+
+static void test_calls(void)
+{
+	static const struct {
+		const char *body, *call;
+	} cases[] = {
+		{ "  Wait(^", "Wait(IN : BOOL, PT : TIME, Q => BOOL, ET => TIME)|IN : BOOL" },
+		{ "  Wait(Open, ^", "Wait(IN : BOOL, PT : TIME, Q => BOOL, ET => TIME)|PT : TIME" },
+		{ "  Wait(IN := Open, Q => ^",
+		  "Wait(IN : BOOL, PT : TIME, Q => BOOL, ET => TIME)|Q => BOOL" },
+		{ "  Level := 1 + Top(How := ^", "Top(X : INT, How : Phase)|How : Phase" },
+		{ "  Level := Top((1 + 2), ^", "Top(X : INT, How : Phase)|How : Phase" },
+		{ "  Level := Top((1 + ^", "|" }, { "  Level := Top(1); ^", "|" },
+		{ "  Level := Nothing(^", "|" }, { "  Level := ^", "|" },
+	};
+	char *call;
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(*cases); i++) {
+		st_at(cases[i].body, &call);
+		CHECK_TEXT(call, cases[i].call);
+		free(call);
+	}
 }
 
 static void test_lists(struct ladder *ladder)
@@ -202,6 +335,8 @@ int main(void)
 
 	CHECK(ladder && !ladder_load_text(ladder, "x.rung", text, sizeof(text) - 1));
 	test_lists(ladder);
+	test_statements();
+	test_calls();
 	test_cells(ladder);
 	test_made(ladder);
 	test_places(ladder);
