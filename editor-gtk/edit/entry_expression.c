@@ -251,11 +251,18 @@ static void know(const struct infer *in, int i)
 {
 	const struct expr_node *node = &in->expr->node[i];
 	uint8_t *given = in->types->given, *guessed = in->types->guessed;
+	unsigned int bits, number;
 
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_INDEX:
 		given[i] = (uint8_t)type_of_name(in, node->text, node->len);
+		return;
+	case EXPR_BIT:
+		if (!expr_part(node->tail, &bits, &number))
+			return;
+		given[i] = (uint8_t)(bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE :
+				     bits == 16 ? IEC_WORD : bits == 32 ? IEC_DWORD : IEC_LWORD);
 		return;
 	case EXPR_LITERAL:
 		know_literal(in, i);
@@ -347,6 +354,7 @@ static void want_below(const struct infer *in, int i)
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_LITERAL:
+	case EXPR_BIT:
 		return;
 	case EXPR_INDEX:
 		want(in, node->left, IEC_INT);

@@ -207,6 +207,7 @@ static void operate(struct run *run, struct term *term, struct value a,
 	case EXPR_NAME:
 	case EXPR_LITERAL:
 	case EXPR_INDEX:
+	case EXPR_BIT:
 	case EXPR_CALL:
 	case EXPR_ARG:
 		break;

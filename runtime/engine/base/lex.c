@@ -219,14 +219,14 @@ static const char *skip_number(const char *start, const char *at,
 /* The end of a nested comment; NULL: the text ends first. Counts lines. */
 static const char *skip_comment(struct lex *lex, const char *at)
 {
-	const char *end = lex->end;
+	const char *end = lex->end, open = *at, close = open == '(' ? ')' : open;
 	unsigned int depth = 0;
 
 	while (end - at >= 2) {
-		if (at[0] == '(' && at[1] == '*') {
+		if (at[0] == open && at[1] == '*') {
 			depth++;
 			at += 2;
-		} else if (at[0] == '*' && at[1] == ')') {
+		} else if (at[0] == '*' && at[1] == close) {
 			at += 2;
 			if (--depth == 0)
 				return at;
@@ -262,7 +262,7 @@ static enum token_kind scan_symbol(struct lex *lex)
 	const char *at = lex->at, *end = lex->end, *close;
 	size_t left = (size_t)(end - at);
 
-	if (left >= 2 && at[0] == '(' && at[1] == '*') {
+	if (left >= 2 && (at[0] == '(' || at[0] == '/') && at[1] == '*') {
 		close = skip_comment(lex, at);
 		lex->at = close ? close : end;
 		return close ? TOKEN_COMMENT : TOKEN_BAD;

@@ -734,6 +734,7 @@ static void check_uses(struct names_check *c, int table_number)
 			enum diag_id lack = judge_use(var, use, block->flags);
 
 			if (lack != DIAG_COUNT && !vars_is_eno(table, k) &&
+			    !(pou && pou->no_result && k == 0) &&
 			    scope_duplicate(c->scope, pou, k) < 0)
 				report_line(c, lack, pou, var->line,
 					    text_of(c, var->name));

@@ -501,6 +501,26 @@ static void read_whole(struct operand_check *c, struct operand_spot at, uint32_t
 		operand_read(c, at, id);
 }
 
+/* `Word.3`, `Word.%B1`: has the place such a part? @id: the place, or its first element. */
+static void check_bit(struct operand_check *c, struct operand_spot at, uint32_t id,
+		      struct expr_tail tail)
+{
+	enum diag_id why;
+	const struct meaning *m = id ? scope_find(c->scope, c->pou, id, &why) : NULL;
+	unsigned int bits, number;
+	char text[LIMIT_ARG];
+
+	if (!m || meaning_fault(m) != DIAG_COUNT)
+		return;
+	if (iec_type_row(m->type)->class & (ANY_INT | CLASS_BITS) && expr_part(tail, &bits, &number) &&
+	    bits * (number + 1) <= 8u * iec_type_row(m->type)->size)
+		return;
+	snprintf(text, sizeof(text), "%.*s" DIAG_AND "%.24s", tail.len < 24 ? tail.len : 24, tail.text,
+		 m->type == IEC_NONE ? scope_row(c->scope, (enum word)m->word)->word :
+		 iec_type_row(m->type)->word);
+	operand_report(c, DIAG_NO_SUCH_PART, at, text);
+}
+
 /* What an assignment writes. */
 static void use_target(struct operand_check *c, struct operand_spot at, const struct expr *expr)
 {
@@ -515,6 +535,13 @@ static void use_target(struct operand_check *c, struct operand_spot at, const st
 		operand_write_array(c, at, id);
 	} else {
 		operand_write(c, at, id, false);
+	}
+	if (expr->target_bit.len) {
+		const struct meaning *m = id ? operand_find(c, at, id) : NULL;
+
+		if (m)
+			uses_add(c->uses, m, USE_READ);
+		check_bit(c, at, id, expr->target_bit);
 	}
 }
 
@@ -556,6 +583,31 @@ static void note_place(struct operand_check *c, struct operand_spot at,
 		operand_write_array(c, at, operand_intern(c, value->text, value->len));
 }
 
+/* EN and outputs of a call. */
+static void note_others(struct operand_check *c, struct operand_spot at, struct expr *expr,
+			const struct expr_args *args)
+{
+	for (int i = 0; i < args->more; i++) {
+		struct expr_node *value = &expr->node[args->other[i].at];
+		uint32_t id;
+
+		if (args->other[i].pin == EXPR_EN)
+			continue;
+		value->written = true;
+		if (value->op == EXPR_INDEX) {
+			use_element(c, at, use_indices(c, at, expr, args->other[i].at), true, true);
+			continue;
+		}
+		id = operand_intern(c, value->text, value->len);
+		if (value->op != EXPR_NAME)
+			operand_report(c, DIAG_WRITE_CONSTANT, at, project_text(c->project, id));
+		else if (operand_is_array(c, id))
+			operand_write_array(c, at, id);
+		else
+			operand_write(c, at, id, false);
+	}
+}
+
 static void check_call(struct operand_check *c, struct operand_spot at, struct expr *expr,
 		       const struct expr_node *call)
 {
@@ -581,7 +633,14 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 		report_call(c, at, why, call, row, &args);
 	} else if (why != DIAG_COUNT) {
 		report_call(c, at, why, call, row, &args);
-	} else if (word_is_own(word)) {
+	}
+	if (why != DIAG_COUNT)
+		return;
+	if (word_is_own(word) && row->owner >= 0 && c->project->pou[row->owner].no_result &&
+	    !(c->item && c->item->kind == ST_CALL && call == &expr->node[expr->root]))
+		operand_report(c, DIAG_NO_RESULT, at, row->word);
+	note_others(c, at, expr, &args);
+	if (word_is_own(word)) {
 		for (int i = 0; i < args.count; i++)
 			note_place(c, at, &expr->node[args.arg[i].at],
 				   &row->pin[args.arg[i].pin]);
@@ -602,12 +661,19 @@ static void use_expression(struct operand_check *c, struct operand_spot at, stru
 		const struct expr_node *part = &expr->node[i];
 
 		c->spot = part->text ? part->text : c->spot;
+		if (part->written)
+			continue;
 		if (part->op == EXPR_NAME)
 			read_whole(c, at, operand_intern(c, part->text, part->len),
 				   part->whole);
 		else if (part->op == EXPR_INDEX && !part->inner)
 			use_element(c, at, use_indices(c, at, expr, i), false,
 				    part->whole);
+		else if (part->op == EXPR_BIT)
+			check_bit(c, at, expr->node[part->left].op == EXPR_NAME ?
+				  operand_intern(c, expr->node[part->left].text,
+						 expr->node[part->left].len) :
+				  use_indices(c, at, expr, part->left), part->tail);
 		else if (part->op == EXPR_LITERAL)
 			operand_find(c, at, operand_intern(c, part->text, part->len));
 	}

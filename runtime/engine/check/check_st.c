@@ -147,6 +147,37 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 		check_argument(c, &callee, &part, c->expr);
 }
 
+/* A value of CASE: a constant, or an expression of constants. */
+static void check_choice(struct operand_check *c, struct expr *expr)
+{
+	const struct expr_node *wrong = NULL;
+
+	if (!check_part(c, expr, OPERAND_READ))
+		return;
+	for (int i = 0; i < expr->count && !wrong; i++) {
+		const struct expr_node *node = &expr->node[i];
+		const struct meaning *m;
+		enum diag_id why;
+
+		if (node->op == EXPR_CALL || node->op == EXPR_INDEX || node->op == EXPR_BIT)
+			wrong = node;
+		if (node->op != EXPR_NAME)
+			continue;
+		m = scope_find(c->scope, c->pou,
+			       names_intern(&c->project->names, node->text, node->len), &why);
+		if (m && m->kind != MEANING_LITERAL && !m->constant)
+			wrong = node;
+	}
+	if (wrong) {
+		char text[LIMIT_ARG];
+
+		c->spot = wrong->text;
+		snprintf(text, sizeof(text), "%.*s", wrong->len < LIMIT_ARG ? wrong->len : LIMIT_ARG - 1,
+			 wrong->text);
+		check_said(c, DIAG_CHOICE_COMPUTED, text);
+	}
+}
+
 static void check_statement(struct operand_check *c)
 {
 	struct st_walk walk;
@@ -160,6 +191,8 @@ static void check_statement(struct operand_check *c)
 	while (st_next(&walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
 		if (part.role == ST_VARIABLE)
 			check_counter(c, c->expr);
+		else if (part.role == ST_LOW || part.role == ST_HIGH)
+			check_choice(c, c->expr);
 		else
 			check_part(c, c->expr, part.role == ST_ASSIGNED ? OPERAND_WHOLE : OPERAND_READ);
 }

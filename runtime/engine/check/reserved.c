@@ -20,6 +20,7 @@ static const char *const keywords[] = {
 	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
 	"SUBROUTINE", "END_SUBROUTINE",
 	"END_TYPE", "STRUCT", "END_STRUCT", "USES", "AND", "OR", "XOR", "NOT", "MOD",
+	"AND_THEN", "OR_ELSE",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
 

@@ -284,6 +284,7 @@ static enum word function_of(const struct expr_node *node)
 		return node->fn;
 	case EXPR_NAME:
 	case EXPR_INDEX:
+	case EXPR_BIT:
 	case EXPR_LITERAL:
 	case EXPR_CALL:
 	case EXPR_ARG:
@@ -358,6 +359,7 @@ static struct il_result take_node(struct settle *s, int i)
 		return literal_is_named(node->text, node->len) ? take_name(s, i) :
 		       take_literal(s, i, node->text, node->len);
 	case EXPR_INDEX:
+	case EXPR_BIT:
 		refuse(s, DIAG_NOT_CONSTANT, node->text, node->len);
 		return unknown();
 	case EXPR_CALL:
@@ -427,6 +429,7 @@ static enum iec_type infer(struct settle *s, int i)
 		return word_shares(scope_row(s->scope, word)) && type != IEC_TYPE_COUNT ? type :
 		       fn_result(scope_row(s->scope, word), IEC_NONE, IEC_NONE);
 	case EXPR_INDEX:
+	case EXPR_BIT:
 		return IEC_NONE;
 	case EXPR_AND:
 	case EXPR_XOR:
@@ -456,6 +459,7 @@ static void pass_hint(struct settle *s, int i)
 	case EXPR_NAME:
 	case EXPR_LITERAL:
 	case EXPR_INDEX:
+	case EXPR_BIT:
 		return;
 	case EXPR_CALL:
 		word = expr_function(&s->project->words, node);

@@ -7,6 +7,7 @@
  */
 #include "engine/model/expr.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 #include "engine/base/lex.h"
 
@@ -19,6 +20,7 @@ struct operator {
 	uint8_t strength; /* a higher number binds more strongly             */
 	uint8_t op;       /* enum expr_op                                    */
 	uint16_t fn;      /* enum word of EXPR_FN                            */
+	bool lazy;
 };
 
 enum { OPERATOR_PAREN, OPERATOR_INDEX, OPERATOR_CALL, OPERATOR_NEG, OPERATOR_NOT,
@@ -27,9 +29,10 @@ static const struct operator operators[] = {
 	[OPERATOR_PAREN] = { "(", 0, 0, 0 },
 	[OPERATOR_INDEX] = { "[", 0, 0, 0 },
 	[OPERATOR_CALL] = { "(", 0, 0, 0 },
-	[OPERATOR_NEG] = { "-", 8, EXPR_NEG, 0 },
-	[OPERATOR_NOT] = { "NOT", 8, EXPR_NOT, 0 },
-	[OPERATOR_BINARY] = { "*", 7, EXPR_FN, FN_MUL },
+	[OPERATOR_NEG] = { "-", 9, EXPR_NEG, 0 },
+	[OPERATOR_NOT] = { "NOT", 9, EXPR_NOT, 0 },
+	[OPERATOR_BINARY] = { "**", 8, EXPR_FN, FN_EXPT },
+	{ "*", 7, EXPR_FN, FN_MUL },
 	{ "/", 7, EXPR_FN, FN_DIV },   { "MOD", 7, EXPR_FN, FN_MOD },
 	{ "+", 6, EXPR_FN, FN_ADD },   { "-", 6, EXPR_FN, FN_SUB },
 	{ "<", 5, EXPR_FN, FN_LT },    { ">", 5, EXPR_FN, FN_GT },
@@ -37,6 +40,7 @@ static const struct operator operators[] = {
 	{ "=", 4, EXPR_FN, FN_EQ },    { "<>", 4, EXPR_FN, FN_NE },
 	{ "AND", 3, EXPR_AND, 0 },     { "&", 3, EXPR_AND, 0 },
 	{ "XOR", 2, EXPR_XOR, 0 },     { "OR", 1, EXPR_OR, 0 },
+	{ "AND_THEN", 3, EXPR_AND, 0, true }, { "OR_ELSE", 1, EXPR_OR, 0, true },
 };
 #define OPERATORS (int)(sizeof(operators) / sizeof(*operators))
 
@@ -52,6 +56,7 @@ struct parser {
 	int called;        /* ( of functions not closed yet                  */
 	int pending_count;
 	int value_count;
+	struct expr_tail bit;     /* behind the path that was read last; len 0: none */
 	uint8_t pending[PENDING];
 	int16_t value[PENDING + 1];
 };
@@ -89,7 +94,7 @@ static bool reduce(struct parser *parser)
 	int which = parser->pending[--parser->pending_count];
 	const struct operator *operator = &operators[which];
 	struct expr_node node = { .op = (enum expr_op)operator->op,
-				  .fn = (enum word)operator->fn,
+				  .fn = (enum word)operator->fn, .lazy = operator->lazy,
 				  .left = -1, .right = -1 };
 
 	if (which >= OPERATOR_BINARY)
@@ -133,7 +138,8 @@ static bool is_operand(const struct lex *lex)
 		return true;
 	case TOKEN_NAME:
 		return !lex_is(lex, "AND") && !lex_is(lex, "OR") &&
-		       !lex_is(lex, "XOR") && !lex_is(lex, "MOD");
+		       !lex_is(lex, "XOR") && !lex_is(lex, "MOD") &&
+		       !lex_is(lex, "AND_THEN") && !lex_is(lex, "OR_ELSE");
 	case TOKEN_END:
 	case TOKEN_NEWLINE:
 	case TOKEN_STRING:
@@ -198,11 +204,82 @@ static void expr_skip_path(struct lex *lex)
 	}
 }
 
-/* The text from @text to the end of the current token. */
-static size_t expr_text_len(const char *text, const struct lex *lex)
+/* ---- parts of bit strings ---- */
+
+bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number)
 {
-	return (size_t)(lex->token.text + lex->token.len - text);
+	static const struct { char letter; uint8_t bits; } sizes[] = {
+		{ 'X', 1 }, { 'B', 8 }, { 'W', 16 }, { 'D', 32 }, { 'L', 64 },
+	};
+	const char *at = tail.text, *end = at + tail.len;
+
+	*bits = tail.len && *at != '%' ? 1 : 0;
+	*number = 0;
+	for (size_t i = 0; tail.len > 2 && *at == '%' && i < sizeof(sizes) / sizeof(*sizes); i++)
+		if (ascii_upper(at[1]) == sizes[i].letter)
+			*bits = sizes[i].bits;
+	at += *at == '%' ? 2 : 0;
+	if (!*bits || at == end || end - at > 2)
+		return false;
+	for (; at < end; at++) {
+		if (!ascii_digit(*at))
+			return false;
+		*number = *number * 10 + (unsigned int)(*at - '0');
+	}
+	return true;
 }
+
+/* Bytes of the number behind the last dot of the name `Word.3` at the token; 0: there is none. */
+static size_t bit_len(const struct token *token)
+{
+	struct iec_addr addr;
+	size_t len = 0;
+
+	if (token->kind != TOKEN_NAME ||
+	    iec_addr_parse(token->text, token->len, &addr) != ADDR_NONE) /* I0.3 */
+		return 0;
+	while (len < token->len && ascii_digit(token->text[token->len - 1 - len]))
+		len++;
+	return len && len + 1 < token->len && token->text[token->len - 1 - len] == '.' ? len : 0;
+}
+
+/* On the last token of a path: where the path ends, without the bit behind it. parser->bit gets
+ * that bit, or what follows in tokens of their own: `.%B1`. */
+static const char *take_bit(struct parser *parser)
+{
+	struct lex *lex = parser->lex;
+	const struct token *token = &lex->token;
+	const char *end = token->text + token->len;
+	const size_t len = bit_len(token);
+	struct lex ahead = *lex;
+
+	parser->bit = (struct expr_tail){ end - len, (uint16_t)len };
+	if (len)
+		return end - len - 1;
+	if (lex_next(&ahead) != TOKEN_SYMBOL || !lex_is(&ahead, "."))
+		return end;
+	if (lex_next(&ahead) != TOKEN_NUMBER && ahead.token.kind != TOKEN_ADDRESS)
+		return end;
+	parser->bit = (struct expr_tail){ ahead.token.text, (uint16_t)(ahead.token.len < LIMIT_NAME ?
+								       ahead.token.len : LIMIT_NAME) };
+	*lex = ahead;
+	return end;
+}
+
+/* The place that was read last, or the part of it that was named. */
+static bool add_bit(struct parser *parser, const char *text)
+{
+	struct expr_node node = { .op = EXPR_BIT, .text = text, .tail = parser->bit, .right = -1 };
+
+	if (!parser->bit.len)
+		return true;
+	node.len = (uint16_t)(parser->bit.text + parser->bit.len - text);
+	node.left = parser->value[--parser->value_count];
+	parser->bit.len = 0;
+	return add_node(parser, node);
+}
+
+/* ---- indices ---- */
 
 /* From the ] of an index that is an expression: takes the path behind it and stops on
  * its last token. */
@@ -212,7 +289,7 @@ static bool take_tail(struct parser *parser, struct expr_tail *out)
 	size_t len;
 
 	expr_skip_path(parser->lex);
-	len = expr_text_len(text, parser->lex);
+	len = (size_t)(take_bit(parser) - text);
 	if (len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	*out = (struct expr_tail){ text, (uint16_t)len };
@@ -252,17 +329,19 @@ static struct expr_tail token_text(const struct lex *lex)
 	return (struct expr_tail){ lex->token.text, (uint16_t)lex->token.len };
 }
 
-/* `MN :=` before an argument, if it is there. */
+/* `MN :=` or `OUT =>` before an argument, if it is there. */
 static bool take_pin(struct parser *parser)
 {
 	struct expr_call *call = &parser->out->call[parser->called - 1];
 	struct lex ahead = *parser->lex;
 
 	call->pin = (struct expr_tail){ "", 0 };
+	call->output = false;
 	if (ahead.token.kind != TOKEN_NAME)
 		return true;
 	lex_next(&ahead);
-	if (!lex_is(&ahead, ":="))
+	call->output = lex_is(&ahead, "=>");
+	if (!lex_is(&ahead, ":=") && !call->output)
 		return true;
 	if (parser->lex->token.len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
@@ -282,7 +361,7 @@ static bool add_call(struct parser *parser, const struct expr_call *call)
 /* At the name of a function. @more: its first argument follows. */
 static bool open_call(struct parser *parser, bool *more)
 {
-	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1 };
+	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1, false };
 
 	if (parser->called == LIMIT_EXPR_DEPTH)
 		return refuse(parser, DIAG_EXPR_TOO_DEEP);
@@ -311,6 +390,7 @@ static bool close_argument(struct parser *parser)
 	struct expr_node node = {
 		.op = EXPR_ARG, .text = call->pin.text, .len = call->pin.len,
 		.left = parser->value[--parser->value_count], .right = call->last,
+		.output = call->output,
 	};
 
 	if (!add_node(parser, node))
@@ -335,31 +415,25 @@ static bool take_operand(struct parser *parser, bool *more)
 	size_t len;
 
 	*more = false;
-	if (!is_operand(lex))
+	if (!is_operand(lex) && !is_call(lex))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!literal && is_call(lex))
 		return open_call(parser, more);
 	if (token->len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
-	if (token->kind != TOKEN_NUMBER)
+	parser->bit.len = 0;
+	len = token->len;
+	if (token->kind != TOKEN_NUMBER) {
 		expr_skip_path(lex);
-	len = expr_text_len(token->text, lex);
+		len = (size_t)((literal ? token->text + token->len : take_bit(parser)) - token->text);
+	}
 	if (len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	node.len = (uint16_t)len;
 	lex_next(lex);
-	*more = token->kind != TOKEN_NUMBER && lex_is(lex, "[");
+	*more = token->kind != TOKEN_NUMBER && !parser->bit.len && lex_is(lex, "[");
 	return *more ? open_index(parser, (struct expr_open){ node.text, node.len, -1 }) :
-		       add_node(parser, node);
-}
-
-/* Steps past the + of a constant, such as +5. */
-static void skip_plus(struct lex *lex)
-{
-	struct lex ahead = *lex;
-
-	if (lex_is(lex, "+") && lex_next(&ahead) == TOKEN_NUMBER)
-		*lex = ahead;
+		       add_node(parser, node) && add_bit(parser, node.text);
 }
 
 /* Any number of signs, ( and `Table[`, then a name or a constant. */
@@ -369,7 +443,8 @@ static bool take_prefix_and_operand(struct parser *parser)
 		bool more = true;
 		int which;
 
-		skip_plus(parser->lex);
+		while (lex_is(parser->lex, "+")) /* a sign */
+			lex_next(parser->lex);
 		if (lex_is(parser->lex, "("))
 			which = OPERATOR_PAREN;
 		else if (lex_is(parser->lex, "-"))
@@ -399,7 +474,8 @@ static bool close_index(struct parser *parser)
 	};
 
 	node.left = parser->value[--parser->value_count];
-	return take_tail(parser, &node.tail) && add_node(parser, node);
+	return take_tail(parser, &node.tail) && add_node(parser, node) &&
+	       add_bit(parser, parser->bit.text);
 }
 
 /* Behind an element: opens the next index of its path, if that is an expression. */
@@ -407,7 +483,8 @@ static bool go_on(struct parser *parser, bool *more)
 {
 	struct expr_open open = { "", 0, -1 };
 
-	*more = lex_is(parser->lex, "[");
+	*more = lex_is(parser->lex, "[") &&
+		parser->out->node[parser->out->count - 1].op == EXPR_INDEX;
 	if (!*more)
 		return true;
 	open.base = parser->value[--parser->value_count];
@@ -506,8 +583,7 @@ static bool parse(struct parser *parser)
 		    !push(parser, which))
 			return false;
 	}
-	if (parser->opened || lex_is(parser->lex, "**") ||
-	    lex_is(parser->lex, "("))
+	if (parser->opened || lex_is(parser->lex, "("))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!reduce_to(parser, 1))
 		return false;
@@ -532,8 +608,9 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	out->target = NULL;
 	out->target_len = 0;
 	out->target_index = -1;
-	out->target_tail = (struct expr_tail){ NULL, 0 };
+	out->target_tail = out->target_bit = (struct expr_tail){ NULL, 0 };
 	out->target_base = -1;
+	parser->bit = out->target_bit;
 }
 
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
@@ -583,6 +660,7 @@ static bool take_target_index(struct parser *parser)
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!take_tail(parser, &out->target_tail))
 		return false;
+	out->target_bit = parser->bit;
 	lex_next(lex);
 	return true;
 }
@@ -616,6 +694,11 @@ static bool expr_has_target(struct lex lex)
 		if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
 			lex_next(&lex);
 	}
+	/* .3, .%B1 */
+	if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_SYMBOL)
+		return false;
+	if (lex.token.kind == TOKEN_NUMBER || lex.token.kind == TOKEN_ADDRESS)
+		lex_next(&lex);
 	return lex_is(&lex, ":=");
 }
 
@@ -629,11 +712,12 @@ static bool take_target(struct parser *parser)
 		return true;
 	out->target = lex->token.text;
 	expr_skip_path(lex);
-	out->target_len = expr_text_len(out->target, lex);
+	out->target_len = (size_t)(take_bit(parser) - out->target);
+	out->target_bit = parser->bit;
 	if (out->target_len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	lex_next(lex);
-	while (lex_is(lex, "["))
+	while (!out->target_bit.len && lex_is(lex, "["))
 		if (!take_target_index(parser))
 			return false;
 	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);

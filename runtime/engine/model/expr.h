@@ -5,8 +5,8 @@
  *
  * Used by [ … ] cells and by scenarios. It parses and prints; types and functions are
  * resolved later: `LIMIT(0, x + 1, 10)`, `F(A := 1)`. Precedence, strongest first: ( ),
- * - NOT, * / MOD, + -, < > <= >=, = <>, AND &, XOR, OR. All binary operators bind to
- * the left.
+ * - NOT, **, * / MOD, + -, < > <= >=, = <>, AND & AND_THEN, XOR, OR OR_ELSE. All binary operators bind
+ * to the left.
  */
 #ifndef MODEL_EXPR_H
 #define MODEL_EXPR_H
@@ -21,13 +21,14 @@ enum expr_op {
 	EXPR_INDEX,     /* text: an array, or right: an element that leads to
 			   one; left: its index, an expression; tail: the
 			   path from there to a member or another array       */
+	EXPR_BIT,       /* left: a place; tail: its bit 3, %X3, or part %B1   */
 	EXPR_LITERAL,   /* text: a constant                                   */
 	EXPR_NEG, EXPR_NOT,
-	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
+	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD EXPT GT GE EQ LE LT NE     */
 	EXPR_AND, EXPR_XOR, EXPR_OR,
 	EXPR_CALL,      /* text: a function; left: its last argument, or -1   */
 	EXPR_ARG,       /* left: its value; right: the one before it, or -1;
-			   text: its pin, if it is named: MN := 0             */
+			   text: its pin, if it is named: MN := 0, ENO => ok  */
 };
 
 /* The path behind an index that is an expression: `.Speed`; len 0: none. */
@@ -41,9 +42,12 @@ struct expr_node {
 	enum word fn;          /* of EXPR_FN                                  */
 	const char *text;      /* borrowed from the source                    */
 	uint16_t len;
-	struct expr_tail tail; /* of EXPR_INDEX                               */
+	struct expr_tail tail; /* of EXPR_INDEX, EXPR_BIT                     */
 	int16_t left, right;   /* nodes; -1: none. Children come before       */
 	bool inner;            /* of EXPR_INDEX: the path goes on from here   */
+	bool lazy;             /* AND_THEN, OR_ELSE: right is not always computed */
+	bool output;           /* of EXPR_ARG: OUT => place                   */
+	bool written;          /* set by the check: a place that gets a value */
 	bool whole;            /* set by the check: it may be an array        */
 };
 
@@ -56,11 +60,12 @@ struct expr {
 	int target_index;      /* node of the target's index; -1: it has none,
 				  or a simple one within `target`             */
 	struct expr_tail target_tail; /* behind that index                    */
+	struct expr_tail target_bit;  /* of which this part is assigned: 3, %B1 */
 	int target_base;       /* EXPR_INDEX that leads to the array of that
 				  index; -1: `target` is the array            */
 	struct expr_open { const char *text; uint16_t len; int16_t base; }
 		open[LIMIT_EXPR_DEPTH]; /* the parser's: arrays before an open [ */
-	struct expr_call { struct expr_tail name, pin; int16_t last; }
+	struct expr_call { struct expr_tail name, pin; int16_t last; bool output; }
 		call[LIMIT_EXPR_DEPTH]; /* and functions before an open (     */
 };
 
@@ -87,6 +92,9 @@ bool expr_begins(struct lex lex);
 /** expr_skip - steps over an expression, well formed or not, to the first `,` `;` `:` `]`, dot or
  * parenthesis outside of its own; @end gets where it ends. Scan-safe: yes. */
 void expr_skip(struct lex *lex, const char **end);
+/** expr_part - which bits an EXPR_BIT names: @number parts of @bits each lie below them.
+ * Scan-safe: yes. Fails: false: it is no such part. */
+bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number);
 /** expr_parse_text - the same of a whole text. */
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		     struct diag_list *diags, struct diag place);

@@ -80,6 +80,46 @@ static enum diag_id collect(const struct expr *expr, const struct expr_node *cal
 	return DIAG_COUNT;
 }
 
+static bool is_enable(const struct word_row *row, const struct expr_node *arg)
+{
+	return arg->len == 2 && !arg->output && ascii_is("EN", arg->text, arg->len) &&
+	       word_pin_find(row, arg->text, arg->len) < 0;
+}
+
+/* Moves EN and outputs out of the list of inputs. */
+static enum diag_id find_others(const struct expr *expr, const struct word_row *row,
+				struct expr_args *out)
+{
+	const int count = out->count;
+
+	out->more = out->count = 0;
+	for (int i = 0; i < count; i++) {
+		const struct expr_node *arg = &expr->node[out->arg[i].at];
+		int pin = EXPR_EN;
+
+		if (!arg->output && !is_enable(row, arg)) {
+			out->arg[out->count++].at = out->arg[i].at;
+			continue;
+		}
+		if (arg->output)
+			pin = word_pin_find(row, arg->text, arg->len);
+		if (arg->output && pin < 0 && ascii_is("ENO", arg->text, arg->len))
+			pin = EXPR_ENO;
+		else if (arg->output && pin < 0 && ascii_is("OUT", arg->text, arg->len))
+			pin = EXPR_OUT;
+		else if (arg->output && (pin < 0 || pin >= row->pin_count))
+			return fail(out, DIAG_NO_PIN, -1, arg);
+		if (pin >= 0 && row->pin[pin].dir != PIN_OUT)
+			return fail(out, DIAG_INPUT_READ, pin, arg);
+		for (int k = 0; k < out->more; k++)
+			if (out->other[k].pin == pin)
+				return fail(out, DIAG_DUPLICATE_ARG, -1, arg);
+		out->other[out->more].at = arg->left;
+		out->other[out->more++].pin = pin;
+	}
+	return DIAG_COUNT;
+}
+
 static enum diag_id find_pins(const struct expr *expr, const struct word_row *row,
 			      struct expr_args *out)
 {
@@ -125,6 +165,8 @@ enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 	enum diag_id why = collect(expr, call, out);
 	int most = is_own(row) ? row->pin_count : row->most_inputs;
 
+	if (why == DIAG_COUNT)
+		why = find_others(expr, row, out);
 	if (why == DIAG_COUNT)
 		why = find_pins(expr, row, out);
 	for (int pin = 0; pin < most && why == DIAG_COUNT; pin++)

@@ -11,11 +11,16 @@
 #include "engine/model/expr.h"
 #include "engine/model/words.h"
 
+enum { EXPR_EN = -1, EXPR_ENO = -2, EXPR_OUT = -3 };
+
 struct expr_args {
 	int count;
 	struct { int at; int pin; } arg[LIMIT_ARGS]; /* from the left: its value,
 				and the index of its pin in the row; of an extensible
 				function also behind the last one         */
+	int more;                /* EN and what follows =>: such arguments, likewise with the
+				  * index of an output, EXPR_EN, EXPR_ENO or EXPR_OUT */
+	struct { int at; int pin; } other[LIMIT_ARGS];
 	int wrong;               /* the pin of the error, or -1              */
 	const char *text;        /* or the name as written; borrowed          */
 	int len;

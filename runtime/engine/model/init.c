@@ -60,6 +60,7 @@ void init_begin(struct init_walk *walk, const struct project *project,
 
 	memset(walk, 0, sizeof(*walk));
 	walk->project = project;
+	walk->var = var;
 	walk->scratch = scratch;
 	walk->why = DIAG_COUNT;
 	walk->level[0].item = shape_pin(var);
@@ -83,7 +84,8 @@ static struct init_level *push(struct init_walk *walk)
 	level->row = NULL;
 	level->element = level->count = level->times = 0;
 	level->pin = -1;
-	level->bare = false;
+	level->bare = level->row_of = false;
+	level->dims = 0;
 	return level;
 }
 
@@ -102,6 +104,41 @@ static bool open_list(struct init_walk *walk, struct word_pin item, uint32_t bas
 	level->count = item.elements;
 	level->item = item;
 	level->item.elements = 0;
+	return true;
+}
+
+/* The list that was opened has the dimensions of @var. */
+static void take_dims(struct init_walk *walk, const struct var *var)
+{
+	struct init_level *level = top_of(walk);
+
+	level->dim = var->dim;
+	level->dims = var->dims;
+}
+
+/* Elements of each list in the list. */
+static uint32_t row_count(const struct init_level *level)
+{
+	return level->dims > 1 ? vars_flat(level->dim + 1, level->dims - 1).count : 0;
+}
+
+/* `[3, 4]` in a list of several dimensions. */
+static bool open_row(struct init_walk *walk, struct init_level *outer, uint32_t base)
+{
+	struct init_level *level;
+
+	if (!take(walk, "["))
+		return false;
+	level = push(walk);
+	if (!level)
+		return false;
+	level->base = base;
+	level->unit = outer->unit;
+	level->count = row_count(outer);
+	level->item = outer->item;
+	level->dim = outer->dim + 1;
+	level->dims = outer->dims - 1;
+	level->row_of = true;
 	return true;
 }
 
@@ -128,6 +165,7 @@ static bool open_members(struct init_walk *walk, enum word word, uint32_t base,
 	if (!level)
 		return false;
 	level->row = words_row(&walk->project->words, word);
+	level->word = word;
 	level->base = base;
 	level->bare = bare;
 	if (!make_room(walk, level))
@@ -297,12 +335,13 @@ static bool take_times(struct init_walk *walk, struct init_level *level)
 	if (!compute_count(walk, text, (size_t)(end - text), &walk->count))
 		return false;
 	walk->left = level->count - level->element;
+	if (lex_next(&ahead) == TOKEN_SYMBOL && lex_is(&ahead, "[") && row_count(level))
+		walk->left /= row_count(level);
 	if (walk->count < 1 || walk->count > walk->left) {
 		level->element++; /* init_where() names the one before it */
 		return fail(walk, walk->count < 1 ? DIAG_REPEAT_NONE : DIAG_REPEAT_MANY, text,
 			    (size_t)(end - text));
 	}
-	lex_next(&ahead);
 	walk->lex = ahead;
 	level->times = (uint32_t)walk->count;
 	level->again = ahead;
@@ -329,6 +368,13 @@ static bool take_element(struct init_walk *walk, struct init_level *level,
 	if (!level->times && !take_times(walk, level))
 		return false;
 	left = level->count - level->element;
+	if (lex_is(&walk->lex, "[") && row_count(level)) {
+		if (left < row_count(level))
+			return fail(walk, DIAG_TOO_MANY_VALUES, "", 0);
+		level->element += row_count(level);
+		out->type = IEC_NONE;
+		return open_row(walk, level, base);
+	}
 	if ((level->times ? level->times : 1) > left)
 		return fail(walk, DIAG_TOO_MANY_VALUES, "", 0);
 	if (level->times && (walk->scratch || lex_is(&walk->lex, ")"))) {
@@ -354,6 +400,7 @@ static bool take_member(struct init_walk *walk, struct init_level *level,
 			struct init_value *out)
 {
 	const struct token name = walk->lex.token;
+	const struct var_table *table;
 	const struct word_pin *pin;
 	int index;
 
@@ -371,8 +418,12 @@ static bool take_member(struct init_walk *walk, struct init_level *level,
 	if (walk->scratch)
 		level->given[index] = level->turn;
 	lex_next(&walk->lex);
-	return take(walk, ":=") &&
-	       take_value(walk, pin, level->base + pin->offset, out);
+	table = shape_vars(walk->project, level->word);
+	if (!take(walk, ":=") || !take_value(walk, pin, level->base + pin->offset, out))
+		return false;
+	if (pin->elements && table && index < table->count)
+		take_dims(walk, &table->var[index]);
+	return true;
 }
 
 /* ---- the end of a value ---- */
@@ -422,7 +473,11 @@ static bool take_next(struct init_walk *walk, struct init_value *out)
 
 	if (!walk->begun) {
 		walk->begun = true;
-		return take_value(walk, &first, 0, out);
+		if (!take_value(walk, &first, 0, out))
+			return false;
+		if (first.elements)
+			take_dims(walk, walk->var);
+		return true;
 	}
 	level = top_of(walk);
 	return level->row ? take_member(walk, level, out) :
@@ -464,12 +519,13 @@ bool init_keep(const struct init_walk *walk, struct project *project, struct var
 	       const struct init_value *value, uint32_t *next)
 {
 	const struct word_pin like = shape_pin(var);
-	const uint32_t at = value->offset / shape_of(&project->words, &like).unit;
+	const struct init_level *top = &walk->level[walk->depth - 1];
+	const uint32_t unit = shape_of(&project->words, &like).unit, at = value->offset / unit;
 	struct var_init values;
 
 	if (!push_values(project, var, (struct var_init){ .count = at - *next }))
 		return false;
-	*next = walk->level[0].element;
+	*next = top->base / unit + top->element;
 	values = (struct var_init){ .count = *next - at, .value = value->value };
 	if (value->type == IEC_STRING)
 		values.text = names_intern(&project->names, value->text, value->len);
@@ -494,6 +550,16 @@ void init_say(const struct init_walk *walk, char *out, size_t size)
 		snprintf(out, size, "%.*s = %s%s", len, text, number, left);
 }
 
+/* Elements in the rows before the list @at of the walk. */
+static long long row_begin(const struct init_walk *walk, int at)
+{
+	int first = at;
+
+	while (first > 0 && walk->level[first].row_of)
+		first--;
+	return (walk->level[at].base - walk->level[first].base) / walk->level[at].unit;
+}
+
 void init_where(const struct init_walk *walk, char *out, size_t size)
 {
 	size_t used = 0;
@@ -506,10 +572,11 @@ void init_where(const struct init_walk *walk, char *out, size_t size)
 		if (level->row && level->pin >= 0)
 			len = snprintf(out + used, size - used, ".%s",
 				       level->row->pin[level->pin].name);
-		else if (!level->row && level->element)
+		else if (!level->row && level->element &&
+			 !(i + 1 < walk->depth && walk->level[i + 1].row_of))
 			len = snprintf(out + used, size - used, "[%lld]",
-				       (long long)level->item.low +
-				       level->element - 1);
+				       (long long)level->item.low + level->element - 1 +
+				       (level->row_of ? row_begin(walk, i) : 0));
 		used += len > 0 ? (size_t)len : 0;
 	}
 }

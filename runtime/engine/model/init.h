@@ -21,9 +21,13 @@
 /* An open list or structure. */
 struct init_level {
 	const struct word_row *row; /* of a structure or block; NULL: a list   */
+	enum word word;             /* of the structure or block               */
 	struct word_pin item;       /* a list: its element                     */
 	uint32_t base, unit;        /* offset from the start of the variable   */
 	uint32_t element, count;    /* a list: next element, number of them    */
+	const struct var_array *dim; /* a list: its dimensions, if there are several */
+	int dims;
+	bool row_of;                /* a list: of the list below, as [3, 4] in [[1, 2], [3, 4]] */
 	uint32_t times;             /* repetitions left of n( … ); 0: none open */
 	int pin;                    /* a structure: the present member         */
 	bool bare;                  /* members without a ( of their own: 2(a := 1) */
@@ -54,6 +58,7 @@ struct init_fold {
 
 struct init_walk {
 	const struct project *project;
+	const struct var *var;
 	struct arena *scratch;      /* NULL: the text was checked before      */
 	struct init_fold fold;      /* set behind init_begin()                */
 	const char *from, *behind;  /* the present value as written, in the text */

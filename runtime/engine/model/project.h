@@ -62,6 +62,8 @@ enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 struct pou {
 	uint32_t name;          /* string id                                   */
 	enum pou_language language;
+	bool no_result;         /* of a function: its heading has no type; the result is a BOOL
+				 * that nobody reads                           */
 	bool unsaid;            /* its first line has no language: the body shows it */
 	enum pou_kind kind;
 	enum word word;         /* of a function or block; WORD_COUNT: none    */

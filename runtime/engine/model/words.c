@@ -11,6 +11,7 @@
 #include "engine/base/limits.h"
 #include "engine/model/convert.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void words_init(struct word_table *table, struct arena *arena)
@@ -110,6 +111,15 @@ static enum word find_made(struct word_table *table, const char *text, size_t le
 		return WORD_COUNT;
 	*place = &kept->row;
 	return (enum word)(WORD_FIRST_MADE + i);
+}
+
+enum word words_conversion(struct word_table *table, enum iec_type from, enum iec_type to)
+{
+	char text[2 * LIMIT_NAME];
+	const int len = snprintf(text, sizeof(text), "%s_TO_%s", iec_type_row(from)->word,
+				 iec_type_row(to)->word);
+
+	return find_made(table, text, (size_t)len);
 }
 
 enum word words_find_short(const char *text, size_t len)

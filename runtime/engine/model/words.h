@@ -42,11 +42,14 @@ enum word words_add(struct word_table *table, struct word_row row);
 struct word_row *words_own(const struct word_table *table, enum word word);
 /** words_row - the row of any word; that of an empty cell if there is none. */
 const struct word_row *words_row(const struct word_table *table, enum word word);
-/** words_find - as word_find, the project's own words too; a word made by rule
+/** words_find - the project's own words, then those of word_find; a word made by rule
  * gets its row here, and a block may be named with the type it
  * works on (TON_LTIME, CTU_INT). WORD_COUNT: none. */
 enum word words_find(struct word_table *table, const char *text, size_t len);
 
+/** words_conversion - the function that makes a value of @to from one of @from; WORD_COUNT: none.
+ * Scan-safe: no. */
+enum word words_conversion(struct word_table *table, enum iec_type from, enum iec_type to);
 /** words_find_short - the block of a name such as TON_LTIME or CTU_INT, which names the
  * only type it has; WORD_COUNT: none. Scan-safe: no. */
 enum word words_find_short(const char *text, size_t len);

@@ -47,7 +47,6 @@ static const struct rule {
 	const char *from, *to;
 	uint16_t where;
 } rules[] = {
-	{ "/*", "(*", ANY }, { "*/", "*)", ANY },
 	/* signs that look like others, or like nothing */
 	{ "\u00a0", " ", ANY }, { "\u2007", " ", ANY }, { "\u202f", " ", ANY },
 	{ "\u3000", " ", ANY }, { "\u200b", "", ANY }, { "\u200c", "", ANY },
@@ -406,8 +405,6 @@ static size_t take_one(struct mender *m, size_t at)
 		if (!*rule->to && m->where & (IN_CELL | IN_FIRST) && m->text[at + len] == ' ')
 			len++;
 		change(m, at, len, rule->to);
-		if (strcmp(rule->from, "/*") == 0 && strstr(text, "*/"))
-			change(m, (size_t)(strstr(text, "*/") - m->text), 2, "*)");
 		/* Quotes and bars have more to be looked at. */
 		if (!mend_is_word(*rule->to) || m->full)
 			return m->full ? m->len : *rule->to == ' ' ? at + 1 :

@@ -145,6 +145,13 @@ static bool add_eno(struct reader *r, struct var_table *table, int line)
 	return true;
 }
 
+/* May the heading of a function end here, without the type of a result? */
+static bool may_lack_result(const struct reader *r)
+{
+	return lex_is(&r->lex, "ST") ||
+	       (r->plain && (r->lex.token.kind == TOKEN_NEWLINE || reader_is_vars(r)));
+}
+
 /* The result is a variable of the function's name. */
 static bool read_result(struct reader *r, struct pou *pou)
 {
@@ -155,7 +162,9 @@ static bool read_result(struct reader *r, struct pou *pou)
 	struct var *slot;
 
 	var.fold = names_fold(&r->project->names, var.name);
-	if (!reader_type(r, &var))
+	pou->no_result = !reader_is(r, ':') && may_lack_result(r);
+	var.type = IEC_BOOL;
+	if (!pou->no_result && !reader_type(r, &var))
 		return false;
 	if (var.array.count)
 		return reader_fail_word(r, DIAG_MISPLACED, "ARRAY");

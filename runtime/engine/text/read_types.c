@@ -176,7 +176,8 @@ bool reader_own_type(struct reader *r, struct var *var, uint32_t name)
 
 	if (!reader_is(r, '('))
 		return true;
-	if (var->type != IEC_NONE && !(iec_type_row(var->type)->class & ANY_INT))
+	if (var->type != IEC_NONE && !(iec_type_row(var->type)->class & ANY_INT) &&
+	    !(iec_type_row(var->type)->class & CLASS_BITS && is_enumeration(r)))
 		return true;
 	if (var->type != IEC_NONE && !is_enumeration(r))
 		return read_range(r, var);

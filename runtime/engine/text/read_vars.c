@@ -480,6 +480,10 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 		return global;
 	if (flag == VAR_TEMP || flag == VAR_EXTERNAL)
 		return !global;
+	/* A program without a caller that gives its inputs: variables with initial values. */
+	if (flag & (VAR_INPUT | VAR_OUTPUT))
+		return callable || (r->pou && r->pou->kind == POU_PROGRAM && !global &&
+				    r->pou->language == LANGUAGE_ST);
 	return flag == 0 || callable;
 }
 

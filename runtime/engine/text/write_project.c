@@ -302,7 +302,7 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, " ");
 	write_id(sink, project, pou->name);
-	if (pou->kind == POU_FUNCTION && pou->vars.count > 0) {
+	if (pou->kind == POU_FUNCTION && pou->vars.count > 0 && !pou->no_result) {
 		sink_text(sink, " : ");
 		project_write_type(project, &pou->vars.var[0], sink);
 	}

@@ -10,6 +10,7 @@
 #include "engine/model/shape.h"
 #include "engine/translate/ladder_unit.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -107,6 +108,9 @@ static enum op operator_of(const struct expr_node *node)
 }
 
 static enum iec_type chain_infer(struct chain *c, int index);
+static enum iec_type infer_power(struct chain *c, int base, int exponent);
+static bool is_power(struct chain *c, int base, int exponent);
+static bool is_integer_power(struct chain *c, enum word word, const struct expr_args *args);
 
 /* A bit string and a number, or two bit strings, in arithmetic of Structured Text. */
 static bool mixes(const struct chain *c, enum iec_type left, enum iec_type right)
@@ -230,10 +234,42 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
 		return IEC_NONE;
+	if (is_integer_power(c, word, &args))
+		return infer_power(c, args.arg[0].at, args.arg[1].at);
 	row = ld_row(c->ld, overloaded(c, word, &args));
 	if (word_shares(row))
 		return result_type(shared_type(c, row, &args), work_type(c, row, &args));
 	return row->result == RESULT_OPEN ? IEC_NONE : (enum iec_type)row->result;
+}
+
+static enum iec_type type_of_bits(unsigned int bits)
+{
+	return bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD :
+	       bits == 32 ? IEC_DWORD : IEC_LWORD;
+}
+
+/* Are base and exponent of a power integers, or constants without a point? */
+static bool is_power(struct chain *c, int base, int exponent)
+{
+	const enum iec_type left = chain_infer(c, base), right = chain_infer(c, exponent);
+
+	return !(iec_type_row(left)->class & CLASS_REAL) && !(iec_type_row(right)->class & CLASS_REAL);
+}
+
+/* Of a power: that of the base, or REAL as the exponent. */
+static enum iec_type infer_power(struct chain *c, int base, int exponent)
+{
+	const enum iec_type left = chain_infer(c, base), right = chain_infer(c, exponent);
+
+	return !(iec_type_row(left)->class & CLASS_REAL) && iec_type_row(right)->class & CLASS_REAL ?
+	       right : left;
+}
+
+/* EXPT(base, exponent) of integers; @args: its arguments. */
+static bool is_integer_power(struct chain *c, enum word word, const struct expr_args *args)
+{
+	return word == FN_EXPT && args->count == 2 && !args->more && args->arg[0].pin == 0 &&
+	       is_power(c, args->arg[0].at, args->arg[1].at);
 }
 
 /* Type of a part; constants without a type take that of their neighbours. */
@@ -241,6 +277,7 @@ static enum iec_type chain_infer(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	enum iec_type left, right;
+	unsigned int bits, number;
 
 	switch (node->op) {
 	case EXPR_NAME:
@@ -248,6 +285,8 @@ static enum iec_type chain_infer(struct chain *c, int index)
 		return type_of(c, chain_intern(c, node->text, node->len));
 	case EXPR_INDEX: /* that of its array's elements */
 		return type_of_element(c, node);
+	case EXPR_BIT:
+		return expr_part(node->tail, &bits, &number) ? type_of_bits(bits) : IEC_NONE;
 	case EXPR_NEG:
 		left = chain_infer(c, node->left);
 		return mixes(c, left, IEC_SINT) ? mixed_join(left, IEC_SINT) : left;
@@ -265,6 +304,8 @@ static enum iec_type chain_infer(struct chain *c, int index)
 	}
 	if (word_is_test(word_row(node->fn)))
 		return IEC_BOOL;
+	if (node->fn == FN_EXPT)
+		return infer_power(c, node->left, node->right);
 	left = chain_infer(c, node->left);
 	right = chain_infer(c, node->right);
 	if (fn_overload(node->fn, left, right) != node->fn)
@@ -464,6 +505,38 @@ static struct value compute_bits(struct chain *c, const struct expr_node *node,
 	return operate(c, op_function(operator_of(node)), left, right, type, target);
 }
 
+/* AND_THEN, OR_ELSE: the left side enables the operations of the right one, which cannot fail without
+ * it. */
+static struct value compute_lazy(struct chain *c, const struct expr_node *node)
+{
+	const struct value left = settle(c, chain_compute(c, node->left, IEC_NONE, 0));
+	const uint32_t before = c->en;
+	const bool could_fail = c->can_fail;
+	const uint32_t power = chain_power(c);
+	struct value right, out = { .type = IEC_BOOL };
+	uint32_t needed;
+
+	ld_emit(c->ld, OP_LD, node->op == EXPR_OR ? MOD_N : 0, left.operand);
+	ld_emit(c->ld, OP_AND, 0, power);
+	needed = c->en = ld_store_new(c->ld);
+	right = settle(c, chain_compute(c, node->right, IEC_NONE, 0));
+	if (c->en == needed) { /* nothing in it can fail */
+		c->en = before;
+		c->can_fail = could_fail;
+	} else {
+		const uint32_t good = c->en;
+
+		ld_emit(c->ld, OP_LD, MOD_N, needed);
+		ld_emit(c->ld, OP_AND, 0, power);
+		ld_emit(c->ld, OP_OR, 0, good);
+		c->en = ld_store_new(c->ld);
+	}
+	ld_emit(c->ld, OP_LD, 0, left.operand);
+	ld_emit(c->ld, operator_of(node), 0, right.operand);
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
 static struct value compute_logic(struct chain *c, const struct expr_node *node,
 				  enum iec_type hint, uint32_t target)
 {
@@ -474,6 +547,8 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 		type = hint;
 	if (is_bits(type))
 		return compute_bits(c, node, type, target);
+	if (node->lazy)
+		return compute_lazy(c, node);
 	left = settle(c, chain_compute(c, node->left, IEC_NONE, 0));
 	if (node->op == EXPR_NOT) {
 		ld_emit(c->ld, OP_LD, 0, left.operand);
@@ -527,6 +602,46 @@ static struct value compute_overload(struct chain *c, const struct expr_node *no
 	return operate(c, word, left, right, type, target);
 }
 
+static bool is_integer(enum iec_type type)
+{
+	return iec_type_row(type)->class & ANY_INT;
+}
+
+/* Base and exponent are integers: so is the power. It is computed as an LREAL. */
+static struct value compute_power(struct chain *c, int base, int exponent, enum iec_type hint,
+				  uint32_t target)
+{
+	const struct value none = { .type = IEC_NONE };
+	enum iec_type type = infer_power(c, base, exponent);
+	struct value left = chain_side(c, base, IEC_LREAL), right, out;
+
+	if (left.type != IEC_LREAL)
+		left = operate(c, FN_CONVERT, left, none, IEC_LREAL, 0);
+	right = chain_side(c, exponent, IEC_DINT);
+	if (type == IEC_NONE || (hint != IEC_NONE && types_join(type, hint) == hint))
+		type = hint == IEC_NONE ? IEC_DINT : hint;
+	out = operate(c, FN_EXPT, left, right, IEC_LREAL, type == IEC_LREAL ? target : 0);
+	return type == IEC_LREAL ? out : operate(c, FN_CONVERT, out, none, type, target);
+}
+
+/* Base ** exponent; one of them is REAL. */
+static struct value compute_root(struct chain *c, int base, int exponent, enum iec_type hint,
+				 uint32_t target)
+{
+	const struct value none = { .type = IEC_NONE };
+	enum iec_type type = infer_power(c, base, exponent);
+	struct value left, right;
+
+	if (type == IEC_REAL && hint == IEC_LREAL)
+		type = hint;
+	left = chain_side(c, base, type);
+	if (is_integer(left.type))
+		left = operate(c, FN_CONVERT, left, none, type, 0);
+	right = chain_side(c, exponent, c->expr->node[exponent].op == EXPR_LITERAL &&
+			   chain_infer(c, exponent) == IEC_NONE ? IEC_DINT : IEC_NONE);
+	return operate(c, FN_EXPT, left, right, type, target);
+}
+
 static struct value compute_fn(struct chain *c, const struct expr_node *node,
 			       int index, enum iec_type hint, uint32_t target)
 {
@@ -536,6 +651,10 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 
 	if (word_is_test(word_row(node->fn)))
 		return compute_compare(c, node);
+	if (node->fn == FN_EXPT)
+		return is_power(c, node->left, node->right) ?
+			compute_power(c, node->left, node->right, hint, target) :
+			compute_root(c, node->left, node->right, hint, target);
 	word = fn_overload(node->fn, chain_infer(c, node->left), chain_infer(c, node->right));
 	if (word != node->fn)
 		return compute_overload(c, node, word, type, target);
@@ -595,6 +714,113 @@ static struct value chain_place(struct chain *c, int index)
 	return value;
 }
 
+/* ---- parts of bit strings and integers ---- */
+
+static void fn_line(struct chain *c, enum word word, uint32_t operand)
+{
+	ld_emit_line(c->ld, (struct il_line){ .kind = IL_FN, .word = (uint16_t)word,
+					      .mark = IL_MADE, .operand = operand });
+}
+
+/* Makes the result, a value of @from, one of @to. */
+static void convert_result(struct chain *c, enum iec_type from, enum iec_type to)
+{
+	if (from != to)
+		fn_line(c, words_conversion(&c->ld->translation->project->words, from, to), 0);
+}
+
+static uint32_t bits_constant(struct chain *c, enum iec_type type, uint64_t bits)
+{
+	char text[48];
+	const unsigned int size = iec_type_row(type)->size;
+
+	if (size < 8)
+		bits &= (UINT64_C(1) << 8 * size) - 1;
+	return chain_intern(c, text, (size_t)snprintf(text, sizeof(text), "%s#16#%" PRIX64,
+						      iec_type_row(type)->word, bits));
+}
+
+static uint32_t number_constant(struct chain *c, unsigned int number)
+{
+	char text[16];
+
+	return chain_intern(c, text, (size_t)snprintf(text, sizeof(text), "%u", number));
+}
+
+static struct value compute_bit(struct chain *c, const struct expr_node *node)
+{
+	const struct value from = settle(c, chain_place(c, node->left));
+	const enum iec_type all = type_of_bits(8u * iec_type_row(from.type)->size);
+	struct value out = { .type = IEC_BOOL };
+	unsigned int bits, number;
+
+	if (!expr_part(node->tail, &bits, &number) || from.type == IEC_NONE) {
+		c->ld->failed = true;
+		return out;
+	}
+	ld_emit(c->ld, OP_LD, 0, from.operand);
+	convert_result(c, from.type, all);
+	if (bits == 1) {
+		fn_line(c, op_function(OP_AND), bits_constant(c, all, UINT64_C(1) << number));
+		fn_line(c, FN_NE, bits_constant(c, all, 0));
+		out.operand = ld_store_new(c->ld);
+		return out;
+	}
+	out.type = type_of_bits(bits);
+	if (number)
+		fn_line(c, FN_SHR, number_constant(c, number * bits));
+	convert_result(c, all, out.type);
+	out.operand = temps_number(c->ld->temps, out.type);
+	ld_emit(c->ld, OP_ST, 0, out.operand);
+	return out;
+}
+
+/* The value of @target with @value as its part @tail. */
+static struct value put_bit(struct chain *c, uint32_t target, struct expr_tail tail,
+			    struct value value)
+{
+	const struct value from = settle(c, (struct value){ .operand = target, .type = type_of(c, target) });
+	const enum iec_type all = type_of_bits(8u * iec_type_row(from.type)->size);
+	struct value out = { .type = from.type };
+	unsigned int bits, number;
+	uint32_t part;
+
+	if (!expr_part(tail, &bits, &number) || from.type == IEC_NONE) {
+		c->ld->failed = true;
+		return out;
+	}
+	part = temps_number(c->ld->temps, all);
+	ld_emit(c->ld, OP_LD, 0, value.operand);
+	convert_result(c, type_of_bits(bits), all);
+	if (number)
+		fn_line(c, FN_SHL, number_constant(c, number * bits));
+	ld_emit(c->ld, OP_ST, 0, part);
+	ld_emit(c->ld, OP_LD, 0, from.operand);
+	convert_result(c, from.type, all);
+	fn_line(c, op_function(OP_AND), bits_constant(c, all,
+		~((bits == 64 ? UINT64_MAX : (UINT64_C(1) << bits) - 1) << number * bits)));
+	fn_line(c, op_function(OP_OR), part);
+	convert_result(c, all, from.type);
+	out.operand = temps_number(c->ld->temps, from.type);
+	ld_emit(c->ld, OP_ST, 0, out.operand);
+	return out;
+}
+
+/* What @target becomes; it is computed into @to. */
+static struct value chain_assigned(struct chain *c, uint32_t target, uint32_t to)
+{
+	const struct expr_tail tail = c->expr->target_bit;
+	unsigned int bits = 1, number;
+	enum iec_type type;
+
+	if (!tail.len)
+		return chain_compute(c, c->expr->root, type_of(c, target), to);
+	expr_part(tail, &bits, &number);
+	type = type_of_bits(bits);
+	return put_bit(c, target, tail,
+		       settle(c, chain_fit(c, chain_compute(c, c->expr->root, type, 0), type)));
+}
+
 /* Freezes what the bodies of functions further right may write. */
 static struct value keep_value(struct chain *c, struct value value)
 {
@@ -613,7 +839,8 @@ static struct value keep_value(struct chain *c, struct value value)
 
 /* @in by argument. Into a temporary, if there is no @target. */
 static struct value emit_call(struct chain *c, enum word word, const struct expr_args *args,
-			      const struct value in[LIMIT_ARGS], struct value out)
+			      const struct value in[LIMIT_ARGS], const uint32_t other[LIMIT_ARGS],
+			      struct value out)
 {
 	struct ld *ld = c->ld;
 	const struct word_row *row = ld_row(ld, word);
@@ -632,10 +859,44 @@ static struct value emit_call(struct chain *c, enum word word, const struct expr
 
 		ld_arg(ld, false, pin, in[i].operand);
 	}
+	for (int i = 0; i < args->more; i++)
+		if (args->other[i].pin >= 0)
+			ld_arg(ld, true, chain_intern(c, row->pin[args->other[i].pin].name,
+				strlen(row->pin[args->other[i].pin].name)), other[i]);
 	ld_arg(ld, true, ld->eno_id, eno);
 	ld_arg(ld, true, ld->out_id, out.operand);
+	for (int i = 0; i < args->more; i++)
+		if (args->other[i].pin == EXPR_ENO || args->other[i].pin == EXPR_OUT) {
+			ld_emit(ld, OP_LD, 0, args->other[i].pin == EXPR_ENO ? eno : out.operand);
+			ld_emit(ld, OP_ST, 0, other[i]);
+		}
 	c->en = eno;
 	return out;
+}
+
+/* The condition of EN, which also keeps what follows from being computed. */
+static void chain_enable(struct chain *c, int index)
+{
+	const struct value value = settle(c, chain_compute(c, index, IEC_BOOL, 0));
+	const uint32_t en = chain_power(c);
+
+	ld_emit(c->ld, OP_LD, 0, value.operand);
+	ld_emit(c->ld, OP_AND, 0, en);
+	c->en = ld_store_new(c->ld);
+}
+
+/* EN and the places behind =>. */
+static void take_others(struct chain *c, const struct expr_args *args, uint32_t other[LIMIT_ARGS])
+{
+	for (int i = 0; i < args->more; i++) {
+		other[i] = 0;
+		if (args->other[i].pin == EXPR_EN) {
+			chain_enable(c, args->other[i].at);
+			continue;
+		}
+		other[i] = chain_place(c, args->other[i].at).operand;
+		ld_freeze(c->ld, other[i]);
+	}
 }
 
 static bool is_whole(const struct word_pin *pin)
@@ -653,7 +914,9 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	const struct var *result = result_of(c, word);
 	struct value in[LIMIT_ARGS], out = {
 		.operand = target, .type = result ? result->type : IEC_NONE };
+	uint32_t more[LIMIT_ARGS];
 
+	take_others(c, args, more);
 	for (int i = 0; i < args->count; i++) {
 		const struct word_pin *pin = &row->pin[args->arg[i].pin];
 		bool place = is_whole(pin) || pin->dir == PIN_IN_OUT;
@@ -674,7 +937,7 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	else if (!out.operand && result)
 		out.operand = temps_whole(ld->temps, &(struct meaning){
 			.kind = MEANING_STRUCT, .word = (uint16_t)result->fb });
-	return emit_call(c, word, args, in, out);
+	return emit_call(c, word, args, in, more, out);
 }
 
 /* At a pin of a function of the catalogue, whose shared pins get @given. */
@@ -705,7 +968,9 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	const enum iec_type back = result_type(shared_type(c, row, args), type);
 	const bool other = word_shares(row) && back != type;
 	struct value in[LIMIT_ARGS], out = { .operand = other ? 0 : target };
+	uint32_t more[LIMIT_ARGS];
 
+	take_others(c, args, more);
 	if (type == IEC_REAL && word_shares(row))
 		type = infer_wanted(c, index, hint);
 
@@ -724,7 +989,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	out.type = fn_result(ld_row(c->ld, runs), given, hint);
 	if (!out.operand)
 		out.operand = temps_number(c->ld->temps, out.type);
-	out = emit_call(c, word, args, in, out);
+	out = emit_call(c, word, args, in, more, out);
 	return other ? chain_convert(c, out, back, target) : out;
 }
 
@@ -770,6 +1035,8 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 		c->ld->failed = true;
 		return none;
 	}
+	if (is_integer_power(c, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
+		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
 	return word_is_own(word) ? call_own(c, word, &args, target) :
 				   call_known(c, word, &args, index, hint, target);
 }
@@ -809,6 +1076,8 @@ static struct value compute_raw(struct chain *c, int index, enum iec_type hint,
 	case EXPR_NAME:
 	case EXPR_INDEX:
 		return keep_value(c, chain_place(c, index));
+	case EXPR_BIT:
+		return compute_bit(c, node);
 	case EXPR_CALL:
 		return chain_call(c, index, hint, target);
 	case EXPR_ARG:
@@ -929,7 +1198,7 @@ void ld_assign(struct ld *ld, int element)
 	ld_place(ld, at->row, at->col);
 	target = chain_target(&c);
 	ld_freeze(ld, target);
-	value = chain_compute(&c, ld->expr->root, type_of(&c, target), target);
+	value = chain_assigned(&c, target, target);
 	if (value.operand != target || is_place(ld->expr))
 		operate(&c, FN_MOVE, value, none, value.type, target);
 	ld->element[element].leaf = c.en;
@@ -959,9 +1228,10 @@ void ld_store(struct ld *ld)
 	const struct value none = { .type = IEC_NONE };
 	const uint32_t target = chain_target(&c);
 	const enum iec_type type = type_of(&c, target);
-	const bool other = mixed_converts(chain_infer(&c, ld->expr->root), type) &&
+	const bool other = !ld->expr->target_bit.len &&
+			   mixed_converts(chain_infer(&c, ld->expr->root), type) &&
 			   !iec_can_widen(chain_infer(&c, ld->expr->root), type);
-	struct value value = chain_compute(&c, ld->expr->root, type, other ? 0 : target);
+	struct value value = chain_assigned(&c, target, other ? 0 : target);
 
 	chain_at(&c, ld->expr->target);
 	value = chain_fit(&c, value, type);

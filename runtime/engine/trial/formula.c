@@ -338,6 +338,10 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 			complain(diags, place, DIAG_ONE_INDEX, line_start, from);
 			return NULL;
 		}
+		if (from->op == EXPR_BIT) {
+			complain(diags, place, DIAG_SYNTAX, line_start, from);
+			return NULL;
+		}
 		if (from->op == EXPR_CALL || from->op == EXPR_ARG) {
 			complain(diags, place, DIAG_NO_CALLS_HERE, line_start,
 				 function_of(expr, i));
@@ -507,6 +511,7 @@ static bool evaluate(struct formula *formula, struct formula_term *term,
 	case EXPR_LITERAL:
 	case EXPR_CALL: /* used by no operator */
 	case EXPR_ARG:
+	case EXPR_BIT:
 		return true;
 	case EXPR_INDEX:
 		return read_element(term, image, term->left < 0 ?

@@ -425,7 +425,7 @@ static struct term build(struct building *b, int term, int depth)
 		return logic(b, at, depth + 1);
 	case EXPR_CALL:
 		return call(b, at, depth + 1);
-	case EXPR_ARG:
+	case EXPR_ARG: case EXPR_BIT:
 		break;
 	}
 	return failed(b, at->text, at->len);
