@@ -478,7 +478,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential st_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -486,6 +486,7 @@ $(addprefix $(BUILD)/,unit/trial/tests unit/scan/tests tests/editor/live/tests t
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
+$(BIN)/st_differential: $(BUILD)/tests/st_differential.o $(call obj,$(wildcard tests/st/*.c)) $(WALKER)
 $(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
 $(BIN)/still_differential: $(BUILD)/tests/still_differential.o $(RANDOM_O)

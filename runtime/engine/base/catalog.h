@@ -162,6 +162,12 @@ static inline struct var_array pin_array(const struct word_pin *pin)
 	return array;
 }
 
+/** pin_is_given - does a call of an instance give it a value, or a variable of its own? Scan-safe: yes. */
+static inline bool pin_is_given(const struct word_pin *pin)
+{
+	return pin->dir == PIN_IN || pin->dir == PIN_IN_OUT;
+}
+
 /** pin_init - the value of a pin of the catalogue until it is given one. Scan-safe: yes. */
 static inline union iec_value pin_init(const struct word_pin *pin)
 {

@@ -78,7 +78,7 @@ static const struct word_pin *pin_of(struct callee *callee, const struct st_part
 	} else {
 		do
 			index++;
-		while (index < callee->row->pin_count && callee->row->pin[index].dir == PIN_OUT);
+		while (index < callee->row->pin_count && !pin_is_given(&callee->row->pin[index]));
 		callee->pin = index;
 	}
 	return index >= 0 && index < callee->row->pin_count ? &callee->row->pin[index] : NULL;

@@ -1213,13 +1213,14 @@ static struct chain statement(struct ld *ld)
 			       .calls = chain_count_calls(ld, ld->expr) };
 }
 
-/* May LD and ST copy it? */
+/* May LD and ST copy it? LD of an element that does not exist gives 0, which must not be stored; ST does
+ * not count a text that it cuts. */
 static bool is_loadable(struct chain *c, uint32_t from, uint32_t to)
 {
 	const struct meaning *a = meaning(c, from), *b = meaning(c, to);
 
-	return a && b && ((!meaning_is_indexed(a) && !meaning_is_indexed(b)) ||
-			  (!meaning_is_whole(a) && !meaning_is_whole(b)));
+	return a && b && !meaning_is_indexed(a) && b->type != IEC_STRING &&
+	       (!meaning_is_indexed(b) || !meaning_is_whole(b));
 }
 
 void ld_store(struct ld *ld)
@@ -1248,7 +1249,7 @@ void ld_store(struct ld *ld)
 uint32_t ld_value(struct ld *ld, enum iec_type *type, uint32_t *good)
 {
 	struct chain c = statement(ld);
-	struct value value = chain_compute(&c, ld->expr->root, *type, 0);
+	struct value value = settle(&c, chain_compute(&c, ld->expr->root, *type, 0));
 
 	value = chain_fit(&c, value, *type);
 	*type = value.type;

@@ -361,9 +361,27 @@ static void leave_for(struct st_il *s, const struct st_open *open)
 	here(s, round);
 }
 
+/* The lowest or highest value that the variable can have, as a constant. */
+static uint32_t for_limit(struct st_il *s, const struct st_open *open, bool high, union iec_value less)
+{
+	const struct meaning *m = ld_meaning(&s->ld, open->variable);
+	const struct iec_type_row *row = iec_type_row(m ? m->type : IEC_DINT);
+	union iec_value value = { .i = high ? row->high : row->low };
+	char text[40];
+	int len;
+
+	if (m && meaning_is_ranged(m))
+		value.i = high ? m->like->range->high : m->like->range->low;
+	value.i = (int64_t)((uint64_t)value.i - (uint64_t)less.i);
+	len = snprintf(text, sizeof(text), "%s#", row->word);
+	len += literal_print(m ? m->type : IEC_DINT, value, text + len, sizeof(text) - (size_t)len);
+	return st_intern(s, text, (size_t)len);
+}
+
 /* Can the variable always have the value behind the last one? */
 static bool has_room(struct st_il *s, const struct st_open *open, enum iec_type type)
 {
+	const struct meaning *m = ld_meaning(&s->ld, open->variable);
 	int64_t to, by = 1;
 	struct literal literal = { .type = IEC_NONE };
 	union iec_value value;
@@ -373,10 +391,71 @@ static bool has_room(struct st_il *s, const struct st_open *open, enum iec_type 
 	    to > INT64_MAX / 2 || to < INT64_MIN / 2)
 		return false;
 	literal.value.i = to + by;
-	return literal_fit(&literal, type, &value);
+	return literal_fit(&literal, type, &value) &&
+	       (!m || !meaning_is_ranged(m) || (value.i >= m->like->range->low && value.i <= m->like->range->high));
 }
 
-static void begin_for(struct st_il *s, struct st_walk *walk)
+/* May the statement write the variable with this name? Calls may write anything. */
+static bool may_write(struct st_il *s, const struct st_item *item, uint32_t variable)
+{
+	const struct names *names = &s->translation->project->names;
+	const char *name = names_text(names, variable);
+	struct lex lex, ahead;
+
+	if (item->kind == ST_CALL)
+		return true;
+	if (item->kind == ST_COMMENT)
+		return false;
+	for (lex_init(&lex, names_text(names, item->text), names_len(names, item->text));
+	     lex_next(&lex) != TOKEN_END;) {
+		ahead = lex;
+		lex_next(&ahead);
+		if (lex.token.kind == TOKEN_NAME && lex_is(&ahead, "(") &&
+		    scope_pou(s->translation->scope, s->pou,
+			      names_intern(&s->translation->project->names, lex.token.text, lex.token.len)))
+			return true;
+		if (lex_is(&lex, name) && lex_is(&ahead, ":="))
+			return true;
+	}
+	return false;
+}
+
+/* Does the loop that begins at item @at leave its variable alone? */
+static bool is_steady(struct st_il *s, const struct st_open *open, int at)
+{
+	const struct st *st = s->pou->st;
+	const struct meaning *m = ld_meaning(&s->ld, open->variable);
+	const int depth = st->item[at].depth;
+
+	if (!m || m->kind != MEANING_VARIABLE || m->addr.area != AREA_NONE)
+		return false;
+	for (int i = at + 1; i < st->count && !(st->item[i].kind == ST_END_FOR &&
+						st->item[i].depth == depth); i++)
+		if (may_write(s, &st->item[i], open->variable))
+			return false;
+	return true;
+}
+
+/* The first value; a subrange may not have it, then the loop does not run. */
+static void for_begin(struct st_il *s, struct st_open *open, uint32_t from)
+{
+	const struct meaning *m = ld_meaning(&s->ld, open->variable);
+	uint32_t good;
+
+	if (!m || !meaning_is_ranged(m)) {
+		copy(s, from, open->variable);
+		return;
+	}
+	good = temps_bool(s->ld.temps);
+	ld_call(&s->ld, FN_MOVE);
+	ld_arg(&s->ld, false, s->ld.in_id, from);
+	ld_arg(&s->ld, true, s->ld.eno_id, good);
+	ld_arg(&s->ld, true, s->ld.out_id, open->variable);
+	ld_emit(&s->ld, OP_LD, 0, good);
+	jump(s, MOD_C | MOD_N, open->out);
+}
+
+static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 {
 	struct st_open *open = push_block(s, ST_FOR);
 	enum iec_type type = IEC_NONE;
@@ -389,7 +468,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk)
 			open->variable = ld_target(&s->ld);
 			type = st_type_of(s, open->variable);
 		} else if (part.role == ST_FROM) {
-			copy(s, for_value(s, open, type), open->variable);
+			for_begin(s, open, for_value(s, open, type));
 		} else if (part.role == ST_TO) {
 			open->to = for_value(s, open, type);
 		} else {
@@ -398,7 +477,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk)
 				st_report(s, DIAG_LOOP_STEP, part.text, "");
 		}
 	}
-	open->once = has_room(s, open, type);
+	open->once = has_room(s, open, type) && is_steady(s, open, at);
 	open->top = new_label(s);
 	open->again = new_label(s);
 	at_item(s);
@@ -406,29 +485,54 @@ static void begin_for(struct st_il *s, struct st_walk *walk)
 	leave_for(s, open);
 }
 
+/* Leaves the loop if a step beyond @limit would be needed. */
+static void leave_at(struct st_il *s, const struct st_open *open, enum word beyond, uint32_t limit)
+{
+	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	compare(s, beyond, limit);
+	jump(s, MOD_C, open->out);
+}
+
+/* Leaves the loop if the variable cannot have the next value: one more step is no error. */
+static void leave_at_limit(struct st_il *s, const struct st_open *open, enum iec_type type)
+{
+	const union iec_value none = { .i = 0 };
+	union iec_value by = { .i = 1 };
+	uint32_t up, step, limit;
+
+	if (!open->by || literal_value(s, open->by, IEC_LINT, &by.i)) {
+		leave_at(s, open, by.i < 0 ? FN_LT : FN_GT, for_limit(s, open, by.i >= 0, by));
+		return;
+	}
+	up = new_label(s);
+	step = new_label(s);
+	limit = temps_number(s->ld.temps, type);
+	ld_emit(&s->ld, OP_LD, 0, open->by);
+	compare(s, FN_GT, st_intern(s, "0", 1));
+	jump(s, MOD_C, up);
+	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, false, none));
+	compare(s, FN_SUB, open->by);
+	ld_emit(&s->ld, OP_ST, 0, limit);
+	leave_at(s, open, FN_LT, limit);
+	jump(s, 0, step);
+	here(s, up);
+	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, true, none));
+	compare(s, FN_SUB, open->by);
+	ld_emit(&s->ld, OP_ST, 0, limit);
+	leave_at(s, open, FN_GT, limit);
+	here(s, step);
+}
+
 static void end_for(struct st_il *s)
 {
 	const struct st_open *open = innermost(s);
-	const uint32_t by = open->by ? open->by : st_intern(s, "1", 1);
-	const enum iec_type type = st_type_of(s, open->variable);
 
 	here(s, open->again);
-	if (open->once) {
-		ld_emit(&s->ld, OP_LD, 0, open->variable);
-		compare(s, FN_ADD, by);
-		ld_emit(&s->ld, OP_ST, 0, open->variable);
-	} else {
-		const uint32_t next = temps_number(s->ld.temps, type), eno = temps_bool(s->ld.temps);
-
-		ld_call(&s->ld, FN_ADD);
-		ld_arg(&s->ld, false, st_intern(s, "IN1", 3), open->variable);
-		ld_arg(&s->ld, false, st_intern(s, "IN2", 3), by);
-		ld_arg(&s->ld, true, s->ld.eno_id, eno);
-		ld_arg(&s->ld, true, s->ld.out_id, next);
-		ld_emit(&s->ld, OP_LD, 0, eno);
-		jump(s, MOD_C | MOD_N, open->out);
-		copy(s, next, open->variable);
-	}
+	if (!open->once)
+		leave_at_limit(s, open, st_type_of(s, open->variable));
+	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	compare(s, FN_ADD, open->by ? open->by : st_intern(s, "1", 1));
+	ld_emit(&s->ld, OP_ST, 0, open->variable);
 	jump(s, 0, open->top);
 	here(s, open->out);
 	level_back(s, &open->level);
@@ -593,7 +697,7 @@ static const struct word_pin *pin_at(const struct word_row *row, const struct st
 		index = *last;
 		do
 			index++;
-		while (index < row->pin_count && row->pin[index].dir == PIN_OUT);
+		while (index < row->pin_count && !pin_is_given(&row->pin[index]));
 		*last = index;
 	}
 	return index >= 0 && index < row->pin_count ? &row->pin[index] : NULL;
@@ -742,7 +846,7 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_CASE: begin_case(s, &walk, at); break;
 	case ST_CHOICE: next_choice(s); break;
 	case ST_END_CASE: end_block(s); break;
-	case ST_FOR: begin_for(s, &walk); break;
+	case ST_FOR: begin_for(s, &walk, at); break;
 	case ST_END_FOR: end_for(s); break;
 	case ST_WHILE: begin_while(s, &walk); break;
 	case ST_END_WHILE: end_while(s); break;

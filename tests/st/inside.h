@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * inside - data of the evaluator of Structured Text, for its own files only.
+ */
+#ifndef ST_INSIDE_H
+#define ST_INSIDE_H
+
+#include "engine/model/st.h"
+#include "tests/st/st_walk.h"
+#include "tests/walker/inside.h"
+
+#define STEPS_MAX 20000u /* statements of one scan                           */
+#define SHOWN_ST 2000
+#define INPUTS_MAX 16
+
+/* A variable, or a part of one. */
+enum slot_kind { SLOT_VALUE, SLOT_ARRAY, SLOT_PARTS, SLOT_BLOCK };
+struct slot {
+	enum slot_kind kind;
+	const char *name;
+	const struct var *var;      /* its declaration; NULL: a pin           */
+	uint16_t flags;             /* enum var_flag                          */
+	struct value *value;        /* of SLOT_VALUE                          */
+	int32_t low;                /* of SLOT_ARRAY                          */
+	int count;
+	struct slot *part;          /* elements, members, pins                */
+	struct block *block;        /* of SLOT_BLOCK                          */
+	const struct pou *pou;      /* of SLOT_PARTS: a block of the project  */
+};
+
+/* An expression. */
+enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_CALL };
+struct tree {
+	enum tree_kind kind;
+	enum word fn;               /* of TREE_TWO, TREE_CALL                 */
+	struct tree *left, *right;
+	struct tree *next;          /* the next argument or index             */
+	struct literal literal;
+	bool minus;                 /* of TREE_CONSTANT                       */
+	struct slot *global;        /* of TREE_PLACE: where it begins;        */
+	int local;                  /* NULL: number of a local                */
+	struct step *step;          /* from there on                          */
+	const char *pin;            /* of an argument; NULL: in order         */
+	int pin_len;
+	bool out;                   /* an argument with =>                    */
+	const struct pou *pou;      /* of TREE_CALL: a function of the project */
+	enum iec_type to;           /* of TREE_CALL: what a conversion gives  */
+};
+
+/* `[a]` or `.name` in a place. */
+struct step {
+	struct tree *index;
+	const char *name;
+	int len;
+	struct step *next;
+};
+
+struct choice {
+	struct tree *low, *high;    /* high NULL: one value                   */
+	struct choice *next;
+};
+
+struct stmt {
+	enum st_kind kind;
+	struct tree *place, *value; /* target, callee, variable of FOR; condition */
+	struct tree *to, *by, *from;
+	struct tree *args;
+	const struct pou *called;   /* a subroutine                           */
+	struct choice *choice;
+	struct stmt *body;          /* of a branch, a loop, a choice          */
+	struct stmt *other;         /* the next branch; ELSE has no value     */
+	struct stmt *next;
+};
+
+/* The body of a POU, parsed once. */
+struct body {
+	const struct pou *pou;
+	struct slot frame;          /* of a program, function, subroutine     */
+	struct stmt *first;
+};
+
+struct shown_slot {
+	char name[128];
+	struct value *value;
+	const struct block *block;
+};
+
+struct st_world {
+	struct project *project;
+	struct arena arena;
+	struct slot globals;
+	struct body *body;          /* by POU                                 */
+	struct shown_slot *shown;
+	int shown_count;
+	int64_t now_ns;
+	uint32_t errors, steps;
+	bool lost;
+	const char *why;
+};
+
+/* What a statement works on. */
+struct frame_of { struct st_world *world; struct slot *locals; };
+
+/* st_slot.c */
+bool slot_frame(struct st_world *world, struct slot *out, const struct var_table *table);
+/** slot_reset - initial values again; @temporary: only of VAR_TEMP. */
+void slot_reset(struct st_world *world, struct slot *slot, bool temporary);
+struct slot *slot_member(struct slot *slot, const char *name, int len);
+void slot_show(struct st_world *world, struct slot *slot, const char *before);
+
+/* st_parse.c */
+bool parse_body(struct st_world *world, struct body *body);
+
+/* st_compute.c */
+/* A chain of operations; what fails ends it. */
+struct chain_state {
+	bool on;
+	bool target;                /* an element that is not there is told later */
+	const struct tree *nowhere; /* the call whose result has no place     */
+	const struct tree *wrapped; /* the operation that overflowed           */
+};
+/** type_of - of the value where @wanted is wanted; IEC_NONE: constants alone. */
+enum iec_type tree_type(struct frame_of *f, const struct tree *tree, enum iec_type wanted);
+/** tree_compute - as @type; IEC_NONE: in its own. */
+struct value tree_compute(struct frame_of *f, const struct tree *tree, enum iec_type type,
+			  struct chain_state *chain);
+/** tree_slot - the place; NULL, and an error is counted: it has no such element. */
+struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain_state *chain);
+/** tree_first - the same with the first element of each array. */
+struct slot *tree_first(struct frame_of *f, const struct tree *tree);
+/** slot_put - stores; false, and an error is counted, if it may not hold the value. */
+bool slot_put(struct st_world *world, struct slot *slot, struct value value);
+void slot_copy(struct slot *to, const struct slot *from);
+/** slot_fits - whether a subrange has the value. */
+bool slot_fits(const struct slot *slot, struct value value);
+
+/* st_run.c */
+bool run_body(struct st_world *world, const struct body *body, struct slot *locals);
+/** run_function - false: its ENO is FALSE. */
+bool run_function(struct frame_of *f, const struct tree *call, struct chain_state *chain,
+		  struct value *out);
+#endif

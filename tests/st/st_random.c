@@ -1,0 +1,754 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * st_random - random programs of Structured Text: statements of each kind around
+ * expressions of each type.
+ *
+ * A part of the numbers is at the limits of their types, some indices are outside. Most
+ * programs are accepted; what is computed from constants alone is avoided.
+ */
+#include "tests/st/st_random.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Where a body stands: what it may use. */
+enum room { ROOM_FUNCTION, ROOM_BLOCK, ROOM_ROUTINE, ROOM_MAIN };
+
+struct maker {
+	struct random_source source;
+	char *out;
+	size_t size, used;
+	enum room room;
+	int loops;              /* around the statement                       */
+	int whiles;             /* counters in use                            */
+	bool in_case;
+};
+
+static const char types[] =
+	"RUNGBOARD 1\n\nTYPE\n"
+	"  Colour : (Red, Green := 5, Blue);\n"
+	"  Mode : USINT (Off := 1, Slow, Fast := 16#10);\n"
+	"  Percent : INT (0..100) := 50;\n"
+	"  Trim : SINT (-5..5);\n"
+	"  Point : STRUCT\n    x : INT := 1;\n    y : DINT;\n    z : LREAL := 0.5;\n    on : BOOL;\n"
+	"    share : Percent;\n    tag : STRING[6] := 'ab';\n    row : ARRAY[1..3] OF INT := [7, 8, 9];\n  END_STRUCT;\n"
+	"END_TYPE\n\n";
+
+static const char globals[] =
+	"VAR\n"
+	"  nb : BOOL;\n  ni : INT;\n  nd : DINT;\n  nr : REAL;\n  nu : USINT;\n  nw : WORD;\n  nt : TIME;\n  nl : LINT;\n"
+	"  b1 : BOOL;\n  b2 : BOOL := TRUE;\n  b3 : BOOL;\n"
+	"  s1 : SINT := 120;\n  s2 : SINT := -128;\n"
+	"  i1 : INT := 3;\n  i2 : INT := -7;\n  i3 : INT := 32767;\n  i4 : INT;\n"
+	"  d1 : DINT := 70000;\n  d2 : DINT := -2147483648;\n  d3 : DINT := 2;\n"
+	"  l1 : LINT := 9223372036854775807;\n  l2 : LINT := -5;\n"
+	"  us1 : USINT := 250;\n  us2 : USINT := 4;\n"
+	"  ui1 : UINT := 65530;\n  ui2 : UINT := 9;\n"
+	"  ud1 : UDINT := 4294967290;\n  ud2 : UDINT := 17;\n"
+	"  ul1 : ULINT := 18446744073709551610;\n  ul2 : ULINT := 3;\n"
+	"  by1 : BYTE := 16#A5;\n  by2 : BYTE := 16#0F;\n"
+	"  w1 : WORD := 16#8001;\n  w2 : WORD := 16#00FF;\n"
+	"  dw1 : DWORD := 16#DEADBEEF;\n  dw2 : DWORD;\n"
+	"  lw1 : LWORD := 16#8000000000000001;\n  lw2 : LWORD := 16#FF;\n"
+	"  r1 : REAL := 1.5;\n  r2 : REAL := 3.0E38;\n  r3 : REAL := -0.25;\n"
+	"  lr1 : LREAL := 1.0E308;\n  lr2 : LREAL := 0.1;\n"
+	"  t1 : TIME := T#1s500ms;\n  t2 : TIME := T#7ms;\n"
+	"  st1 : STRING[8] := 'pump';\n  st2 : STRING[20] := 'valve 7';\n"
+	"  c1 : Colour;\n  c2 : Colour := Blue;\n  m1 : Mode := Slow;\n"
+	"  p1 : Percent;\n  p2 : Percent := 99;\n  q1 : Trim;\n"
+	"  ai : ARRAY[1..5] OF INT := [10, 20, -30, 2(4)];\n  aj : ARRAY[1..5] OF INT;\n"
+	"  ad : ARRAY[0..2, -1..1] OF DINT := [9(6)];\n  ae : ARRAY[0..2, -1..1] OF DINT;\n"
+	"  ar : ARRAY[0..1, 1..2, 0..2] OF REAL;\n  ab : ARRAY[2..4] OF BOOL := [TRUE];\n"
+	"  ap : ARRAY[1..3] OF Percent;\n"
+	"  pt1 : Point;\n  pt2 : Point;\n  pts : ARRAY[1..3] OF Point;\n"
+	"  wait : TON;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
+	"  mix1 : Mix;\n  mix2 : Mix;\n"
+	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
+	"  g1 : INT;\n  g2 : INT;\n  g3 : INT;\n  g4 : INT;\n"
+	"END_VAR\n\n";
+
+struct st_input st_random_input(int index)
+{
+	static const struct st_input inputs[] = {
+		{ "nb", "BOOL" }, { "ni", "INT" }, { "nd", "DINT" }, { "nr", "REAL" },
+		{ "nu", "USINT" }, { "nw", "WORD" }, { "nt", "TIME" }, { "nl", "LINT" }, { NULL, NULL },
+	};
+
+	return inputs[index];
+}
+
+static void say(struct maker *m, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+static void say(struct maker *m, const char *format, ...)
+{
+	va_list args;
+	int len;
+
+	va_start(args, format);
+	len = vsnprintf(m->out + m->used, m->size - m->used, format, args);
+	va_end(args);
+	if (len > 0 && m->used + (size_t)len < m->size)
+		m->used += (size_t)len;
+}
+
+static uint32_t below(struct maker *m, uint32_t n)
+{
+	return random_below(&m->source, n);
+}
+
+static bool chance(struct maker *m, uint32_t percent)
+{
+	return random_chance(&m->source, percent);
+}
+
+#define PICK(m, list) (list)[below(m, sizeof(list) / sizeof(*(list)))]
+
+/* ---- operands ---- */
+
+enum type { T_BOOL, T_SINT, T_INT, T_DINT, T_LINT, T_USINT, T_UINT, T_UDINT, T_ULINT, T_BYTE,
+	    T_WORD, T_DWORD, T_LWORD, T_REAL, T_LREAL, T_TIME, T_STRING, T_COLOUR, T_MODE, TYPES };
+
+/* Variables that may be read; the first ones may be written. */
+static const struct {
+	const char *type;
+	const char *name[10];
+	const char *constant[6];
+	enum type narrower;     /* widens to it; itself: none                 */
+} type_row[TYPES] = {
+	[T_BOOL] = { "BOOL", { "b1", "b2", "b3", "pt1.on", "nb", "wait.Q", "count.Q" }, { "TRUE", "FALSE" }, T_BOOL },
+	[T_SINT] = { "SINT", { "s1", "s2", "q1" }, { "1", "-128", "127", "-3", "SINT#5" }, T_SINT },
+	[T_INT] = { "INT", { "i1", "i2", "i3", "i4", "pt1.x", "pt2.row[2]", "p1", "p2", "ni", "k1" },
+		    { "1", "2", "-32768", "32767", "-7", "INT#9" }, T_SINT },
+	[T_DINT] = { "DINT", { "d1", "d2", "d3", "pt2.y", "nd" }, { "1", "3", "-2147483648", "2147483647", "65536" }, T_INT },
+	[T_LINT] = { "LINT", { "l1", "l2", "nl" }, { "1", "-1", "9223372036854775807", "4294967296" }, T_DINT },
+	[T_USINT] = { "USINT", { "us1", "us2", "nu" }, { "1", "255", "7" }, T_USINT },
+	[T_UINT] = { "UINT", { "ui1", "ui2" }, { "1", "65535", "300" }, T_USINT },
+	[T_UDINT] = { "UDINT", { "ud1", "ud2" }, { "1", "4294967295", "12" }, T_UINT },
+	[T_ULINT] = { "ULINT", { "ul1", "ul2" }, { "1", "18446744073709551615", "6" }, T_UDINT },
+	[T_BYTE] = { "BYTE", { "by1", "by2" }, { "16#F0", "BYTE#3", "255" }, T_BYTE },
+	[T_WORD] = { "WORD", { "w1", "w2", "nw" }, { "16#F00F", "1" }, T_BYTE },
+	[T_DWORD] = { "DWORD", { "dw1", "dw2" }, { "16#FFFF0000", "16#10" }, T_WORD },
+	[T_LWORD] = { "LWORD", { "lw1", "lw2" }, { "16#FFFF00000000", "16#3" }, T_DWORD },
+	[T_REAL] = { "REAL", { "r1", "r2", "r3", "nr", "ar[1, 2, 0]" }, { "1.5", "0.1", "-2.0", "3.0E38", "REAL#0.5", "2" }, T_INT },
+	[T_LREAL] = { "LREAL", { "lr1", "lr2", "pt1.z" }, { "0.1", "1.0E300", "-3.5", "LREAL#2.5", "7" }, T_REAL },
+	[T_TIME] = { "TIME", { "t1", "t2", "nt" }, { "T#5ms", "T#1d", "T#-2s" }, T_TIME },
+	[T_STRING] = { "STRING", { "st1", "st2", "pt1.tag" }, { "'abc'", "''", "'long text here'" }, T_STRING },
+	[T_COLOUR] = { "Colour", { "c1", "c2" }, { "Red", "Colour#Blue", "Green" }, T_COLOUR },
+	[T_MODE] = { "Mode", { "m1" }, { "Off", "Mode#Fast", "Slow" }, T_MODE },
+};
+
+static void expr(struct maker *m, enum type type, int depth);
+
+static const char *one_of(struct maker *m, const char *const list[], int most)
+{
+	int n = 0;
+
+	while (n < most && list[n])
+		n++;
+	return list[below(m, (uint32_t)n)];
+}
+
+/* An index: mostly inside of low..high. */
+static void index_of(struct maker *m, int low, int high, int depth)
+{
+	if (chance(m, 35))
+		say(m, "%d", low + (int)below(m, (uint32_t)(high - low + 1)));
+	else if (chance(m, 50))
+		say(m, "%s", one_of(m, (const char *const[]){ "k1", "k2", "us2", "d3", "i1", NULL }, 6));
+	else if (depth > 1 && chance(m, 30))
+		expr(m, T_INT, 1);
+	else
+		say(m, "%s MOD %d + %d", one_of(m, (const char *const[]){ "k1", "i1", "ni", "i4" , NULL}, 5),
+		    high - low + 1, low);
+}
+
+/* An element of an array of the type; false: there is none. */
+static bool element(struct maker *m, enum type type, int depth)
+{
+	if (type == T_INT && chance(m, 30)) {
+		say(m, "pts[");
+		index_of(m, 1, 3, depth);
+		say(m, "]%s", chance(m, 50) ? ".x" : ".row[");
+		if (m->out[m->used - 1] == 'x')
+			return true;
+		index_of(m, 1, 3, depth);
+		say(m, "]");
+	} else if (type == T_INT) {
+		say(m, "%s[", chance(m, 20) ? "ap" : chance(m, 50) ? "ai" : "aj");
+		index_of(m, 1, m->out[m->used - 2] == 'p' ? 3 : 5, depth);
+		say(m, "]");
+	} else if (type == T_DINT) {
+		say(m, "%s[", chance(m, 50) ? "ad" : "ae");
+		index_of(m, 0, 2, depth);
+		say(m, chance(m, 50) ? ", " : "][");
+		index_of(m, -1, 1, depth);
+		say(m, "]");
+	} else if (type == T_REAL) {
+		say(m, "ar[");
+		index_of(m, 0, 1, depth);
+		say(m, ", ");
+		index_of(m, 1, 2, depth);
+		say(m, ", ");
+		index_of(m, 0, 2, depth);
+		say(m, "]");
+	} else if (type == T_BOOL) {
+		say(m, "ab[");
+		index_of(m, 2, 4, depth);
+		say(m, "]");
+	} else {
+		return false;
+	}
+	return true;
+}
+
+static void variable(struct maker *m, enum type type)
+{
+	if (m->room == ROOM_FUNCTION && type == T_INT && chance(m, 40))
+		say(m, "%s", chance(m, 50) ? "A" : "Own");
+	else if (m->room == ROOM_BLOCK && type == T_INT && chance(m, 40))
+		say(m, "%s", chance(m, 50) ? "Add" : "Kept");
+	else if (m->room >= ROOM_ROUTINE && type == T_UINT && chance(m, 20))
+		say(m, "mix1.Total"); /* not while it runs */
+	else
+		say(m, "%s", one_of(m, type_row[type].name, 10));
+}
+
+static void leaf(struct maker *m, enum type type, int depth)
+{
+	if (chance(m, 25) && element(m, type, depth))
+		return;
+	variable(m, type);
+}
+
+static void leaf_or_constant(struct maker *m, enum type type, int depth)
+{
+	if (chance(m, 35))
+		say(m, "%s", one_of(m, type_row[type].constant, 6));
+	else
+		leaf(m, type, depth);
+}
+
+/* ---- expressions ---- */
+
+static void two(struct maker *m, enum type type, const char *op, int depth)
+{
+	const bool parens = chance(m, 70) || (type >= T_BYTE && type <= T_LWORD);
+
+	say(m, "%s", parens ? "(" : "");
+	if (chance(m, 60))
+		expr(m, type, depth - 1);
+	else
+		leaf(m, type, depth);
+	say(m, " %s ", op);
+	if (chance(m, 40))
+		expr(m, type, depth - 1);
+	else if (chance(m, 20))
+		variable(m, type_row[type].narrower);
+	else
+		leaf_or_constant(m, type, depth);
+	say(m, "%s", parens ? ")" : "");
+}
+
+static enum type any_number(struct maker *m)
+{
+	return T_SINT + (enum type)below(m, T_ULINT - T_SINT + 1);
+}
+
+static void comparison(struct maker *m, int depth)
+{
+	static const char *const order[] = { "=", "<>", "<", ">", "<=", ">=" };
+	static const enum type types_of[] = { T_INT, T_INT, T_DINT, T_REAL, T_LREAL, T_TIME, T_STRING, T_ULINT, T_SINT, T_WORD, T_USINT };
+	const enum type type = PICK(m, types_of);
+
+	say(m, "(");
+	if (chance(m, 15)) {
+		variable(m, chance(m, 70) ? T_COLOUR : T_MODE);
+		say(m, " %s %s", order[below(m, 2)], m->out[m->used - 2] == 'c' ?
+		    one_of(m, type_row[T_COLOUR].constant, 6) : one_of(m, type_row[T_MODE].constant, 6));
+	} else {
+		if (chance(m, 40))
+			expr(m, type, depth - 1);
+		else
+			leaf(m, type, depth);
+		say(m, " %s ", PICK(m, order));
+		leaf_or_constant(m, type, depth);
+	}
+	say(m, ")");
+}
+
+static void bool_expr(struct maker *m, int depth)
+{
+	static const char *const logic[] = { "AND", "OR", "XOR", "&" };
+
+	if (chance(m, 45)) {
+		comparison(m, depth);
+	} else if (chance(m, 25)) {
+		say(m, "NOT ");
+		if (chance(m, 50))
+			leaf(m, T_BOOL, depth);
+		else
+			comparison(m, depth);
+	} else {
+		two(m, T_BOOL, PICK(m, logic), depth);
+	}
+}
+
+static void called(struct maker *m, enum type type, int depth)
+{
+	const char *word = type_row[type].type;
+
+	switch (below(m, 6)) {
+	case 0:
+		say(m, "%s(", chance(m, 50) ? "MAX" : "MIN");
+		leaf(m, type, depth);
+		say(m, ", ");
+		leaf_or_constant(m, type, depth);
+		say(m, ")");
+		break;
+	case 1:
+		say(m, "LIMIT(");
+		leaf_or_constant(m, type, depth);
+		say(m, ", ");
+		expr(m, type, depth - 1);
+		say(m, ", ");
+		leaf(m, type, depth);
+		say(m, ")");
+		break;
+	case 2:
+		say(m, "SEL(");
+		expr(m, T_BOOL, depth - 1);
+		say(m, ", ");
+		leaf(m, type, depth);
+		say(m, ", ");
+		leaf_or_constant(m, type, depth);
+		say(m, ")");
+		break;
+	case 3: {
+		const enum type from = type == T_REAL || type == T_LREAL ? any_number(m) :
+			chance(m, 70) ? any_number(m) : chance(m, 50) ? T_REAL : T_LREAL;
+
+		if (from == type) {
+			leaf(m, type, depth);
+			break;
+		}
+		say(m, "%s_TO_%s(", type_row[from].type, word);
+		if (chance(m, 40))
+			expr(m, from, depth - 1);
+		else
+			variable(m, from);
+		say(m, ")");
+		break;
+	}
+	case 4:
+		say(m, "MUX(%s, ", chance(m, 50) ? "us2 MOD 3" : "i1");
+		leaf(m, type, depth);
+		say(m, ", ");
+		leaf_or_constant(m, type, depth);
+		say(m, ")");
+		break;
+	default:
+		if (type == T_REAL || type == T_LREAL || (type >= T_SINT && type <= T_LINT)) {
+			say(m, "ABS(");
+			leaf(m, type, depth);
+			say(m, ")");
+		} else {
+			leaf(m, type, depth);
+		}
+		break;
+	}
+}
+
+static void own_call(struct maker *m, int depth)
+{
+	if (chance(m, 50)) {
+		say(m, "Reckon(");
+		leaf_or_constant(m, T_INT, depth);
+		say(m, ", ");
+		leaf(m, T_INT, depth);
+		say(m, ")");
+	} else {
+		say(m, "Reckon(B := ");
+		leaf(m, T_INT, depth);
+		say(m, ", A := ");
+		leaf_or_constant(m, T_INT, depth);
+		say(m, ")");
+	}
+}
+
+static void text_expr(struct maker *m, int depth)
+{
+	switch (below(m, 4)) {
+	case 0:
+		say(m, "CONCAT(");
+		variable(m, T_STRING);
+		say(m, ", ");
+		leaf_or_constant(m, T_STRING, depth);
+		say(m, ")");
+		break;
+	case 1:
+		say(m, "%s(", chance(m, 50) ? "LEFT" : "RIGHT");
+		variable(m, T_STRING);
+		say(m, ", %s)", chance(m, 50) ? "3" : "i1");
+		break;
+	case 2:
+		say(m, "MID(");
+		variable(m, T_STRING);
+		say(m, ", %s, 2)", chance(m, 50) ? "3" : "us2");
+		break;
+	default:
+		leaf_or_constant(m, T_STRING, depth);
+		break;
+	}
+}
+
+static void expr(struct maker *m, enum type type, int depth)
+{
+	static const char *const whole[] = { "+", "-", "*", "/", "MOD", "+", "-" };
+	static const char *const real[] = { "+", "-", "*", "/" };
+	static const char *const bits[] = { "AND", "OR", "XOR" };
+
+	if (depth <= 0) {
+		leaf(m, type, depth);
+		return;
+	}
+	if (type == T_BOOL) {
+		bool_expr(m, depth);
+	} else if (type == T_STRING) {
+		text_expr(m, depth);
+	} else if (type == T_COLOUR || type == T_MODE) {
+		leaf(m, type, depth);
+	} else if (type >= T_BYTE && type <= T_LWORD) {
+		if (chance(m, 20)) {
+			say(m, "NOT ");
+			leaf(m, type, depth);
+		} else if (chance(m, 25)) {
+			say(m, "%s(", one_of(m, (const char *const[]){ "SHL", "SHR", "ROL", "ROR", NULL }, 5));
+			leaf(m, type, depth);
+			say(m, ", %s)", chance(m, 50) ? "3" : "us2");
+		} else {
+			two(m, type, PICK(m, bits), depth);
+		}
+	} else if (type == T_TIME) {
+		if (chance(m, 40)) {
+			variable(m, T_TIME);
+			say(m, " %s ", chance(m, 50) ? "*" : "/");
+			leaf(m, chance(m, 50) ? T_INT : T_REAL, depth);
+		} else {
+			two(m, type, chance(m, 50) ? "+" : "-", depth);
+		}
+	} else if (chance(m, 25)) {
+		called(m, type, depth);
+	} else if (type == T_INT && m->room >= ROOM_BLOCK && chance(m, 15)) {
+		own_call(m, depth);
+	} else if (type == T_INT && chance(m, 8)) {
+		say(m, "LEN(");
+		variable(m, T_STRING);
+		say(m, ")");
+	} else if (chance(m, 8) && (type < T_USINT || type > T_ULINT)) {
+		say(m, "-");
+		leaf(m, type, depth);
+	} else if (type == T_REAL || type == T_LREAL) {
+		two(m, type, PICK(m, real), depth);
+	} else {
+		two(m, type, PICK(m, whole), depth);
+	}
+}
+
+/* ---- statements ---- */
+
+static void statements(struct maker *m, int depth, int count, int indent);
+
+static void tab(struct maker *m, int indent)
+{
+	say(m, "%*s", indent * 2, "");
+}
+
+/* A place of the type that may be written. */
+static void target(struct maker *m, enum type type)
+{
+	static const int writable[TYPES] = { 4, 3, 8, 4, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 2, 3, 2, 1 };
+
+	if (chance(m, 30) && element(m, type, 2))
+		return;
+	if (m->room == ROOM_FUNCTION && type == T_INT && chance(m, 60))
+		say(m, "%s", chance(m, 50) ? "Reckon" : "Own");
+	else if (m->room == ROOM_BLOCK && type == T_INT && chance(m, 60))
+		say(m, "%s", chance(m, 50) ? "Kept" : "Half");
+	else if (m->room == ROOM_BLOCK && type == T_UINT && chance(m, 60))
+		say(m, "Total");
+	else if (type == T_UINT)
+		say(m, "%s", chance(m, 50) ? "ui1" : "ui2");
+	else
+		say(m, "%s", type_row[type].name[below(m, (uint32_t)writable[type])]);
+}
+
+static void assignment(struct maker *m)
+{
+	static const char *const whole[] = {
+		"ai := aj", "aj := ai", "ad := ae", "ae := ad", "pt1 := pt2", "pt2 := pt1", "pt1 := pts[k1]",
+		"pts[i1] := pt2", "pts[2] := pts[us2]", "pt1.row := pts[1].row", "ad[1] := ae[k1]",
+		"ae[d3] := ad[0]", "pts[k1] := pts[i1]", "ar[0] := ar[1]", "ar[k1, 1] := ar[0][2]",
+	};
+	const enum type type = (enum type)below(m, TYPES);
+
+	if (chance(m, 8)) {
+		say(m, "%s;\n", PICK(m, whole));
+		return;
+	}
+	target(m, type);
+	say(m, " := ");
+	if (chance(m, 15))
+		leaf_or_constant(m, type, 2);
+	else
+		expr(m, type, 1 + (int)below(m, 3));
+	say(m, ";\n");
+}
+
+static void if_of(struct maker *m, int depth, int indent)
+{
+	say(m, "IF ");
+	expr(m, T_BOOL, 2);
+	say(m, " THEN\n");
+	statements(m, depth - 1, 2, indent + 1);
+	while (chance(m, 35)) {
+		tab(m, indent);
+		say(m, "ELSIF ");
+		expr(m, T_BOOL, 2);
+		say(m, " THEN\n");
+		statements(m, depth - 1, 2, indent + 1);
+	}
+	if (chance(m, 50)) {
+		tab(m, indent);
+		say(m, "ELSE\n");
+		statements(m, depth - 1, 2, indent + 1);
+	}
+	tab(m, indent);
+	say(m, "END_IF;\n");
+}
+
+static void case_of(struct maker *m, int depth, int indent)
+{
+	static const char *const numbers[] = { "0", "1, 2", "3..6", "7..7, 9", "-5..-1", "10..100", "-32768..-20", "32767", "150, 151..160" };
+	static const char *const colours[] = { "Red", "Green", "Colour#Blue" };
+	static const char *const modes[] = { "Mode#Off", "Slow", "Fast" };
+	const uint32_t kind = below(m, 5);
+	const char *const *list = kind == 0 ? colours : kind == 1 ? modes : numbers;
+	const int most = kind < 2 ? 3 : 9;
+
+	say(m, "CASE ");
+	if (kind < 2)
+		variable(m, kind == 0 ? T_COLOUR : T_MODE);
+	else if (kind == 2)
+		expr(m, T_INT, 2);
+	else
+		leaf(m, kind == 3 ? T_DINT : T_INT, 2);
+	say(m, " OF\n");
+	for (int i = (int)below(m, 2); i < most; i += 1 + (int)below(m, 3)) {
+		tab(m, indent + 1);
+		say(m, "%s:\n", list[i]);
+		statements(m, depth - 1, 2, indent + 2);
+	}
+	if (chance(m, 50)) {
+		tab(m, indent);
+		say(m, "ELSE\n");
+		statements(m, depth - 1, 2, indent + 2);
+	}
+	tab(m, indent);
+	say(m, "END_CASE;\n");
+}
+
+static void for_of(struct maker *m, int depth, int indent)
+{
+	static const struct { const char *variable; enum type type; const char *limits[6]; } rows[] = {
+		{ "k1", T_INT, { "1 TO 5", "5 TO 1 BY -1", "32765 TO 32767", "-32766 TO -32768 BY -2", "1 TO 0", "0 TO 10 BY 3" } },
+		{ "k2", T_SINT, { "120 TO 127", "-120 TO -128 BY -3", "-2 TO 2", "1 TO 3 BY 2" } },
+		{ "k3", T_USINT, { "250 TO 255", "0 TO 4", "254 TO 255 BY 7" } },
+		{ "k4", T_DINT, { "2147483646 TO 2147483647", "-1 TO 1", "0 TO 3" } },
+		{ "k5", T_UINT, { "65533 TO 65535", "1 TO 2" } },
+		{ "k6", T_INT, { "97 TO 100", "3 TO 0 BY -1", "1 TO 4" } },
+		{ "k7", T_LINT, { "9223372036854775806 TO 9223372036854775807", "0 TO 2", "-9223372036854775807 TO -9223372036854775808 BY -1" } },
+	};
+	const uint32_t row = below(m, sizeof(rows) / sizeof(*rows));
+
+	say(m, "FOR %s := ", rows[row].variable);
+	if (chance(m, 60)) {
+		say(m, "%s", one_of(m, rows[row].limits, 6));
+	} else {
+		static const char *const by[] = { "1", "-1", "2", "k1", "i1", "i4" };
+		static const char *const to[] = { "us2 / 8", "i1 MOD 9", "ai[i1] / 7", "i1 / i4 MOD 5", "i2 + 10", "3", "p1 / 9" };
+
+		if (rows[row].type == T_INT || rows[row].type == T_DINT || rows[row].type == T_LINT) {
+			say(m, "%s TO %s", chance(m, 50) ? PICK(m, to) : "1", PICK(m, to));
+			if (chance(m, 50))
+				say(m, " BY %s", PICK(m, by));
+		} else if (rows[row].type == T_SINT) {
+			say(m, "0 TO s1 / 20");
+		} else {
+			say(m, "us2 TO us1 MOD 16");
+		}
+	}
+	say(m, " DO\n");
+	m->loops++;
+	statements(m, depth - 1, 2, indent + 1);
+	if (chance(m, 4)) {
+		tab(m, indent + 1);
+		say(m, "%s := %s + 1;\n", rows[row].variable, rows[row].variable);
+	}
+	m->loops--;
+	tab(m, indent);
+	say(m, "END_FOR;\n");
+}
+
+/* A counter ends the loop at the latest. */
+static void while_of(struct maker *m, int depth, int indent)
+{
+	const int counter = ++m->whiles;
+	const bool repeat = chance(m, 50);
+
+	say(m, "g%d := 0;\n", counter);
+	tab(m, indent);
+	if (repeat) {
+		say(m, "REPEAT\n");
+	} else {
+		say(m, "WHILE (g%d < %d) AND ", counter, 1 + (int)below(m, 6));
+		expr(m, T_BOOL, 2);
+		say(m, " DO\n");
+	}
+	tab(m, indent + 1);
+	say(m, "g%d := g%d + 1;\n", counter, counter);
+	m->loops++;
+	statements(m, depth - 1, 2, indent + 1);
+	m->loops--;
+	m->whiles--;
+	tab(m, indent);
+	if (repeat) {
+		say(m, "UNTIL (g%d >= %d) OR ", counter, 1 + (int)below(m, 6));
+		expr(m, T_BOOL, 2);
+		say(m, "\n");
+		tab(m, indent);
+	}
+	say(m, repeat ? "END_REPEAT;\n" : "END_WHILE;\n");
+}
+
+static void call_of(struct maker *m)
+{
+	switch (below(m, m->room == ROOM_BLOCK ? 3 : 7)) {
+	case 0:
+		say(m, m->room == ROOM_BLOCK ? "Inner" : "wait");
+		say(m, "(IN := ");
+		expr(m, T_BOOL, 2);
+		say(m, ", PT := ");
+		leaf_or_constant(m, T_TIME, 1);
+		say(m, "%s);\n", chance(m, 50) ? ", Q => b1, ET => t1" : chance(m, 50) ? ", Q => ab[k1]" : "");
+		break;
+	case 1:
+		if (m->room == ROOM_BLOCK) {
+			say(m, "Reckon(Kept, 5);\n");
+			break;
+		}
+		say(m, "count(");
+		expr(m, T_BOOL, 2);
+		say(m, ", b3, ");
+		leaf_or_constant(m, T_INT, 1);
+		say(m, ");\n");
+		break;
+	case 2:
+		if (m->room == ROOM_BLOCK) {
+			say(m, "Inner(IN := FALSE);\n");
+			break;
+		}
+		say(m, "edge(CLK := ");
+		expr(m, T_BOOL, 2);
+		say(m, ", Q => b2);\n");
+		break;
+	case 3:
+		say(m, "waits[%d](IN := nb, PT := T#3ms, Q => b3);\n", 1 + (int)below(m, 2));
+		break;
+	case 4:
+		if (m->room == ROOM_MAIN) {
+			say(m, chance(m, 50) ? "Start();\n" : "Start;\n");
+			break;
+		}
+		say(m, "wait();\n");
+		break;
+	default:
+		say(m, "mix%d(%s", 1 + (int)below(m, 2), chance(m, 30) ? "EN := b2, " : "");
+		say(m, "Add := ");
+		expr(m, T_INT, 2);
+		say(m, ", Both := ");
+		say(m, "%s", one_of(m, (const char *const[]){ "i4", "ai[2]", "aj[k1]", "pt1.x", NULL }, 5));
+		say(m, "%s);\n", chance(m, 60) ? ", Half => i2, Total => ui1" : "");
+		break;
+	}
+}
+
+static void leave(struct maker *m)
+{
+	if (m->loops > 0 && chance(m, 80))
+		say(m, chance(m, 50) ? "EXIT;\n" : "CONTINUE;\n");
+	else
+		say(m, "RETURN;\n");
+}
+
+static void statement(struct maker *m, int depth, int indent)
+{
+	const uint32_t kind = below(m, 100);
+
+	tab(m, indent);
+	if (depth > 0 && kind < 15)
+		if_of(m, depth, indent);
+	else if (depth > 0 && kind < 25)
+		case_of(m, depth, indent);
+	else if (depth > 0 && kind < 37)
+		for_of(m, depth, indent);
+	else if (depth > 0 && kind < 45 && m->whiles < 4 && m->room == ROOM_MAIN)
+		while_of(m, depth, indent);
+	else if (kind < 57 && m->room != ROOM_FUNCTION)
+		call_of(m);
+	else if (kind < 58)
+		say(m, ";\n");
+	else if (kind < 62 && depth < 3) {
+		say(m, "IF ");
+		expr(m, T_BOOL, 1);
+		say(m, " THEN ");
+		leave(m);
+		tab(m, indent);
+		say(m, "END_IF;\n");
+	} else
+		assignment(m);
+}
+
+static void statements(struct maker *m, int depth, int count, int indent)
+{
+	for (int i = 0; i < 1 + (int)below(m, (uint32_t)count); i++)
+		statement(m, depth, indent);
+}
+
+size_t st_random_print(uint64_t seed, char *out, size_t size)
+{
+	struct maker m = { .out = out, .size = size };
+
+	random_seed(&m.source, seed);
+	say(&m, "%s%s", types, globals);
+	m.room = ROOM_FUNCTION;
+	say(&m, "FUNCTION Reckon : INT ST\nVAR_INPUT\n  A : INT;\n  B : INT;\nEND_VAR\nVAR\n  Own : INT := 3;\nEND_VAR\n"
+		"  Reckon := A * 2 - B;\n");
+	statements(&m, 1, 3, 1);
+	if (chance(&m, 20))
+		say(&m, "  ENO := A <> B;\n");
+	say(&m, "END_FUNCTION\n\nFUNCTION_BLOCK Mix ST\nVAR_INPUT\n  Add : INT := 2;\nEND_VAR\nVAR_IN_OUT\n  Both : INT;\nEND_VAR\n"
+		"VAR_OUTPUT\n  Half : INT;\n  Total : UINT;\nEND_VAR\nVAR\n  Kept : INT;\n  Inner : TON;\nEND_VAR\n"
+		"VAR_TEMP\n  Fresh : INT := 4;\nEND_VAR\n"
+		"  Both := Both + Add;\n  Kept := Kept + Fresh;\n  Fresh := Fresh + 1;\n  Half := Add / 2;\n");
+	m.room = ROOM_BLOCK;
+	statements(&m, 2, 3, 1);
+	say(&m, "END_FUNCTION_BLOCK\n\nSUBROUTINE Start ST\nVAR\n  Starts : INT;\nEND_VAR\n  Starts := Starts + 1;\n");
+	m.room = ROOM_ROUTINE;
+	statements(&m, 1, 3, 1);
+	say(&m, "END_SUBROUTINE\n\nPROGRAM Main ST\n");
+	m.room = ROOM_MAIN;
+	statements(&m, 3, 7, 1);
+	say(&m, "  Start();\nEND_PROGRAM\n");
+	return m.used;
+}

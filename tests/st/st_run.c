@@ -1,0 +1,508 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * st_run - statements, calls and scans of the evaluator of Structured Text.
+ */
+#include "tests/st/inside.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* What a statement leaves. */
+enum flow { FLOW_ON, FLOW_EXIT, FLOW_CONTINUE, FLOW_RETURN };
+
+static enum flow run_list(struct frame_of *f, const struct stmt *stmt);
+
+/* A condition; what cannot be computed is FALSE. */
+static bool is_true(struct frame_of *f, const struct tree *tree)
+{
+	struct chain_state chain = { .on = true };
+	const struct value value = tree_compute(f, tree, IEC_BOOL, &chain);
+
+	return chain.on && value_is_true(value);
+}
+
+/* ---- := ---- */
+
+static bool fits_text(const struct slot *slot, struct value value)
+{
+	return value.type != IEC_STRING || value.len <= slot->value->room;
+}
+
+/* The target is found, then the value is computed; the last operation stores, a wrapped
+ * result too. A target that is not there: one error, whatever the value is. */
+static void assign(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true, .target = true };
+	const struct slot *first = tree_first(f, stmt->place);
+	struct st_world *world = f->world;
+	struct slot *to = tree_slot(f, stmt->place, &chain), *from;
+	const bool found = chain.on;
+	struct value value;
+
+	chain.target = false;
+	if (first->kind != SLOT_VALUE) {
+		from = found ? tree_slot(f, stmt->value, &chain) : NULL;
+		if (from && to)
+			slot_copy(to, from);
+		world->errors += from && !to;
+		return;
+	}
+	chain.nowhere = to ? NULL : stmt->value;
+	value = tree_compute(f, stmt->value, first->value->type, &chain);
+	if (!to) {
+		world->errors += chain.on;
+		return;
+	}
+	if (!chain.on && chain.wrapped != stmt->value)
+		return;
+	if (!chain.on && to->var && to->var->range) /* a result that wrapped is beyond its limits */
+		return;
+	if (!fits_text(to, value) && chain.on)
+		world->errors++;
+	slot_put(world, to, value);
+}
+
+/* ---- calls ---- */
+
+/* Which variable of the callee an argument belongs to; @last counts those without a name. */
+static int target_of(const struct slot *callee, const struct tree *arg, int *last)
+{
+	if (arg->pin) {
+		for (int i = 0; i < callee->count; i++)
+			if (strncasecmp(callee->part[i].name, arg->pin, (size_t)arg->pin_len) == 0 &&
+			    !callee->part[i].name[arg->pin_len])
+				return i;
+		return -1;
+	}
+	do
+		++*last;
+	while (*last < callee->count && !(callee->part[*last].flags & (VAR_INPUT | VAR_IN_OUT)));
+	return *last < callee->count ? *last : -1;
+}
+
+#define ARGS_MAX 12
+/* The arguments of one call; values are read before the callee runs. */
+struct given {
+	const struct tree *arg[ARGS_MAX];
+	int to[ARGS_MAX];
+	struct value value[ARGS_MAX];
+	struct slot *whole[ARGS_MAX]; /* VAR_IN_OUT: the caller's own          */
+	int count;
+};
+
+static void read_arguments(struct frame_of *f, const struct tree *arg, struct slot *callee,
+			   struct chain_state *chain, struct given *given)
+{
+	int last = -1;
+
+	for (; arg && given->count < ARGS_MAX; arg = arg->next) {
+		const int to = target_of(callee, arg, &last), n = given->count++;
+		const bool place = to >= 0 && callee->part[to].flags & VAR_IN_OUT;
+
+		given->arg[n] = arg;
+		given->to[n] = to;
+		if (to < 0 || arg->out)
+			continue;
+		if (place || callee->part[to].kind != SLOT_VALUE)
+			given->whole[n] = chain->on ? tree_slot(f, arg, chain) : NULL;
+		else
+			given->value[n] = tree_compute(f, arg, callee->part[to].value->type, chain);
+	}
+}
+
+static void give_arguments(struct slot *callee, const struct given *given)
+{
+	for (int i = 0; i < given->count; i++) {
+		struct slot *to = &callee->part[given->to[i]];
+
+		if (given->arg[i]->out)
+			continue;
+		if (given->whole[i]) {
+			slot_copy(to, given->whole[i]);
+		} else {
+			const int room = to->value->room;
+
+			*to->value = given->value[i];
+			to->value->room = room;
+			if (to->value->len > room)
+				to->value->len = room;
+		}
+	}
+}
+
+/* VAR_IN_OUT back, and outputs. */
+static void take_results(struct frame_of *f, struct slot *callee, const struct given *given)
+{
+	for (int i = 0; i < given->count; i++) {
+		struct chain_state chain = { .on = true };
+		struct slot *from = &callee->part[given->to[i]], *to;
+
+		if (!(from->flags & VAR_IN_OUT) && !given->arg[i]->out)
+			continue;
+		to = tree_slot(f, given->arg[i], &chain); /* its indices are read again */
+		if (to && to->kind == SLOT_VALUE)
+			slot_put(f->world, to, *from->value);
+		else if (to)
+			slot_copy(to, from);
+	}
+}
+
+static const struct body *body_of(const struct st_world *world, const struct pou *pou)
+{
+	return &world->body[pou - world->project->pou];
+}
+
+bool run_function(struct frame_of *f, const struct tree *call, struct chain_state *chain,
+		  struct value *out)
+{
+	const struct body *body = body_of(f->world, call->pou);
+	struct slot callee = body->frame;
+	struct given given = { .count = 0 };
+	bool good = true;
+
+	*out = (struct value){ .type = callee.part[0].value ? callee.part[0].value->type : IEC_NONE };
+	read_arguments(f, call->left, &callee, chain, &given);
+	if (chain->on && chain->nowhere == call) {
+		f->world->errors++;
+		chain->on = false;
+	}
+	if (!chain->on)
+		return false;
+	slot_reset(f->world, &callee, false);
+	for (int i = 0; i < callee.count; i++)
+		if (vars_is_eno(&call->pou->vars, i))
+			callee.part[i].value->i = 1;
+	give_arguments(&callee, &given);
+	run_body(f->world, body, &callee);
+	for (int i = 0; i < callee.count; i++)
+		if (vars_is_eno(&call->pou->vars, i))
+			good = value_is_true(*callee.part[i].value);
+	if (!good) {
+		chain->on = false;
+		return false;
+	}
+	take_results(f, &callee, &given);
+	*out = *callee.part[0].value;
+	return true;
+}
+
+static bool is_enable(const struct slot *callee, const struct tree *arg)
+{
+	int last = 0;
+
+	return arg->pin && arg->pin_len == 2 && strncasecmp(arg->pin, "EN", 2) == 0 &&
+	       target_of(callee, arg, &last) < 0;
+}
+
+static void call_instance(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+	struct slot *callee = tree_slot(f, stmt->place, &chain);
+	struct given given = { .count = 0 };
+	const struct tree *rest = stmt->args;
+
+	if (!callee)
+		return;
+	if (rest && is_enable(callee, rest)) {
+		if (!is_true(f, rest))
+			return;
+		rest = rest->next;
+	}
+	read_arguments(f, rest, callee, &chain, &given);
+	if (!chain.on)
+		return;
+	give_arguments(callee, &given);
+	if (callee->kind == SLOT_BLOCK) {
+		callee->block->called = true;
+		block_call(callee->block, f->world->now_ns);
+	} else {
+		slot_reset(f->world, callee, true);
+		run_body(f->world, body_of(f->world, callee->pou), callee);
+	}
+	take_results(f, callee, &given);
+}
+
+static void call(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+
+	if (stmt->called) {
+		const struct body *body = body_of(f->world, stmt->called);
+		struct slot frame = body->frame;
+
+		slot_reset(f->world, &frame, true);
+		run_body(f->world, body, &frame);
+	} else if (stmt->place) {
+		call_instance(f, stmt);
+	} else {
+		tree_compute(f, stmt->value, IEC_NONE, &chain);
+	}
+}
+
+/* ---- blocks of statements ---- */
+
+static int64_t whole_value(struct frame_of *f, const struct tree *tree, enum iec_type wanted,
+			   bool *good)
+{
+	struct chain_state chain = { .on = *good };
+	const struct value value = tree_compute(f, tree,
+		tree_type(f, tree, wanted) ? IEC_NONE : wanted, &chain);
+
+	*good = chain.on;
+	return value.i;
+}
+
+static bool has_value(const struct choice *choice, int64_t value)
+{
+	for (; choice; choice = choice->next) {
+		struct frame_of none = { 0 };
+		bool good = true;
+		const int64_t low = whole_value(&none, choice->low, IEC_LINT, &good);
+		const int64_t high = choice->high ?
+			whole_value(&none, choice->high, IEC_LINT, &good) : low;
+
+		if (low <= value && value <= high)
+			return true;
+	}
+	return false;
+}
+
+static enum flow run_case(struct frame_of *f, const struct stmt *stmt)
+{
+	bool good = true;
+	const int64_t value = whole_value(f, stmt->value, IEC_DINT, &good);
+
+	for (const struct stmt *at = stmt->body; good && at; at = at->next)
+		if (at->kind == ST_ELSE || has_value(at->choice, value))
+			return run_list(f, at->body);
+	return FLOW_ON;
+}
+
+static enum flow run_if(struct frame_of *f, const struct stmt *stmt)
+{
+	for (; stmt; stmt = stmt->other)
+		if (!stmt->value || is_true(f, stmt->value))
+			return run_list(f, stmt->body);
+	return FLOW_ON;
+}
+
+/* Leaves @flow what goes on outside of the loop; true: the loop ends. */
+static bool loop_ends(enum flow *flow)
+{
+	const bool ends = *flow == FLOW_EXIT || *flow == FLOW_RETURN;
+
+	if (*flow != FLOW_RETURN)
+		*flow = FLOW_ON;
+	return ends;
+}
+
+static enum flow run_while(struct frame_of *f, const struct stmt *stmt)
+{
+	enum flow flow = FLOW_ON;
+
+	while (!f->world->lost && is_true(f, stmt->value)) {
+		f->world->steps++;
+		flow = run_list(f, stmt->body);
+		if (loop_ends(&flow))
+			break;
+	}
+	return flow;
+}
+
+static enum flow run_repeat(struct frame_of *f, const struct stmt *stmt)
+{
+	enum flow flow;
+
+	do {
+		f->world->steps++;
+		flow = run_list(f, stmt->body);
+		if (loop_ends(&flow))
+			break;
+	} while (!f->world->lost && !is_true(f, stmt->value));
+	return flow;
+}
+
+/* The next value of the variable; false: its type has none. */
+static bool step_to(struct slot *slot, int64_t by)
+{
+	const struct iec_type_row *row = iec_type_row(slot->value->type);
+	const bool wide = slot->value->type == IEC_ULINT;
+	int64_t next;
+
+	if (wide ? (by > 0 ? (uint64_t)slot->value->i > UINT64_MAX - (uint64_t)by :
+			     (uint64_t)slot->value->i < (uint64_t)-by) :
+		   __builtin_add_overflow(slot->value->i, by, &next) ||
+		   next < row->low || next > row->high)
+		return false;
+	next = (int64_t)((uint64_t)slot->value->i + (uint64_t)by);
+	if (!slot_fits(slot, (struct value){ .type = slot->value->type, .i = next }))
+		return false;
+	slot->value->i = next;
+	return true;
+}
+
+static bool is_past(const struct slot *slot, int64_t to, int64_t by)
+{
+	const int64_t is = slot->value->i;
+
+	if (slot->value->type == IEC_ULINT)
+		return by < 0 ? (uint64_t)is < (uint64_t)to : (uint64_t)is > (uint64_t)to;
+	return by < 0 ? is < to : is > to;
+}
+
+static enum flow run_for(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+	struct slot *slot = tree_slot(f, stmt->place, &chain);
+	const enum iec_type type = slot->value->type;
+	enum flow flow = FLOW_ON;
+	bool good = true;
+	struct value from = { .type = type };
+	int64_t to, by = 1;
+
+	from.i = whole_value(f, stmt->from, type, &good);
+	if (good && !slot_put(f->world, slot, from))
+		good = false;
+	to = good ? whole_value(f, stmt->to, type, &good) : 0;
+	if (stmt->by && good)
+		by = whole_value(f, stmt->by, type, &good);
+	while (good && by && !is_past(slot, to, by) && !f->world->lost) {
+		f->world->steps++;
+		flow = run_list(f, stmt->body);
+		if (loop_ends(&flow) || !step_to(slot, by))
+			break;
+	}
+	return flow;
+}
+
+static enum flow run_one(struct frame_of *f, const struct stmt *stmt)
+{
+	switch ((int)stmt->kind) {
+	case ST_ASSIGN: assign(f, stmt); break;
+	case ST_CALL: call(f, stmt); break;
+	case ST_IF: return run_if(f, stmt);
+	case ST_CASE: return run_case(f, stmt);
+	case ST_FOR: return run_for(f, stmt);
+	case ST_WHILE: return run_while(f, stmt);
+	case ST_REPEAT: return run_repeat(f, stmt);
+	case ST_EXIT: return FLOW_EXIT;
+	case ST_CONTINUE: return FLOW_CONTINUE;
+	case ST_RETURN: return FLOW_RETURN;
+	default: break;
+	}
+	return FLOW_ON;
+}
+
+static enum flow run_list(struct frame_of *f, const struct stmt *stmt)
+{
+	enum flow flow = FLOW_ON;
+
+	for (; stmt && flow == FLOW_ON && !f->world->lost; stmt = stmt->next) {
+		if (++f->world->steps > STEPS_MAX)
+			f->world->lost = true;
+		flow = run_one(f, stmt);
+	}
+	return flow;
+}
+
+bool run_body(struct st_world *world, const struct body *body, struct slot *locals)
+{
+	struct frame_of f = { world, locals };
+
+	run_list(&f, body->first);
+	return !world->lost;
+}
+
+/* ---- the world ---- */
+
+static bool make_all(struct st_world *world)
+{
+	struct project *project = world->project;
+	const size_t size = (size_t)project->pou_count * sizeof(*world->body);
+
+	world->body = arena_alloc(&world->arena, size + 1);
+	if (!world->body || !slot_frame(world, &world->globals, &project->globals))
+		return false;
+	slot_show(world, &world->globals, "");
+	for (int i = 0; i < project->pou_count; i++) {
+		struct body *body = &world->body[i];
+
+		body->pou = &project->pou[i];
+		if (!slot_frame(world, &body->frame, &body->pou->vars))
+			return false;
+		if (body->pou->kind == POU_PROGRAM || body->pou->kind == POU_SUBROUTINE)
+			slot_show(world, &body->frame, project_text(project, body->pou->name));
+	}
+	for (int i = 0; i < project->pou_count; i++)
+		if (!parse_body(world, &world->body[i]))
+			return false;
+	return true;
+}
+
+struct st_world *st_world_new(struct project *project, const char **why)
+{
+	struct st_world *world = calloc(1, sizeof(*world));
+
+	*why = "out of memory";
+	if (!world)
+		return NULL;
+	arena_init(&world->arena);
+	world->project = project;
+	if (make_all(world))
+		return world;
+	*why = world->why ? world->why : *why;
+	st_world_free(world);
+	return NULL;
+}
+
+void st_world_free(struct st_world *world)
+{
+	if (!world)
+		return;
+	arena_free(&world->arena);
+	free(world);
+}
+
+bool st_world_scan(struct st_world *world, int64_t now_ns)
+{
+	world->now_ns = now_ns;
+	world->steps = 0;
+	for (int i = 0; i < world->project->pou_count; i++) {
+		struct slot frame = world->body[i].frame;
+
+		if (world->project->pou[i].kind != POU_PROGRAM)
+			continue;
+		slot_reset(world, &frame, true);
+		if (!run_body(world, &world->body[i], &frame))
+			return false;
+	}
+	return true;
+}
+
+uint32_t st_world_errors(const struct st_world *world)
+{
+	return world->errors;
+}
+
+int st_world_count(const struct st_world *world)
+{
+	return world->shown_count;
+}
+
+const char *st_world_name(const struct st_world *world, int index)
+{
+	return world->shown[index].name;
+}
+
+struct value *st_world_value(struct st_world *world, int index)
+{
+	return world->shown[index].value;
+}
+
+bool st_world_is_settled(const struct st_world *world, int index)
+{
+	const struct block *block = world->shown[index].block;
+
+	return !block || block->called;
+}
