@@ -608,6 +608,37 @@ static void note_others(struct operand_check *c, struct operand_spot at, struct 
 	}
 }
 
+/* ADR and SIZEOF; false: another call. */
+static bool use_measured(struct operand_check *c, struct operand_spot at, struct expr *expr,
+			 const struct expr_node *call)
+{
+	bool adr;
+	struct expr_node *of = expr_measured(expr, call, &adr);
+	const struct meaning *m;
+	enum diag_id why = DIAG_ADR_OF;
+	char text[LIMIT_NAME + 2];
+	int len;
+
+	if (!of)
+		return false;
+	len = snprintf(text, sizeof(text), "&%.*s", of->len < LIMIT_NAME ? of->len : LIMIT_NAME,
+		       of->text);
+	of->whole = true;
+	c->spot = of->text;
+	if (of->op != EXPR_NAME) {
+		operand_report(c, DIAG_ADR_OF, at, of->len ? text + 1 : "+");
+		return true;
+	}
+	m = scope_find(c->scope, c->pou, operand_intern(c, text + 1, (size_t)len - 1), &why);
+	if (!m)
+		return true; /* the name is told as any other */
+	if (adr && !scope_find(c->scope, c->pou, operand_intern(c, text, (size_t)len), &why) &&
+	    why == DIAG_ADR_OF)
+		operand_report(c, why, at, text + 1);
+	uses_add(c->uses, m, adr ? USE_READ | USE_WRITTEN : USE_READ);
+	return true;
+}
+
 static void check_call(struct operand_check *c, struct operand_spot at, struct expr *expr,
 		       const struct expr_node *call)
 {
@@ -618,6 +649,8 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	enum diag_id why;
 
 	if (word == WORD_COUNT && !c->rung && expr_is_clock(call))
+		return;
+	if (word == WORD_COUNT && !c->rung && use_measured(c, at, expr, call))
 		return;
 	if (word == WORD_COUNT) {
 		report_call(c, at, words_find(words, call->text, call->len) == WORD_COUNT ?

@@ -497,7 +497,7 @@ static bool step_into(struct path *path)
 	int index;
 
 	path->at++;
-	len = take(path, ".[", &name);
+	len = take(path, ".[^", &name);
 	if (!has_parts(m)) /* the name itself has no dots behind it */
 		return refuse(path, m->kind == MEANING_VARIABLE ?
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
@@ -706,6 +706,31 @@ const struct areas *scope_areas(const struct scope *scope)
 	return &scope->areas;
 }
 
+/* `^` behind a pointer: what it points to. Its element, if that is an array, has an index. */
+static bool step_through(struct path *path)
+{
+	const struct var_target *target = path->m.like ? path->m.like->target : NULL;
+	struct meaning *pointer;
+
+	path->at++;
+	if (!target || path->opens || path->m.through || meaning_is_whole(&path->m))
+		return refuse(path, DIAG_NOT_POINTER);
+	pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
+	if (!pointer)
+		return refuse(path, DIAG_NO_MEMORY);
+	*pointer = path->m;
+	path->m = (struct meaning){
+		.kind = target->list ? MEANING_ARRAY : MEANING_ELEMENT, .type = target->type,
+		.writable = true, .index = pointer->index, .pou = pointer->pou,
+		.var = pointer->var, .through = pointer,
+	};
+	if (target->list) {
+		path->m.stride = iec_type_row(target->type)->size;
+		path->m.array = (struct var_array){ target->low, LIMIT_ELEMENTS };
+	}
+	return true;
+}
+
 /* ---- paths ---- */
 
 /* An address before [ is an array that reaches to the end of its area. */
@@ -729,7 +754,7 @@ static bool begin(struct path *path)
 {
 	const char *text;
 	const char *start = path->at;
-	size_t len = take(path, ".[", &text);
+	size_t len = take(path, ".[^", &text);
 
 	if (!len || path->at == path->end)
 		return false;
@@ -795,6 +820,7 @@ static bool scope_mean_path(struct scope *scope, uint32_t table, const char *tex
 			break;
 		good = *path.at == '.' ? step_into(&path) :
 		       *path.at == '[' ? step_element(&path) :
+		       *path.at == '^' ? step_through(&path) :
 					 refuse(&path, DIAG_UNKNOWN_NAME);
 	}
 	good = good && finish(&path, out);
@@ -805,7 +831,25 @@ static bool scope_mean_path(struct scope *scope, uint32_t table, const char *tex
 /* A dot or bracket inside a text constant begins no path. */
 static bool scope_has_index(const char *text, size_t len)
 {
-	return memchr(text, '[', len) && !memchr(text, '\'', len);
+	return (memchr(text, '[', len) || memchr(text, '^', len)) && !memchr(text, '\'', len);
+}
+
+/* `&Name`, which ADR(Name) is for translation. */
+static bool mean_address_of(struct scope *scope, uint32_t table, const char *text, size_t len,
+			    struct meaning *out, enum diag_id *why)
+{
+	const uint32_t id = names_intern(&scope->project->names, text + 1, len - 1);
+	const struct meaning *m = scope_find(scope, pou_of(scope, table), id, why);
+
+	if (!m)
+		return false;
+	*why = DIAG_ADR_OF;
+	if (!m->var || m->constant || m->addr.area != AREA_NONE || meaning_is_indexed(m) ||
+	    m->kind == MEANING_INSTANCE)
+		return false;
+	*out = (struct meaning){ .kind = MEANING_PIN, .type = IEC_LWORD, .index = m->index,
+				 .pou = m->pou, .var = m->var, .address_of = id };
+	return true;
 }
 
 /* Declared names first, then system names, pins, constants and addresses. */
@@ -823,6 +867,8 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		mean_variable(scope, slot, out);
 		return true;
 	}
+	if (len > 1 && *text == '&')
+		return mean_address_of(scope, table, text, len, out, why);
 	if (scope_has_index(text, len))
 		return scope_mean_path(scope, table, text, len, out, why);
 	if (is_step(scope, table, text, len, why))
@@ -846,7 +892,7 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 
 bool meaning_same(const struct meaning *a, const struct meaning *b)
 {
-	if (a->opens || b->opens)
+	if (meaning_is_indexed(a) || meaning_is_indexed(b))
 		return false;
 	if (a->addr.area != AREA_NONE || b->addr.area != AREA_NONE)
 		return a->addr.area == b->addr.area && a->addr.byte == b->addr.byte &&
@@ -899,6 +945,13 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 	if (meaning->kind == MEANING_ARRAY)
 		return meaning->stride * meaning->array.count;
 	return (uint32_t)shape_of(&scope->project->words, &like).size;
+}
+
+uint32_t scope_bytes(const struct scope *scope, const struct meaning *m)
+{
+	const struct var *like = m->kind != MEANING_ARRAY && m->type == IEC_STRING ? m->like : NULL;
+
+	return like ? like->capacity + 1u : scope_size(scope, m);
 }
 
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)

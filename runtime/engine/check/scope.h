@@ -57,6 +57,8 @@ struct meaning {
 	const struct open_index *open; /* so many, from the left             */
 	const struct meaning *index_of; /* operand of the first computed index; of a fixed
 	                                   one the named constant, or NULL */
+	const struct meaning *through; /* the pointer that leads to it; NULL: none */
+	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
 	union {
 		struct literal literal; /* of LITERAL                             */
 		struct {             /* of all others:                            */
@@ -101,10 +103,10 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
  * it is no array, or too long. */
 uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 		     const char *tail, size_t len);
-/** meaning_is_indexed - behind an index that is computed in the scan? Scan-safe: yes. */
+/** meaning_is_indexed - behind an index that is computed in the scan, or a pointer? Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
-	return meaning->opens > 0;
+	return meaning->opens > 0 || meaning->through;
 }
 /** meaning_is_ranged - a value of a subrange? Scan-safe: yes. */
 static inline bool meaning_is_ranged(const struct meaning *meaning)
@@ -159,6 +161,8 @@ struct project *scope_project(const struct scope *scope);
 const struct areas *scope_areas(const struct scope *scope);
 /** scope_row - the row of a word of the catalogue or the project. */
 const struct word_row *scope_row(const struct scope *scope, enum word word);
+/** scope_bytes - what SIZEOF gives: of a STRING its bytes and one more. Scan-safe: yes. */
+uint32_t scope_bytes(const struct scope *scope, const struct meaning *m);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);
 #endif

@@ -191,7 +191,9 @@ static void expr_skip_path(struct lex *lex)
 
 	for (;;) {
 		lex_next(&at);
-		if (lex_is(&at, "[")) {
+		if (lex_is(&at, "^")) {
+			dots = true;
+		} else if (lex_is(&at, "[")) {
 			if (!skip_simple_index(&at))
 				return;
 			dots = true;
@@ -688,6 +690,7 @@ static bool expr_has_target(struct lex lex)
 	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)
 		return false;
 	lex_next(&lex);
+	lex_accept(&lex, "^");
 	while (lex_is(&lex, "[")) {
 		if (!skip_brackets(&lex))
 			return false;

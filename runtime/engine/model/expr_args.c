@@ -20,6 +20,17 @@ bool expr_is_clock(const struct expr_node *node)
 	return node->op == EXPR_CALL && node->left < 0 && ascii_is("TIME", node->text, node->len);
 }
 
+struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call, bool *adr)
+{
+	struct expr_node *arg = call->left >= 0 ? &expr->node[call->left] : NULL;
+
+	*adr = ascii_is("ADR", call->text, call->len);
+	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || arg->len ||
+	    (!*adr && !ascii_is("SIZEOF", call->text, call->len)))
+		return NULL;
+	return &expr->node[arg->left];
+}
+
 int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)
 {
 	if (index < row->pin_count)

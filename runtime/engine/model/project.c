@@ -306,6 +306,11 @@ void project_write_type(const struct project *project, const struct var *var,
 		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
 			    (long long)var->array.low + var->array.count - 1);
 	}
+	if (var->target) {
+		sink_text(sink, "POINTER TO ");
+		project_write_type(project, var->target->like, sink);
+		return;
+	}
 	if (var->named) {
 		sink_text(sink, project_text(project, project->named[var->named - 1].name));
 		return;

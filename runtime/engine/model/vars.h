@@ -59,6 +59,14 @@ struct var_range {
 	int64_t low, high;
 };
 
+/* POINTER TO T. The variable itself is an LWORD. */
+struct var_target {
+	enum iec_type type;  /* of the value, or of an element                 */
+	bool list;           /* T is an array, its first index is low          */
+	int32_t low;
+	const struct var *like; /* declared as T                               */
+};
+
 struct var {
 	uint32_t name;       /* string id, as written                          */
 	uint32_t fold;       /* names_fold of it                               */
@@ -87,6 +95,7 @@ struct var {
 	struct var_written *written; /* NULL: no constant expressions           */
 	struct var_array *dim; /* its dimensions; array has all elements, from 0 on if there are several */
 	struct var_range *range; /* of a subrange; NULL: none                   */
+	struct var_target *target; /* of a pointer; NULL: it is none            */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;

@@ -48,6 +48,12 @@
  *                               of n BOOLs at x: those that are TRUE have dt added at t
  *   ABLOCK en, ok, dst, src, size, index, low, count, stride   BLOCK, where src (n bit 0:
  *                               dst) is that of the first element; more indices likewise
+ *   PEEK   en, ok, dst, pointer, more, index, low   pointer: an LWORD, with the type of what it
+ *                               leads to. dst = the value in its place at its position + more +
+ *                               (index - low) * size; ok: all of it is in the place (else dst
+ *                               = 0, counted). Not on small boards
+ *   POKE   en, ok, src, pointer, more, index, low   likewise; else nothing. Only numbers and
+ *                               bytes of texts are written
  *   POINT                       a safe point, n: words of code up to the next one or the end.
  *                               Only in programs of tasks; nothing waits in scratch
  */
@@ -62,6 +68,11 @@
 #define CODE_MAGIC   "RUNGCODE"
 #define CODE_VERSION 9u
 #define CODE_AREAS   16
+
+/* A pointer: offset of a place, its bytes, and the position from its first byte on. */
+#define CODE_POINTER_PLACE 40
+#define CODE_POINTER_BYTES 20
+#define CODE_POINTER_MOST  0x7ffffu
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */

@@ -131,6 +131,17 @@ static void visit_tick(const struct visit *visit, const uint32_t *at, uint32_t n
 	give_bytes(visit, at[4], n * sizeof(int64_t), true);
 }
 
+#ifndef RUNGBOARD_SMALL
+/* Without the place that it leads to: code_has_pointers(). */
+static void visit_pointer(const struct visit *visit, const uint32_t *at, bool poke)
+{
+	give_gate(visit, at[0], at[1]);
+	give_bytes(visit, CODE_OFFSET(at[3]), sizeof(uint64_t), false);
+	give_typed(visit, at[5], false);
+	give_typed(visit, at[2], !poke);
+}
+#endif
+
 static void visit_code(const struct visit *visit, const uint32_t *code)
 {
 	const uint32_t op = *code & 0xff, n = *code >> 8, *at = code + 1;
@@ -176,12 +187,30 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	case VM_TICK: visit_tick(visit, at, n); return;
 	case VM_STOP: give_bool(visit, at[0], false); return;
 	case VM_JMPC: give_bool(visit, at[1], false); return;
+#ifndef RUNGBOARD_SMALL
+	case VM_PEEK:
+	case VM_POKE: visit_pointer(visit, at, op == VM_POKE); return;
+#endif
 	case VM_CALL:
 	case VM_JMP:
 	case VM_END:
 	case VM_POINT:
 	case VM_COUNT: return;
 	}
+}
+
+bool code_has_pointers(const struct program *program)
+{
+#ifndef RUNGBOARD_SMALL
+	const uint32_t *end = program->text + program->text_words;
+
+	for (const uint32_t *code = program->text; code < end; code += code_words(code))
+		if ((*code & 0xff) == VM_PEEK || (*code & 0xff) == VM_POKE)
+			return true;
+#else
+	(void)program;
+#endif
+	return false;
 }
 
 void code_each_access(const struct program *program,

@@ -27,6 +27,8 @@ struct code_access {
 void code_each_access(const struct program *program,
 		      void (*take)(void *context, const struct code_access *access),
 		      void *context);
+/** code_has_pointers - does it reach memory that no instruction names? Scan-safe: yes. */
+bool code_has_pointers(const struct program *program);
 /** code_access - the accesses of one instruction of a verified program. As code_each_access(),
  * without a program: of a STRING only its head is given. Scan-safe: no. */
 void code_access(const uint32_t *code,

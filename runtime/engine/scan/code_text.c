@@ -72,6 +72,11 @@ uint32_t code_words(const uint32_t *code)
 		return 6;
 	case VM_POINT:
 		return 1;
+#ifndef RUNGBOARD_SMALL
+	case VM_PEEK:
+	case VM_POKE:
+		return 8;
+#endif
 	case VM_END:
 	case VM_COUNT:
 		break;
@@ -304,6 +309,21 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 		 : verify_elements(v, at[3], at[6], at[7], put);
 }
 
+#ifndef RUNGBOARD_SMALL
+/* PEEK and POKE. What the pointer says is compared in the scan. */
+static bool check_pointer(const struct verifier *v, const uint32_t *at, bool poke)
+{
+	const uint32_t type = CODE_TYPE(at[3]), value = CODE_TYPE(at[2]);
+
+	return reads_bool(v, at[0]) && writes_bool(v, at[1]) && type != IEC_STRING &&
+	       type > IEC_NONE && type < IEC_TYPE_COUNT &&
+	       verify_use(v, CODE_OFFSET(at[3]), IEC_LWORD, false) && can_read(v, at[5]) &&
+	       is_of(CODE_TYPE(at[5]), ANY_INT | ANY_BIT) &&
+	       (poke ? type == value && can_read(v, at[2]) :
+		       can_write(v, at[2]) && converts(type, value));
+}
+#endif
+
 static bool check_copy(const struct verifier *v, const uint32_t *at, uint32_t n)
 {
 	uint32_t to = CODE_TYPE(at[1]), from = CODE_TYPE(at[2]);
@@ -391,6 +411,11 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		return verify_tick(v, at, n);
 	case VM_POINT:
 		return n <= LIMIT_IMAGE / 4;
+#ifndef RUNGBOARD_SMALL
+	case VM_PEEK:
+	case VM_POKE:
+		return check_pointer(v, at, (*code & 0xff) == VM_POKE);
+#endif
 	case VM_COUNT:
 		break;
 	}

@@ -38,7 +38,8 @@ struct still_program {
 	uint64_t spent, called;
 };
 
-enum still_why { STILL_GOOD, STILL_INTERRUPTED, STILL_LARGE, STILL_TIMED, STILL_NO_MEMORY };
+enum still_why { STILL_GOOD, STILL_INTERRUPTED, STILL_LARGE, STILL_TIMED, STILL_POINTERS,
+		 STILL_NO_MEMORY };
 
 struct still {
 	/* Computed once. */

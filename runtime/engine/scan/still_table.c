@@ -712,7 +712,7 @@ uint8_t *still_carries(const struct program *program, struct arena *arena)
 	if (program->header->data_size > LARGEST || !take_scratch(&table, 0))
 		return NULL;
 	find_flows(&table);
-	if (table.steps >= STEPS)
+	if (table.steps >= STEPS || code_has_pointers(program))
 		memset(table.kind, NAMED, program->header->data_size);
 	return table.kind;
 }
@@ -744,6 +744,8 @@ static enum still_why make(struct table *table)
 		return STILL_INTERRUPTED;
 	if (table->program->header->data_size > LARGEST)
 		return STILL_LARGE;
+	if (code_has_pointers(table->program))
+		return STILL_POINTERS;
 	table->still = arena_alloc(table->keep, sizeof(*table->still));
 	if (!table->still)
 		return STILL_NO_MEMORY;
@@ -776,6 +778,7 @@ const char *still_why_text(enum still_why why)
 		[STILL_INTERRUPTED] = "a task may interrupt another",
 		[STILL_LARGE] = "the program is too large",
 		[STILL_TIMED] = "most of it depends on the time",
+		[STILL_POINTERS] = "it uses pointers",
 		[STILL_NO_MEMORY] = "no memory",
 	};
 

@@ -141,6 +141,105 @@ static inline int32_t whole(const uint8_t *at, size_t size)
 	return both;
 }
 
+#ifndef RUNGBOARD_SMALL
+/* ---- pointers ---- */
+
+/* Operands of PEEK and POKE behind VALUE. */
+enum { POINTER = 3, MORE, AT_INDEX, AT_LOW };
+
+/* What a pointer leads to. */
+struct led {
+	uint32_t where;               /* offset of the value                  */
+	struct iec_string *text;      /* it is in this text; NULL: in none    */
+	uint32_t at;                  /* its byte there                       */
+};
+
+/* False: it does not lead to a whole value in its place. */
+static bool lead(const struct vm *vm, const uint32_t *at, struct led *out)
+{
+	const uint64_t pointer = (uint64_t)value_integer(vm->memory + CODE_OFFSET(at[POINTER]), IEC_LWORD);
+	const uint32_t size = iec_type_row((enum iec_type)CODE_TYPE(at[POINTER]))->size;
+	const uint32_t place = (uint32_t)(pointer >> CODE_POINTER_PLACE);
+	const int64_t bytes = pointer >> CODE_POINTER_BYTES & CODE_POINTER_MOST;
+	const int64_t position = (int32_t)((uint32_t)pointer << 12) >> 12;
+	const int64_t index = integer(vm->memory, at[AT_INDEX]);
+	const struct code_run *run;
+	int64_t where;
+
+	if (index < INT32_MIN || index > INT32_MAX)
+		return false;
+	where = position + at[MORE] + (index - (int32_t)at[AT_LOW]) * size;
+	if (where < 0 || where + size > bytes || place < vm->program->areas.size ||
+	    place + bytes > vm->program->header->data_size)
+		return false;
+	run = code_run_at(vm->program, place);
+	*out = (struct led){ .where = place + (uint32_t)where };
+	if (!run || run->kind != RUN_VALUES || run->type != IEC_STRING)
+		return run != NULL;
+	if ((place - run->offset) % code_run_size(run) || size != 1 || where > run->word)
+		return false;
+	out->text = (void *)(vm->memory + place);
+	out->at = (uint32_t)where;
+	return true;
+}
+
+static bool peek(struct vm *vm, const uint32_t *at)
+{
+	uint32_t pair[3] = { 0, at[VALUE], 0 };
+	union iec_value byte = { .i = 0 };
+	struct led led;
+
+	if (!lead(vm, at, &led))
+		return false;
+	if (led.text) { /* behind its end is a 0 */
+		if (led.at != led.text->length && led.at < led.text->capacity)
+			byte.i = (unsigned char)led.text->text[led.at];
+		put(vm->memory, at[VALUE], byte);
+		return true;
+	}
+	pair[2] = CODE_OPERAND(CODE_TYPE(at[POINTER]), led.where);
+	run_copy(vm->memory, pair);
+	return true;
+}
+
+/* A byte of a text, whose first 0 ends it. */
+static bool poke_text(struct iec_string *text, uint32_t at, char byte)
+{
+	uint32_t length = 0;
+
+	if (at >= text->capacity)
+		return byte == 0;
+	if (text->length < text->capacity)
+		text->text[text->length] = 0;
+	text->text[at] = byte;
+	while (length < text->capacity && text->text[length])
+		length++;
+	text->length = (uint16_t)length;
+	return true;
+}
+
+/* Numbers only: a BOOL is 0 or 1, an instance its own. */
+static bool poke(struct vm *vm, const uint32_t *at)
+{
+	const uint32_t type = CODE_TYPE(at[POINTER]), size = iec_type_row((enum iec_type)type)->size;
+	const uint8_t *from = vm->memory + CODE_OFFSET(at[VALUE]);
+	const struct code_run *run;
+	struct led led;
+
+	if (!lead(vm, at, &led))
+		return false;
+	if (led.text)
+		return poke_text(led.text, led.at, (char)*from);
+	run = code_run_at(vm->program, led.where);
+	if (!run || run->kind != RUN_VALUES || run->type == IEC_STRING ||
+	    led.where + size > run->offset + (uint64_t)run->count * code_run_size(run) ||
+	    (run->type == IEC_BOOL && (size != 1 || *from > 1)))
+		return false;
+	memcpy(vm->memory + led.where, from, size);
+	return true;
+}
+#endif
+
 /* ---- the most frequent element: one index, INT or DINT, and values of one type ----
  * Left out where room is short: the general way has the same result. */
 
@@ -848,6 +947,23 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				count_error(vm, pc, base);
 			pc += 9 + 4 * (n >> 1);
 			break;
+#ifndef RUNGBOARD_SMALL
+		case VM_PEEK:
+			m[pc[2]] = m[pc[1]] && peek(vm, pc + 1);
+			if (!m[pc[2]]) {
+				put(m, pc[3], (union iec_value){ .i = 0 });
+				if (m[pc[1]])
+					count_error(vm, pc, base);
+			}
+			pc += 8;
+			break;
+		case VM_POKE:
+			m[pc[2]] = m[pc[1]] && poke(vm, pc + 1);
+			if (m[pc[1]] && !m[pc[2]])
+				count_error(vm, pc, base);
+			pc += 8;
+			break;
+#endif
 		case VM_ABLOCK:
 			if (!pay(&budget, pc[5] / 8))
 				goto out_of_budget;

@@ -225,6 +225,35 @@ static bool is_named(struct reader *r, struct var *var)
 	return var->named;
 }
 
+/* POINTER TO T: T is a value, or an array of values. */
+static bool read_pointer(struct reader *r, struct var *var)
+{
+	struct var *to = arena_alloc(&r->project->arena, sizeof(*to));
+	struct var_target *target = arena_alloc(&r->project->arena, sizeof(*target));
+	const struct token at = r->lex.token;
+	bool list;
+
+	if (var->array.count || var->at_text)
+		return reader_fail_token(r, DIAG_MISPLACED);
+	reader_step(r);
+	if (!lex_is(&r->lex, "TO"))
+		return reader_fail_word(r, DIAG_EXPECTED, "TO");
+	reader_step(r);
+	list = lex_is(&r->lex, "ARRAY");
+	if (!to || !target)
+		return !(r->no_memory = true);
+	to->line = var->line;
+	if (!reader_type_of(r, to, 0))
+		return false;
+	if (to->type == IEC_NONE || to->type == IEC_STRING || to->dims > 1 || to->target)
+		return reader_fail(r, DIAG_POINTER_TYPE, at.text, at.len);
+	*target = (struct var_target){ .type = to->type, .list = list, .low = to->array.low,
+				       .like = to };
+	var->target = target;
+	var->type = IEC_LWORD;
+	return !r->no_memory;
+}
+
 bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 {
 	const struct token *token = &r->lex.token;
@@ -232,6 +261,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 
 	if (!read_array(r, var))
 		return false;
+	if (lex_is(&r->lex, "POINTER"))
+		return read_pointer(r, var);
 	if (reader_is(r, '('))
 		return reader_own_type(r, var, name);
 	if (token->kind != TOKEN_NAME)

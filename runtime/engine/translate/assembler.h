@@ -149,7 +149,7 @@ void layout_core(struct assembler *as);
  * instance. */
 void layout_power(struct assembler *as);
 /** layout_spot - where the value of @meaning lies; not for literals. */
-struct spot layout_spot(const struct assembler *as, const struct meaning *m);
+struct spot layout_spot(struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */
 uint32_t layout_constant(struct assembler *as, enum iec_type type,
 			 union iec_value value);

@@ -54,14 +54,36 @@ static void emit_range(struct list *list, const struct var_range *range, uint32_
 
 /* ---- a value ---- */
 
+/* PEEK and POKE: one index at most, since a pointer leads to an array of one dimension. */
+static void emit_through(struct list *list, enum vm_op op, const struct meaning *m,
+			 const uint32_t operand[3])
+{
+	const uint32_t pointer = layout_spot(list->as, m->through).offset;
+	const struct indices indices = indices_of(list, m);
+
+	list_protect(list, 0, UINT32_MAX / 2);
+	emit_head(list, op, 0, 1, operand[0], operand[1]);
+	emit(list->as, operand[2]);
+	emit(list->as, CODE_OPERAND(m->type, pointer));
+	emit(list->as, m->offset);
+	emit(list->as, m->opens ? indices.operand[0] :
+				  CODE_OPERAND(IEC_BOOL, CODE_FALSE_AT(list->as->areas)));
+	emit(list->as, m->opens ? (uint32_t)m->open[0].array.low : 0);
+}
+
 static void emit_value(struct list *list, enum vm_op op, const struct meaning *m,
 		       const uint32_t operand[3])
 {
 	struct spot spot = layout_spot(list->as, m);
-	struct indices indices = indices_of(list, m);
+	struct indices indices;
 	uint32_t base = spot.packed ? spot.offset * 8 + spot.bit : spot.offset;
 	const bool ranged = op == VM_APUT && meaning_is_ranged(m);
 
+	if (m->through) {
+		emit_through(list, op == VM_APUT ? VM_POKE : VM_PEEK, m, operand);
+		return;
+	}
+	indices = indices_of(list, m);
 	emit_head(list, op, spot.packed, m->opens + ranged, operand[0], operand[1]);
 	emit(list->as, operand[2]);
 	emit(list->as, CODE_OPERAND(m->type, base));
@@ -117,11 +139,27 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 	return CODE_OPERAND(m->type, to);
 }
 
+/* @from as a value of @type, in a place of its own. */
+static uint32_t widened(struct list *list, uint32_t en, uint32_t from, enum iec_type type)
+{
+	const uint32_t to = CODE_OPERAND(type, layout_tail(list->as, RUN_VALUES, type));
+
+	list_place(list);
+	emit_op(list->as, VM_COPY, 0);
+	emit(list->as, en);
+	emit(list->as, to);
+	emit(list->as, from);
+	return to;
+}
+
 uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		      uint32_t from)
 {
 	struct spot spot = layout_spot(list->as, m);
 	uint32_t ok = scratch_new(list->as);
+
+	if (m->through && (enum iec_type)CODE_TYPE(from) != m->type)
+		from = widened(list, en, from, m->type);
 
 	/* Ends with the last element: a jump over a call must not skip storing what lies after
 	 * it. Texts have no bits. */

@@ -820,10 +820,29 @@ static bool layout_place_powers(struct assembler *as, int table)
 	return !as->failed;
 }
 
-struct spot layout_spot(const struct assembler *as, const struct meaning *m)
+/* Where the value of ADR stands: the place, its bytes, and a position in it (code.h). */
+static uint32_t layout_address_of(struct assembler *as, const struct meaning *m)
+{
+	struct scope *scope = as->translation->scope;
+	enum diag_id why;
+	const struct meaning *of = scope_find(scope, m->pou, m->address_of, &why);
+	const uint32_t bytes = scope_bytes(scope, of);
+	union iec_value value = { .i = 0 };
+
+	value.i = (int64_t)((uint64_t)layout_spot(as, of).offset << CODE_POINTER_PLACE |
+			    (uint64_t)(bytes < CODE_POINTER_MOST ? bytes : CODE_POINTER_MOST)
+				    << CODE_POINTER_BYTES);
+	return layout_constant(as, IEC_LWORD, value);
+}
+
+struct spot layout_spot(struct assembler *as, const struct meaning *m)
 {
 	struct spot spot = { .type = m->type };
 
+	if (m->address_of) {
+		spot.offset = layout_address_of(as, m);
+		return spot;
+	}
 	if (m->addr.area == AREA_NONE) {
 		spot.offset = as->offset[layout_table(as, m)][m->index] +
 			      m->offset;

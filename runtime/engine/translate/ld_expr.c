@@ -224,6 +224,7 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 	const struct word_row *row = ld_row(c->ld, word);
 	struct expr_args args;
 	const struct var *result;
+	bool adr;
 
 	if (word_is_own(word)) {
 		result = result_of(c, word);
@@ -231,6 +232,8 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 	}
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return IEC_TIME;
+	if (word == WORD_COUNT && expr_measured(c->ld->expr, node, &adr))
+		return adr ? IEC_LWORD : IEC_NONE;
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
 		return IEC_NONE;
@@ -993,6 +996,26 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	return other ? chain_convert(c, out, back, target) : out;
 }
 
+/* ADR and SIZEOF. */
+static struct value chain_measure(struct chain *c, const struct expr_node *of, bool adr,
+				  enum iec_type hint)
+{
+	char text[LIMIT_NAME + 2];
+	const uint32_t place = intern_name(c, of->text, of->len);
+	const struct meaning *m = meaning(c, place);
+	int len;
+
+	if (!adr) {
+		len = snprintf(text, sizeof(text), "%lu",
+			       m ? (unsigned long)scope_bytes(c->ld->translation->scope, m) : 0ul);
+		return constant(c, text, (size_t)len, false, hint);
+	}
+	len = snprintf(text, sizeof(text), "&%s", names_text(&c->ld->translation->project->names, place));
+	if (len >= (int)sizeof(text))
+		c->ld->failed = true;
+	return (struct value){ .operand = chain_intern(c, text, strlen(text)), .type = IEC_LWORD };
+}
+
 /* TIME(): milliseconds in 32 bits, which begin again at 0. */
 static struct value chain_clock(struct chain *c)
 {
@@ -1026,10 +1049,14 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	const struct expr_node *node = &c->expr->node[index];
 	enum word word = function_of(c->ld, node);
 	struct value none = { .type = IEC_NONE };
+	const struct expr_node *of;
 	struct expr_args args;
+	bool adr;
 
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return chain_clock(c);
+	if (word == WORD_COUNT && (of = expr_measured(c->ld->expr, node, &adr)))
+		return chain_measure(c, of, adr, hint);
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, ld_row(c->ld, word), &args) != DIAG_COUNT) {
 		c->ld->failed = true;

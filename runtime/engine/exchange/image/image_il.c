@@ -1590,6 +1590,10 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 	case VM_END:
 		out(m, "RET", "");
 		break;
+	case VM_PEEK:
+	case VM_POKE:
+		out(m, "(*", "a pointer: lists have none *)");
+		break;
 	case VM_POINT: /* translation finds it again */
 	case VM_COUNT:
 		break;
@@ -1623,7 +1627,7 @@ static void note_targets(struct maker *m, const uint32_t *code)
 	case VM_CMP_REAL: case VM_CMP_DINT: case VM_CMP_INT: case VM_REAL: case VM_DINT:
 	case VM_INT: case VM_FN: case VM_FB: case VM_BLOCK: case VM_CALL: case VM_STOP:
 	case VM_AGET: case VM_APUT: case VM_TICK: case VM_ABLOCK: case VM_POINT:
-	case VM_COUNT:
+	case VM_PEEK: case VM_POKE: case VM_COUNT:
 		break;
 	}
 }
