@@ -45,7 +45,7 @@ static bool wants_blank(const struct st_style *style, const struct lex *lex)
 {
 	const struct token *token = &lex->token, *last = &style->last;
 
-	if (last->kind == TOKEN_END || style->sign || is_one_of(last, "([.^") ||
+	if (last->kind == TOKEN_END || style->sign || is_one_of(last, "([.") ||
 	    is_one_of(token, ")],;.^:"))
 		return is_one_of(token, ".") && style->operand && !is_one_of(last, "].");
 	if (is_one_of(token, "["))
