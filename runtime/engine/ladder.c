@@ -12,6 +12,7 @@
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
 #include "engine/check/settle.h"
+#include "engine/model/caller.h"
 #include "engine/scan/symbol_index.h"
 #include "engine/text/mend.h"
 #include "engine/text/text.h"
@@ -606,7 +607,6 @@ static bool make_image(struct ladder *ladder)
 static bool build(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
-	const int pous = project ? project->pou_count : 0;
 	uint8_t **bad;
 	bool good;
 	int further;
@@ -627,13 +627,19 @@ static bool build(struct ladder *ladder)
 		return false;
 	further = count_further(project);
 	good = (!further || translate_further(ladder, further)) && make_image(ladder);
-	project->pou_count = pous;
 	return good;
 }
 
 bool ladder_build(struct ladder *ladder)
 {
-	bool good = build(ladder);
+	struct project *project = ladder->project;
+	const int pous = project ? project->pou_count : 0;
+	bool good = !project || ladder->built || caller_add(project) ||
+		    no_memory(ladder, project->file);
+
+	good = good && build(ladder);
+	if (project)
+		project->pou_count = pous;
 
 	place_foreign(ladder);
 	ladder->program.classic = ladder->foreign && ladder->foreign->loaded;
