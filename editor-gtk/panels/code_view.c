@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/text_scheme.h"
 #include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/text_complete.h"
@@ -31,6 +32,7 @@ struct code_view {
 	GtkWidget *text;
 	LadderLineValues *values;
 	int pou;
+	int rung;           /* 0-based: the one with the cursor; -1: none        */
 	bool stale;         /* the list changed since it was shown             */
 };
 
@@ -273,6 +275,27 @@ static bool find_result(void *context, const struct live_map *map, int line,
 
 /* ---- the text ---- */
 
+/* The line of the text where @rung begins; -1: it has none. */
+static int first_line(const struct code_view *code, int rung)
+{
+	for (guint i = 0; rung >= 0 && i < code->spots->len; i++)
+		if (g_array_index(code->spots, struct spot, i).rung == rung)
+			return (int)i;
+	return -1;
+}
+
+static void go_to_rung(struct code_view *code)
+{
+	const int line = first_line(code, code->rung);
+	GtkTextIter at;
+
+	if (line < 0)
+		return;
+	gtk_text_buffer_get_iter_at_line(code->buffer, &at, line);
+	gtk_text_buffer_place_cursor(code->buffer, &at);
+	text_scroll_to_cursor(GTK_TEXT_VIEW(code->text));
+}
+
 static void show_now(struct code_view *code)
 {
 	LadderDocument *document = code->document;
@@ -303,6 +326,7 @@ static void show_now(struct code_view *code)
 	find_spots(code, &project->pou[code->pou], il, sink_memory_text(&memory));
 	gtk_text_buffer_set_text(code->buffer, sink_memory_text(&memory), -1);
 	sink_memory_free(&memory);
+	go_to_rung(code);
 }
 
 static void show(struct code_view *code)
@@ -329,6 +353,7 @@ GtkWidget *ladder_code_view_new(LadderDocument *document, LadderSim *sim)
 	code->document = g_object_ref(document);
 	code->text = text;
 	code->stale = true;
+	code->rung = -1;
 	code->buffer = GTK_TEXT_BUFFER(buffer);
 	code->values = values;
 	code->sim = sim;
@@ -357,4 +382,15 @@ void ladder_code_view_set_pou(GtkWidget *view, int pou)
 		return;
 	code->pou = pou;
 	show(code);
+}
+
+void ladder_code_view_set_rung(GtkWidget *view, int rung)
+{
+	struct code_view *code = g_object_get_data(G_OBJECT(view), "code");
+
+	if (code->rung == rung)
+		return;
+	code->rung = rung;
+	if (!code->stale)
+		go_to_rung(code);
 }

@@ -21,5 +21,7 @@
 /** ladder_code_view_new - shows the first program; beside its lines the values of @sim. */
 GtkWidget *ladder_code_view_new(LadderDocument *document, LadderSim *sim);
 void ladder_code_view_set_pou(GtkWidget *view, int pou);
+/** ladder_code_view_set_rung - shows the lines of @rung, 0-based, now and when the panel opens. */
+void ladder_code_view_set_rung(GtkWidget *view, int rung);
 
 #endif

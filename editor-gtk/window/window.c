@@ -881,25 +881,33 @@ static void show_palette(LadderWindow *window)
 			    front_chart(&window->front) ? PALETTE_CHART : PALETTE_NONE);
 }
 
-static void place_changed(LadderWindow *window)
+/* The instruction list is that of the sheet, and shows the rung with the cursor. */
+static void follow(GtkWidget *list, LadderGridView *sheet)
 {
-	if (!window->core.document) /* the pages of a closing window go one by one */
-		return;
-	tell_front(window);
-	show_palette(window);
+	ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
+	ladder_code_view_set_rung(list, ladder_grid_view_first(sheet) +
+				  ladder_grid_view_cursor(sheet).rung);
 }
 
-static void page_changed(LadderWindow *window)
+static void place_changed(LadderWindow *window)
 {
 	LadderGridView *sheet = front_sheet(&window->front);
 	GtkWidget *list = sheet ? below_made(&window->below, "list") : NULL;
 
 	if (!window->core.document) /* the pages of a closing window go one by one */
 		return;
+	tell_front(window);
+	show_palette(window);
+	if (list)
+		follow(list, sheet);
+}
+
+static void page_changed(LadderWindow *window)
+{
+	if (!window->core.document) /* the pages of a closing window go one by one */
+		return;
 	select_in_tree(window);
 	place_changed(window);
-	if (list)
-		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
 }
 
 /* ---- panels ---- */
@@ -946,7 +954,7 @@ static GtkWidget *make_list(gpointer data)
 	LadderGridView *sheet = front_sheet(core->front);
 
 	if (sheet)
-		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
+		follow(list, sheet);
 	return list;
 }
 
