@@ -352,12 +352,13 @@ static void check_once(void)
 		"VIEW\n  status-chart One\n    watch auto Wait.Q\n    watch auto Main.Wait\n"
 		"    watch hex Count\nEND_VIEW\n";
 	LadderDocument *other = ladder_document_new();
+	LadderSim *idle = ladder_sim_new(other);
 	LadderWatchView *one;
 	char *kept;
 
 	ladder_document_open_text(other, "/tmp/x/once.rung", text, strlen(text), true);
 	ladder_document_check_now(other);
-	one = LADDER_WATCH_VIEW(g_object_ref_sink(ladder_watch_view_new(other, NULL)));
+	one = LADDER_WATCH_VIEW(g_object_ref_sink(ladder_watch_view_new(other, idle)));
 	CHECK(ladder_watch_view_add(one, "wait.et") && ladder_watch_view_add(one, "Main.Count"));
 	CHECK(ladder_watch_view_add(one, "Count %QX0.0 %Q0.0"));
 	kept = ladder_document_text(other, NULL);
@@ -366,6 +367,7 @@ static void check_once(void)
 		   "    watch auto Main.Count\n    watch auto %QX0.0\n    watch hex Count\nEND_VIEW\n");
 	g_free(kept);
 	g_object_unref(one);
+	g_object_unref(idle);
 	g_object_unref(other);
 }
 
