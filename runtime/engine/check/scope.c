@@ -949,9 +949,11 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 
 uint32_t scope_bytes(const struct scope *scope, const struct meaning *m)
 {
-	const struct var *like = m->kind != MEANING_ARRAY && m->type == IEC_STRING ? m->like : NULL;
+	const struct var *like = m->kind != MEANING_ARRAY ? m->like : NULL;
 
-	return like ? like->capacity + 1u : scope_size(scope, m);
+	if (like && like->target)
+		return 4; /* programs with pointers know no others */
+	return like && m->type == IEC_STRING ? like->capacity + 1u : scope_size(scope, m);
 }
 
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)

@@ -161,7 +161,7 @@ struct project *scope_project(const struct scope *scope);
 const struct areas *scope_areas(const struct scope *scope);
 /** scope_row - the row of a word of the catalogue or the project. */
 const struct word_row *scope_row(const struct scope *scope, enum word word);
-/** scope_bytes - what SIZEOF gives: of a STRING its bytes and one more. Scan-safe: yes. */
+/** scope_bytes - what SIZEOF gives: of a STRING its bytes and one more, of a pointer 4. Scan-safe: yes. */
 uint32_t scope_bytes(const struct scope *scope, const struct meaning *m);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);

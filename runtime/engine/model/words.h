@@ -24,6 +24,7 @@ struct word_table {
 	int made_count;
 	uint16_t *slot;        /* open hash of index + 1, by name, any case   */
 	uint32_t mask;
+	bool as_numbers;       /* DWORD_TO_REAL and REAL_TO_DWORD keep the number, not the bits */
 	bool own_first;        /* plain IEC text: its words hide those of the catalogue */
 };
 

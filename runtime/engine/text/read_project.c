@@ -534,6 +534,7 @@ static bool look_ahead(struct reader *r, const struct text_file *file, int count
 	at->read = is_readable(r, file->text, file->len);
 	at->plain = r->plain;
 	r->project->words.own_first |= r->plain;
+	r->project->words.as_numbers |= file->foreign;
 	if (at->read && count > 1 && !r->plain)
 		reader_fail_word(r, DIAG_MIXED_FILES, "");
 	if (at->read)

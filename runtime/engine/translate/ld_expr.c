@@ -126,8 +126,14 @@ static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
 {
 	enum iec_type type = chain_infer(c, node->left);
 
-	if (node->op != EXPR_NOT)
-		type = types_join(type, chain_infer(c, node->right));
+	if (node->op != EXPR_NOT) {
+		const enum iec_type right = chain_infer(c, node->right);
+
+		type = types_join(type, right) == IEC_TYPE_COUNT && mixes(c, type, right) ?
+		       mixed_join(type, right) : types_join(type, right);
+	}
+	if (!c->ld->rung && type != IEC_TYPE_COUNT)
+		type = mixed_pin(CLASS_BITS, type);
 	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
 }
 
@@ -184,8 +190,11 @@ static enum iec_type work_type(struct chain *c, const struct word_row *row,
 	for (int i = 0; i < args->count && !c->ld->rung; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
 
-		if (!pin->own && pin->type == IEC_NONE)
-			return mixed_pin(pin->classes, type);
+		if (pin->own || pin->type != IEC_NONE)
+			continue;
+		if (row == word_row(FN_SHR) && iec_type_row(type)->class == CLASS_SIGNED)
+			return IEC_LWORD; /* the sign comes in from the left */
+		return mixed_pin(pin->classes, type);
 	}
 	return type;
 }
@@ -429,7 +438,9 @@ static struct value chain_convert(struct chain *c, struct value value, enum iec_
 {
 	const struct value none = { .type = IEC_NONE };
 
-	if (mixed_is_bits(value.type) && iec_type_row(type)->class == CLASS_REAL)
+	if ((mixed_is_bits(value.type) && iec_type_row(type)->class == CLASS_REAL) ||
+	    (mixed_is_bits(type) && iec_type_row(value.type)->class == CLASS_SIGNED &&
+	     iec_type_row(value.type)->size < iec_type_row(type)->size))
 		value = operate(c, FN_CONVERT, value, none, IEC_LINT, 0);
 	return operate(c, FN_CONVERT, value, none, type, target);
 }
@@ -500,10 +511,10 @@ static struct value compute_bits(struct chain *c, const struct expr_node *node,
 	struct value left, right = { .type = IEC_NONE };
 
 	if (node->op == EXPR_NOT) {
-		left = chain_compute(c, node->left, type, 0);
+		left = chain_fit(c, chain_compute(c, node->left, type, 0), type);
 	} else {
-		left = chain_side(c, node->left, type);
-		right = chain_side(c, node->right, type);
+		left = chain_fit(c, chain_side(c, node->left, type), type);
+		right = chain_fit(c, chain_side(c, node->right, type), type);
 	}
 	return operate(c, op_function(operator_of(node)), left, right, type, target);
 }
