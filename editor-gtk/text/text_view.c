@@ -9,9 +9,11 @@
 #include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/kit/text_scheme.h"
+#include "editor-gtk/kit/verbs.h"
 #include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "engine/base/name.h"
@@ -26,6 +28,7 @@
 struct flaw {
 	int line, column; /* 0-based; column -1: none                          */
 	char *text;
+	struct diag diag;
 };
 
 struct _LadderTextView {
@@ -200,7 +203,7 @@ static void typed(LadderTextView *view)
 		view->taking = g_timeout_add(SEEN_MS, take_now, view);
 }
 
-static gboolean is_st(LadderTextView *view)
+gboolean ladder_text_view_is_st(LadderTextView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 
@@ -215,7 +218,7 @@ static void name_pou(LadderTextView *view)
 
 	gtk_source_buffer_set_language(view->buffer,
 				       text_language_of(view->document, view->pou));
-	st_typing_set(view->view, is_st(view));
+	st_typing_set(view->view, ladder_text_view_is_st(view));
 	line_values_set_pou(view->values, !project || view->pou < 0 ||
 			    view->pou >= project->pou_count ? "" :
 			    project_text(project, project->pou[view->pou].name));
@@ -309,7 +312,7 @@ static gboolean look_at_call(gpointer data)
 	view->looking = 0;
 	gtk_text_buffer_get_iter_at_mark(GTK_TEXT_BUFFER(view->buffer), &at,
 		gtk_text_buffer_get_insert(GTK_TEXT_BUFFER(view->buffer)));
-	if (is_st(view)) {
+	if (ladder_text_view_is_st(view)) {
 		text = text_of_buffer(view);
 		call = text_complete_call(view->document, view->pou, text,
 					  gtk_text_iter_get_line(&at),
@@ -328,10 +331,91 @@ static void look_soon(LadderTextView *view)
 		view->looking = g_timeout_add(SEEN_MS, look_at_call, view);
 }
 
+/* ---- mending ---- */
+
+static gsize byte_of(const char *text, int line, int column)
+{
+	const char *at = text;
+
+	for (; line > 0 && strchr(at, '\n'); line--)
+		at = strchr(at, '\n') + 1;
+	for (; column > 0 && *at && *at != '\n'; column--)
+		at++;
+	return (gsize)(at - text);
+}
+
+/* The first error of the cursor's line that mends itself. */
+static gboolean find_mend(LadderTextView *view, const char *text, struct text_mend *out)
+{
+	const int line = cursor_line(view);
+
+	for (guint i = 0; i < view->faults->len; i++) {
+		const struct flaw *fault = &g_array_index(view->faults, struct flaw, i);
+
+		if (fault->line == line && fault->column >= 0 &&
+		    text_mend_find(text, byte_of(text, line, fault->column), &fault->diag, out))
+			return TRUE;
+	}
+	return FALSE;
+}
+
+gboolean ladder_text_view_mend(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *text = text_of_buffer(view);
+	struct text_mend mend;
+	GtkTextIter at, to;
+	const gboolean found = gtk_text_view_get_editable(GTK_TEXT_VIEW(view->view)) &&
+			       find_mend(view, text, &mend);
+
+	if (found) {
+		gtk_text_buffer_get_iter_at_offset(buffer, &at,
+			(int)g_utf8_strlen(text, (gssize)mend.at));
+		to = at;
+		gtk_text_iter_forward_chars(&to, (int)g_utf8_strlen(text + mend.at,
+								    (gssize)mend.len));
+		gtk_text_buffer_delete(buffer, &at, &to);
+		gtk_text_buffer_insert(buffer, &at, mend.with, -1);
+		g_free(mend.with);
+	}
+	g_free(text);
+	return found;
+}
+
+gboolean ladder_text_view_format(LadderTextView *view)
+{
+	struct text_span span;
+	char *canonical, *kept;
+	gboolean readable;
+
+	ladder_text_view_take(view);
+	canonical = view->pou < 0 ? NULL : ladder_document_pou(view->document, view->pou, &span);
+	if (!canonical)
+		return FALSE;
+	canonical[span.at + span.len] = '\0';
+	kept = ladder_document_list(view->document, view->pou);
+	readable = strcmp(kept, canonical + span.at) == 0;
+	if (readable)
+		show_text(view);
+	g_free(kept);
+	g_free(canonical);
+	return readable;
+}
+
 static void tell_line(LadderTextView *view)
 {
-	char *text = reasons_of(view, cursor_line(view));
+	char *text = reasons_of(view, cursor_line(view)), *all = text_of_buffer(view);
+	struct text_mend mend;
+	GString *with;
 
+	if (text && find_mend(view, all, &mend)) {
+		with = g_string_new(text);
+		g_free(mend.with);
+		g_free(text);
+		verb_tell(with, VERB_mend);
+		text = g_string_free(with, FALSE);
+	}
+	g_free(all);
 	gtk_label_set_text(view->told, text ? text : "");
 	g_free(text);
 	look_soon(view);
@@ -465,7 +549,7 @@ static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 static void add_fault(LadderTextView *view, const struct diag *diag, int before,
 		      const char *shown, const char *canonical)
 {
-	struct flaw fault = { diag->line - 1 - before, diag->column - 1, NULL };
+	struct flaw fault = { diag->line - 1 - before, diag->column - 1, NULL, *diag };
 
 	if (fault.line < 0)
 		return;

@@ -38,6 +38,14 @@ GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
 /** ladder_text_view_name - the name or address at the cursor; NULL: none. Owns: the
  * caller, g_free(). */
 char *ladder_text_view_name(LadderTextView *view);
+/** ladder_text_view_is_st - is it a POU in Structured Text? */
+gboolean ladder_text_view_is_st(LadderTextView *view);
+/** ladder_text_view_format - writes it in its canonical form, as `ladder fmt` does. Fails: FALSE: it
+ * has errors that hide its form. */
+gboolean ladder_text_view_format(LadderTextView *view);
+/** ladder_text_view_mend - mends the first error of the cursor's line whose message says how.
+ * Fails: FALSE: there is none. */
+gboolean ladder_text_view_mend(LadderTextView *view);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);

@@ -175,6 +175,56 @@ void names_go_driver(struct core *core)
 	xref_free(&xref);
 }
 
+/* Globals and the locals of a ladder stand in a table, those of a text in it. */
+static void go_to_declaration(struct core *core, const struct xref_use *use)
+{
+	struct project *project = ladder_document_project(core->document);
+	const struct xref_target *target = &use->target;
+	const int structure = target->table - 1 - project->pou_count;
+
+	if (target->what == XREF_STRUCTURE)
+		tabs_show_type(core->tabs, project_text(project,
+			project->structure[target->index].name));
+	else if (target->what == XREF_VARIABLE && structure >= 0)
+		tabs_show_type(core->tabs, project_text(project,
+			project->structure[structure].name));
+	else if (target->what == XREF_VARIABLE &&
+		 (use->pou < 0 || project->pou[use->pou].language == LANGUAGE_LD ||
+		  project->pou[use->pou].sfc))
+		tabs_go(core->tabs, -1, -1, target->table, target->index);
+	else if (target->what == XREF_VARIABLE) /* behind the blanks of its line */
+		tabs_go(core->tabs, use->pou, -1, use->line - project->pou[use->pou].line, 2);
+	else
+		go_to_use(core, use);
+}
+
+static const struct xref_use *declared(const struct xref *xref, const struct xref_use *of)
+{
+	for (int i = 0; i < xref->count; i++)
+		if (xref->use[i].kind == XREF_DECLARED && !xref->use[i].included &&
+		    xref_same(&xref->use[i].target, &of->target))
+			return &xref->use[i];
+	return NULL;
+}
+
+void names_go_definition(struct core *core)
+{
+	struct xref xref = { 0 };
+	const struct xref_use *use = NULL;
+	bool found;
+	int here;
+
+	found = begin(core, &xref, &here);
+	use = found ? declared(&xref, &xref.use[here]) : NULL;
+	if (use && use != &xref.use[here])
+		go_to_declaration(core, use);
+	else if (found && !use)
+		messages_tell(core->messages, _("It is declared in another file"));
+	if (found && use == &xref.use[here])
+		names_go_driver(core);
+	xref_free(&xref);
+}
+
 /* ---- all uses ---- */
 
 static char *name_by(struct core *core,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * names - commands on the name at the cursor: go to what drives it, show its uses, add it
+ * names - commands on the name at the cursor: go to its definition or what drives it, show its uses, add it
  * to the status chart, rename it.
  *
  * The engine's cross reference decides what a name means.
@@ -15,6 +15,8 @@ void names_add_panel(struct core *core);
 /** names_go_driver - goes to the next place that drives the name, and from the last to the
  * first. */
 void names_go_driver(struct core *core);
+/** names_go_definition - goes to where the name is declared; from there to what drives it. */
+void names_go_definition(struct core *core);
 /** names_at_cursor - the name at the cursor; NULL: none, and the status bar says so. Caller
  * frees. */
 char *names_at_cursor(struct core *core);

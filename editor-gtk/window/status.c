@@ -125,11 +125,18 @@ static char *place_in(GtkTextBuffer *text)
 			       gtk_text_iter_get_line_offset(&at) + 1);
 }
 
-static char *keys_in_list(void)
+/* In Structured Text F12 goes to the definition. */
+static char *keys_in_list(bool st)
 {
 	GString *text = g_string_new(NULL);
+	char *keys = verb_keys_label(VERB_go_coil);
 
-	verb_tell(text, VERB_go_coil);
+	if (st)
+		g_string_append_printf(text, _("%s%s: %s"), "", keys,
+				       _(verb_row(VERB_go_definition)->label));
+	else
+		verb_tell(text, VERB_go_coil);
+	g_free(keys);
 	verb_tell(text, VERB_show_uses);
 	verb_tell(text, VERB_rename);
 	verb_tell(text, VERB_next_problem);
@@ -162,7 +169,8 @@ static void show_place(struct status *status)
 		     ladder_canvas_next_keys(canvas));
 	else
 		show(status, text ? place_in(text) : g_strdup(""), g_strdup(""),
-		     front_list(front) ? keys_in_list() : g_strdup(""));
+		     front_list(front) ?
+		     keys_in_list(ladder_text_view_is_st(front_list(front))) : g_strdup(""));
 }
 
 /* The hint says what is forced at the cursor. A message of a force that has ended is not true any more. */

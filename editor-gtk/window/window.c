@@ -333,6 +333,7 @@ static bool do_project(LadderWindow *window, enum verb verb)
 	case VERB_new_program: pou_new_ask(core, POU_PROGRAM, LANGUAGE_LD); return true;
 	case VERB_new_list: pou_new_ask(core, POU_PROGRAM, LANGUAGE_IL); return true;
 	case VERB_new_chart: pou_new_ask(core, POU_PROGRAM, LANGUAGE_SFC); return true;
+	case VERB_new_statements: pou_new_ask(core, POU_PROGRAM, LANGUAGE_ST); return true;
 	case VERB_new_block: pou_new_ask(core, POU_BLOCK, LANGUAGE_LD); return true;
 	case VERB_new_function: pou_new_ask(core, POU_FUNCTION, LANGUAGE_LD); return true;
 	case VERB_new_subroutine: pou_new_ask(core, POU_SUBROUTINE, LANGUAGE_LD); return true;
@@ -399,6 +400,28 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	}
 }
 
+static void do_go(LadderWindow *window)
+{
+	LadderTextView *list = front_list(&window->front);
+
+	if (list && ladder_text_view_is_st(list))
+		names_go_definition(&window->core);
+	else
+		names_go_driver(&window->core);
+}
+
+static void do_text(LadderWindow *window, enum verb verb)
+{
+	LadderTextView *list = front_list(&window->front);
+
+	if (!list)
+		return;
+	if (verb == VERB_format && !ladder_text_view_format(list))
+		messages_tell(window->core.messages, _("The text cannot be read yet. Mend its errors first."));
+	if (verb == VERB_mend && !ladder_text_view_mend(list))
+		messages_tell(window->core.messages, _("No error of this line can be mended by itself."));
+}
+
 static bool do_find(LadderWindow *window, enum verb verb)
 {
 	switch ((int)verb) {
@@ -412,7 +435,9 @@ static bool do_find(LadderWindow *window, enum verb verb)
 	case VERB_rename: do_rename(window); return true;
 	case VERB_watch_add: names_watch(&window->core); return true;
 	case VERB_show_uses: do_show_uses(window); return true;
-	case VERB_go_coil: names_go_driver(&window->core); return true;
+	case VERB_go_coil: do_go(window); return true;
+	case VERB_go_definition: names_go_definition(&window->core); return true;
+	case VERB_format: case VERB_mend: do_text(window, verb); return true;
 	case VERB_next_bookmark: do_next_bookmark(window); return true;
 	case VERB_next_problem: do_next_problem(window); return true;
 	case VERB_next_sheet: do_sheet_by(window, true); return true;
@@ -813,6 +838,7 @@ static void tell_front(LadderWindow *window)
 	core_with(core, WITH_CHART, canvas && !sheet);
 	core_with(core, WITH_FREE, free);
 	core_with(core, WITH_ENTRY, free || (canvas && !sheet));
+	core_with(core, WITH_LIST, front_list(front) != NULL);
 	core_with(core, WITH_LINES, (canvas && !sheet) || front_has_numbers(front));
 	core_with(core, WITH_ZOOM, canvas || LADDER_IS_PREVIEW_VIEW(page_content(front_tab(front))));
 }

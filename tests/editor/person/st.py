@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """st - programs in Structured Text, written and read in their sheet."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -53,7 +54,7 @@ def below(editor, view):
 
 
 def good(editor):
-    until(lambda: editor.all('warning', 'label') and not editor.all(' error', 'label'), 'no errors')
+    until(lambda: any(re.fullmatch('[0-9]+ warnings?', node.name) for node in editor.all('warning', 'label')), 'no errors')
 
 
 def offered(editor, word):
@@ -120,5 +121,115 @@ def wrong(screen):
     check(path)
 
 
+NAMED = TANK.replace('  Valve := Start;', """  IF Limited(X := Level) > Mix.Wanted THEN
+    Valve := Start;
+  END_IF;
+  Wait(IN := Valve, PT := Mix.Time, Q => Lamp);
+  IF Lamp THEN
+    Now := Filling;
+  END_IF;""").replace('PROGRAM Main ST', """FUNCTION Limited : INT ST
+VAR_INPUT
+  X : INT;
+END_VAR
+  Limited := MIN(X, 1000);
+END_FUNCTION
+
+PROGRAM Main ST""")
+
+
+def to_program(editor, name='PROGRAM Main'):
+    """Brings the text of that program to the front, with the keys in it."""
+    editor.click(editor.find(name.split()[-1] + ', ST'), count=2)
+    view = editor.focus_on('Text of the program', 'text')
+    assert name in view.text(), view.text()
+    return view
+
+
+def go(editor, view, before, word):
+    """Moves the cursor into a word of the text."""
+    text = view.text()
+    at = text.index(before) + before.index(word) + 1
+    line = text[:at].count('\n')
+    column = at - text.rfind('\n', 0, at) - 1
+    editor.keys('ctrl+Home', *['Down'] * line, *['Right'] * column)
+    editor.says('Line %d \u00b7 column %d' % (line + 1, column + 1))
+
+
+def names(screen):
+    """F12 goes to the definition of a name, Shift+F12 lists its uses, F2 renames it, in the texts and elsewhere; find and replace"""
+    path = new_file(screen, NAMED)
+    editor = Editor(screen, path)
+    view = to_program(editor)
+    go(editor, view, 'Wait(', 'Wait')
+    editor.says('F12: Go to definition')
+    editor.keys('F12')
+    editor.says('Line 3 \u00b7 column 3')
+    editor.keys('F12')  # from the definition to what drives it
+    editor.says('Line 9 \u00b7 column 3')
+    go(editor, view, 'Limited(', 'Limited')
+    editor.keys('F12')
+    until(lambda: [n for n in editor.all('Text of the program') if 'FUNCTION Limited' in n.text() and n.has(12)], 'the function')
+    view = to_program(editor)
+    go(editor, view, 'Mix.Wanted', 'Wanted')
+    editor.keys('F12')
+    until(lambda: [n for n in editor.walk() if n.has(12) and n.text() == 'Wanted'] or editor.all('STRUCT'), 'the structure')
+    editor.shot('st-definition')
+    view = to_program(editor)
+    go(editor, view, 'Level)', 'Level')
+    editor.keys('shift+F12')
+    editor.find('Main, line 6', 'label')
+    editor.shot('st-uses')
+    editor.click(view)
+    go(editor, view, 'Level)', 'Level')
+    editor.brought('F2')
+    editor.keys('ctrl+a')
+    editor.type('Height')
+    editor.keys('Return')
+    until(lambda: 'X := Height' in view.text(), 'the new name')
+    go(editor, view, 'Mix.Wanted', 'Wanted')
+    editor.brought('F2')
+    editor.keys('ctrl+a')
+    editor.type('Goal')
+    editor.keys('Return')
+    until(lambda: '> Mix.Goal' in view.text(), 'the new name of the member')
+    editor.keys('ctrl+h')
+    editor.type('1000')
+    editor.find('1 hit')
+    editor.keys('Tab')
+    editor.into('Replace with')
+    editor.type('900')
+    editor.find('Replace all', 'push button').press()
+    until(lambda: [n for n in editor.all('Text of the program') if 'MIN(X, 900)' in n.text()], 'what was replaced')
+    text = editor.save(path)
+    wanted = NAMED.replace('Level', 'Height').replace('Wanted', 'Goal').replace('1000', '900')
+    assert text.split() == wanted.split(), text
+    check(path)
+
+
+def formatted(screen):
+    """Ctrl+Alt+F formats the text, Ctrl+Alt+M mends a line; both say what hinders them; undo brings the text back"""
+    editor, path, view = in_the_text(screen)
+    below(editor, view)
+    editor.type('if Start then Lamp:=TRUE')
+    editor.keys('ctrl+alt+f')
+    editor.says('The text cannot be read yet')
+    editor.type('; end_if')
+    good(editor)
+    editor.keys('ctrl+alt+f')
+    until(lambda: '  IF Start THEN\n    Lamp := TRUE;\n  END_IF;\n' in view.text(), 'the formatted text')
+    editor.shot('st-formatted')
+    editor.keys('ctrl+alt+m')
+    editor.says('No error of this line can be mended')
+    editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
+    editor.type('Lamp = Start;')
+    editor.says('Ctrl+Alt+M: Mend the line')
+    editor.shot('st-mend')
+    editor.keys('ctrl+alt+m')
+    until(lambda: 'Lamp := Start;' in view.text(), 'the mended line')
+    good(editor)
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
+    until(lambda: 'Lamp' not in view.text(), 'what was before')
+
+
 completed.quick = 'editor-gtk/text'
-main([completed, wrong])
+main([completed, wrong, names, formatted])

@@ -6,6 +6,7 @@
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
@@ -194,6 +195,67 @@ static void test_indents(void)
 	}
 	CHECK(st_skeleton_is("if") && st_skeleton_is("REPEAT") && !st_skeleton_is("EXIT"));
 	g_strfreev(lines);
+}
+
+/* The body with its first error mended, as the message asks. Caller frees. */
+static char *mended(const char *body)
+{
+	char *text = g_strdup_printf("RUNGBOARD 1\nVAR\n  A : INT;\n  Level : INT;\nEND_VAR\n"
+				     "SUBROUTINE Sub ST\n  A := 1;\nEND_SUBROUTINE\n"
+				     "PROGRAM Main ST\n%sEND_PROGRAM\n", body);
+	struct ladder *ladder = ladder_new();
+	const struct diag_list *diags;
+	struct text_mend mend;
+	char *out = NULL;
+	int line = 1;
+
+	ladder_load_text(ladder, "x.rung", text, strlen(text));
+	ladder_build(ladder);
+	diags = ladder_diags(ladder);
+	for (int i = 0; i < diags->count && !out; i++) {
+		const struct diag *diag = &diags->diag[i];
+		const char *at = text;
+
+		for (line = 1; line < diag->line; line++)
+			at = strchr(at, '\n') + 1;
+		if (diag_severity(diag->id) != SEVERITY_ERROR || !text_mend_find(text,
+				(gsize)(at - text) + (gsize)MAX(diag->column - 1, 0), diag, &mend))
+			continue;
+		out = g_strdup_printf("%.*s%s%s", (int)mend.at, text, mend.with,
+				      text + mend.at + mend.len);
+		g_free(mend.with);
+	}
+	ladder_free(ladder);
+	if (out && g_str_has_suffix(out, "END_PROGRAM\n"))
+		out[strlen(out) - strlen("END_PROGRAM\n")] = '\0';
+	g_free(text);
+	text = out ? g_strdup(strstr(out, "PROGRAM Main ST\n") + strlen("PROGRAM Main ST\n")) :
+	       g_strdup("");
+	g_free(out);
+	return text;
+}
+
+static void test_mends(void)
+{
+	static const struct { const char *wrong, *right; } cases[] = {
+		{ "  A := 1\n  Level := A;\n", "  A := 1;\n  Level := A;\n" },
+		{ "  A = 5;\n", "  A := 5;\n" },
+		{ "  IF A > 1 THEN\n    A := 2;\n  ELSE IF A > 0 THEN\n    A := 3;\n  END_IF;\n",
+		  "  IF A > 1 THEN\n    A := 2;\n  ELSIF A > 0 THEN\n    A := 3;\n  END_IF;\n" },
+		{ "  IF A > 1 THEN\n    A := 2;\n  Level := A;\n",
+		  "  IF A > 1 THEN\n    A := 2;\n  END_IF;\n  Level := A;\n" },
+		{ "  FOR A := 1 TO 3 DO\n    Level := 2;\n\n    Level := 3;\n",
+		  "  FOR A := 1 TO 3 DO\n    Level := 2;\n\n    Level := 3;\n  END_FOR;\n" },
+		{ "  A := Levl;\n", "  A := Level;\n" }, { "  A := 1 +;\n", "" },
+		{ "  A := 'a';\n", "" },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
+		char *now = mended(cases[i].wrong);
+
+		CHECK_TEXT(now, cases[i].right);
+		g_free(now);
+	}
 }
 
 /* A whole statement, and the way of the cursor through it. */
@@ -594,6 +656,7 @@ int main(void)
 	test_statement_colours();
 	test_indents();
 	test_skeleton();
+	test_mends();
 	test_words();
 	test_errors();
 	test_typing();
