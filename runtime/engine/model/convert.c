@@ -117,10 +117,41 @@ static void fill(struct convert_word *out, const struct rule *rule,
 	if (parts->to)
 		out->row.result = parts->to;
 	out->row.result_classes = rule->to;
-	out->pin = runs->pin[0];
-	out->pin.type = parts->from;
-	out->pin.classes = parts->from ? iec_type_row(parts->from)->class : rule->from;
-	out->row.pin = &out->pin;
+	out->pin[0] = runs->pin[0];
+	out->pin[0].type = parts->from;
+	out->pin[0].classes = parts->from ? iec_type_row(parts->from)->class : rule->from;
+	out->row.pin = out->pin;
+}
+
+/* ADD_INT, GT_REAL, SHL_WORD: the function, whose inputs of any type have this one. */
+static bool make_typed(struct convert_word *out)
+{
+	const char *name = out->name + 1, *at = strrchr(name, '_');
+	const enum iec_type type = at ? iec_type_find(at + 1, strlen(at + 1)) : IEC_NONE;
+	const size_t len = at ? (size_t)(at - name) : 0;
+	const struct word_row *row = word_row(ascii_is("NOT", name, len) ? FN_NOT :
+					      word_find(name, len));
+	bool shared = false;
+
+	if (type == IEC_NONE || row->kind != WORD_FN || (!word_shares(row) && !word_is_test(row)) ||
+	    row->pin_count > (int)(sizeof(out->pin) / sizeof(*out->pin)))
+		return false;
+	out->row = *row;
+	for (int i = 0; i < row->pin_count; i++) {
+		out->pin[i] = row->pin[i];
+		if (row->pin[i].own)
+			continue;
+		if (!(row->pin[i].classes & iec_type_row(type)->class))
+			return false;
+		shared = true;
+		out->pin[i].type = type;
+		out->pin[i].classes = iec_type_row(type)->class;
+	}
+	out->row.word = name;
+	out->row.runs = row->number;
+	out->row.pin = out->pin;
+	out->doc = explain_word(row);
+	return shared;
 }
 
 bool convert_make(const char *text, size_t len, struct convert_word *out)
@@ -139,5 +170,5 @@ bool convert_make(const char *text, size_t len, struct convert_word *out)
 		fill(out, &rules[i], &parts);
 		return true;
 	}
-	return false;
+	return make_typed(out);
 }

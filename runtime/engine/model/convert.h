@@ -13,7 +13,7 @@
 
 struct convert_word {
 	struct word_row row; /* explanation (words_explain); points to pin and name */
-	struct word_pin pin;
+	struct word_pin pin[4];
 	const char *doc;     /* explanation; static                            */
 	char name[48];
 };

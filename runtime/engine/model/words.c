@@ -144,6 +144,29 @@ enum word words_find_short(const char *text, size_t len)
 	return WORD_COUNT;
 }
 
+/* ADD_LTOD_LTIME is ADD_TOD_TIME: the types with L are those without. MUL_TIME is MULTIME. */
+static enum word find_long(const char *text, size_t len)
+{
+	static const char *const types[] = { "TIME", "TOD", "DATE", "DT" };
+	char out[LIMIT_NAME];
+	size_t used = 0;
+
+	for (size_t i = 0; i < len && len < sizeof(out); i++) {
+		bool is_long = false;
+
+		for (size_t k = 0; k < sizeof(types) / sizeof(*types) && i && text[i - 1] == '_'; k++)
+			is_long |= ascii_upper(text[i]) == 'L' && len - i > strlen(types[k]) &&
+				   ascii_same(text + i + 1, types[k], strlen(types[k]));
+		if (!is_long)
+			out[used++] = text[i];
+	}
+	if (ascii_is("MUL_TIME", out, used))
+		return FN_MULTIME;
+	if (ascii_is("DIV_TIME", out, used))
+		return FN_DIVTIME;
+	return used < len && used ? word_find(out, used) : WORD_COUNT;
+}
+
 /* The conversion of a number that a conversion of bits is in the files of other tools. */
 static enum word find_number(struct word_table *table, const char *text, size_t len)
 {
@@ -172,7 +195,9 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 	if (word != WORD_COUNT)
 		return word;
 	word = words_find_short(text, len);
-	return word != WORD_COUNT ? word : find_number(table, text, len);
+	if (word == WORD_COUNT)
+		word = find_number(table, text, len);
+	return word != WORD_COUNT ? word : find_long(text, len);
 }
 
 const char *words_explain(const struct word_row *row)
