@@ -7,6 +7,7 @@
 #include "engine/model/expr_args.h"
 #include "engine/model/st.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,6 +15,7 @@
 struct callee {
 	const struct word_row *row; /* of an instance; NULL: a subroutine      */
 	int pin;                    /* of the last argument without a name; -1 */
+	uint64_t given[4];          /* pins that have a value, the first ones */
 };
 
 static const struct expr_node *root_of(const struct expr *expr)
@@ -88,8 +90,18 @@ static void check_argument(struct operand_check *c, struct callee *callee, const
 			   struct expr *expr)
 {
 	const struct word_pin *pin = pin_of(callee, part);
+	const int at = pin ? (int)(pin - callee->row->pin) : INT_MAX;
 	const bool whole = pin && (pin->elements || pin->type == IEC_NONE);
 
+	if (at < 256 && callee->given[at / 64] >> at % 64 & 1) {
+		char text[LIMIT_ARG];
+
+		c->spot = part->text;
+		snprintf(text, sizeof(text), "%.60s", pin->name);
+		check_said(c, DIAG_DUPLICATE_ARG, text);
+	} else if (at < 256) {
+		callee->given[at / 64] |= UINT64_C(1) << at % 64;
+	}
 	if (part->role == ST_OUTPUT)
 		check_part(c, expr, OPERAND_WRITTEN);
 	else if (pin && pin->dir == PIN_IN_OUT)
@@ -118,6 +130,36 @@ static void check_function(struct operand_check *c)
 		c->good = false;
 }
 
+static bool said_call(struct operand_check *c, enum diag_id id, const struct st_part *part)
+{
+	const int len = root_of(c->expr)->len;
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.*s", len < LIMIT_ARG ? len : LIMIT_ARG - 1, part->text);
+	c->spot = part->text;
+	check_said(c, id, text);
+	return false;
+}
+
+/* May the name stand there as a statement? @open: a parenthesis follows. */
+static bool is_callable(struct operand_check *c, bool open, const struct st_part *part)
+{
+	const struct expr_node *root = root_of(c->expr);
+	const uint32_t id = names_intern(&c->project->names, part->text, root->len);
+	const enum word word = words_find(&c->project->words, root->text, root->len);
+	const struct meaning *m;
+	enum diag_id why;
+
+	if (is_subroutine(scope_pou(c->scope, c->pou, id)))
+		return true;
+	m = scope_find(c->scope, c->pou, id, &why);
+	if (!m && word != WORD_COUNT && words_row(&c->project->words, word)->kind == WORD_FB)
+		return said_call(c, DIAG_ST_CALLS_TYPE, part);
+	if (open || !m)
+		return true;
+	return said_call(c, m->kind == MEANING_INSTANCE ? DIAG_ST_NOT_CALLED : DIAG_ST_NOTHING, part);
+}
+
 static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 {
 	struct callee callee;
@@ -131,16 +173,8 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 		check_function(c);
 		return;
 	}
-	if (lex_is(&walk->lex, "(") == false && !is_subroutine(scope_pou(c->scope, c->pou,
-			names_intern(&c->project->names, part.text, root_of(c->expr)->len)))) {
-		char text[LIMIT_ARG];
-
-		snprintf(text, sizeof(text), "%.*s", root_of(c->expr)->len < LIMIT_ARG ?
-			 root_of(c->expr)->len : LIMIT_ARG - 1, part.text);
-		c->spot = part.text;
-		check_said(c, DIAG_ST_NOT_CALLED, text);
+	if (!is_callable(c, lex_is(&walk->lex, "("), &part))
 		return;
-	}
 	if (!check_callee(c, c->expr, &callee))
 		return;
 	while (st_next(walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)

@@ -8,6 +8,7 @@
 #include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/iec.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -47,13 +48,20 @@ static bool st_said(struct st_reader *s, enum diag_id id, const struct token *at
 	return diag_add(s->r->diags, place, "%s", arg);
 }
 
-static bool said_of(struct st_reader *s, enum diag_id id, const struct token *at, const char *more)
+/* The name is @token's, and @more; the place is @at. */
+static bool said_at(struct st_reader *s, enum diag_id id, const struct token *at,
+		    const struct token *token, const char *more)
 {
 	char text[2 * LIMIT_ARG];
-	const int len = at->len < LIMIT_ARG / 2 ? (int)at->len : LIMIT_ARG / 2;
+	const int len = token->len < LIMIT_ARG / 2 ? (int)token->len : LIMIT_ARG / 2;
 
-	snprintf(text, sizeof(text), "%.*s%s%.40s", len, at->text, *more ? DIAG_AND : "", more);
+	snprintf(text, sizeof(text), "%.*s%s%.60s", len, token->text, *more ? DIAG_AND : "", more);
 	return st_said(s, id, at, text);
+}
+
+static bool said_of(struct st_reader *s, enum diag_id id, const struct token *at, const char *more)
+{
+	return said_at(s, id, at, at, more);
 }
 
 static struct st_item *add_item(struct st_reader *s, enum st_kind kind, const struct token *first,
@@ -198,7 +206,8 @@ static enum st_kind kind_at(const struct st_reader *s, const struct lex *lex)
 			return (enum st_kind)i;
 	if (lex_is(lex, ";"))
 		return ST_EMPTY;
-	if (block && block->kind == ST_CASE && !block->other && st_is_choice(*lex))
+	if (block && block->kind == ST_CASE && !block->other &&
+	    (st_is_choice(*lex) || lex->token.kind == TOKEN_NUMBER))
 		return ST_CHOICE;
 	return is_call(*lex) ? ST_CALL : ST_ASSIGN;
 }
@@ -213,17 +222,34 @@ static bool begins_statement(const struct st_reader *s)
 	return read_ends_block(s->r);
 }
 
-/* After an error: behind the next ; or before a word that begins a statement on a line of its
- * own. */
-static void st_skip(struct st_reader *s)
+/* Does `name :=` or `name(` begin here, as a statement does? */
+static bool begins_plain(struct lex lex)
 {
+	if (lex.token.kind != TOKEN_NAME)
+		return false;
+	lex.newlines = lex.comments = false;
+	lex_next(&lex);
+	return lex_is(&lex, ":=") || lex_is(&lex, "(");
+}
+
+/* After an error: behind the next ;, behind @end on the line of the error, or before a line that begins
+ * a statement. */
+static void st_skip(struct st_reader *s, const char *end)
+{
+	const int line = s->r->lex.token.line;
 	bool fresh = false;
+	int open = 0;
 
 	for (; s->r->lex.token.kind != TOKEN_END; st_step(s)) {
-		if (fresh && begins_statement(s))
+		const struct lex *lex = &s->r->lex;
+
+		if (fresh && (begins_statement(s) || (open <= 0 && begins_plain(*lex))))
 			return;
-		fresh = s->r->lex.token.kind == TOKEN_NEWLINE;
-		if (lex_is(&s->r->lex, ";")) {
+		fresh = lex->token.kind == TOKEN_NEWLINE;
+		open += lex_is(lex, "(");
+		open -= lex_is(lex, ")");
+		if ((lex_is(lex, ";") && !(*end && lex->token.line == line)) ||
+		    (*end && lex->token.line == line && lex_is(lex, end))) {
 			st_step(s);
 			return;
 		}
@@ -260,16 +286,53 @@ static void add_inner_comments(struct st_reader *s, struct lex last, const char 
 		add_comment(s, &last.token, true);
 }
 
-/* The ; behind @last is missing. */
+/* The ; behind @last is missing; or a quote, which would come before it. */
 static void said_semicolon(struct st_reader *s, const struct token *last)
 {
 	char text[LIMIT_ARG];
 	struct token behind = *last;
 
+	if (*last->text == '\'' && (last->len < 2 || last->text[last->len - 1] != '\'')) {
+		said_of(s, DIAG_OPEN_STRING, last, "");
+		return;
+	}
+
 	snprintf(text, sizeof(text), "%.*s", last->len < LIMIT_ARG ? (int)last->len : LIMIT_ARG - 1,
 		 last->text);
 	behind.column += (int)last->len;
 	st_said(s, DIAG_ST_SEMICOLON, &behind, text);
+}
+
+/* THEN, DO, OF, the colon of a choice behind @last. */
+static void said_missing(struct st_reader *s, const struct token *last, const char *word)
+{
+	struct token behind = *last;
+
+	behind.column += (int)last->len;
+	said_at(s, DIAG_ST_MISSING, &behind, last, word);
+}
+
+static bool said_expected(struct st_reader *s, const char *word, const struct token *stop)
+{
+	char text[2 * LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%s" DIAG_AND "%.*s", word, stop->len < LIMIT_ARG / 2 ? (int)stop->len :
+		 LIMIT_ARG / 2, stop->text);
+	return st_said(s, DIAG_EXPECTED, stop, text);
+}
+
+/* Is it clear that only the end of the statement's head is missing? */
+static bool is_missing(enum st_kind kind, const struct token *last, const struct token *stop)
+{
+	if (stop->line > last->line || stop->kind == TOKEN_END)
+		return true;
+	if (kind == ST_CHOICE)
+		return stop->kind == TOKEN_NAME;
+	for (int i = 0; i < ST_KINDS; i++)
+		if (*st_form((enum st_kind)i)->word && lex_is(&(struct lex){ .token = *stop },
+							      st_form((enum st_kind)i)->word))
+			return true;
+	return false;
 }
 
 /* The statement is from @first to the token before @lex, where its end should stand. Leaves
@@ -287,12 +350,15 @@ static bool take_statement(struct st_reader *s, enum st_kind kind, const struct 
 	const struct lex last = last_token(first, stop.text);
 	const bool closed = *end && lex_is(lex, end);
 
-	if (*end && !closed && strcmp(end, ";") != 0)
-		return said_of(s, DIAG_EXPECTED, &stop, end);
-	if (*end && !closed && !st_form(kind)->closes && stop.kind != TOKEN_END &&
-	    stop.kind != TOKEN_NAME)
+	if (*end && !closed && strcmp(end, ";") != 0) {
+		if (!is_missing(kind, &last.token, &stop))
+			return said_expected(s, end, &stop);
+		said_missing(s, &last.token, end);
+	} else if (*end && !closed && !st_form(kind)->closes && stop.kind != TOKEN_END &&
+		   stop.kind != TOKEN_NAME && stop.line == last.token.line) {
 		return said_of(s, DIAG_SYNTAX, &stop, "");
-	if (*end && !closed && !st_form(kind)->closes) /* it is clear what was meant */
+	}
+	if (strcmp(end, ";") == 0 && !closed && !st_form(kind)->closes) /* it is clear what was meant */
 		said_semicolon(s, &last.token);
 	add_item(s, kind, &first->token, (size_t)(last.token.text + last.token.len -
 						  first->token.text));
@@ -363,16 +429,251 @@ static int depth_of(const struct st_reader *s, enum st_kind kind)
 	return depth < UINT8_MAX ? depth : UINT8_MAX;
 }
 
+/* ---- what people know from other languages ---- */
+
+static const struct { const char *word, *right; enum st_kind kind; bool parens; } foreign[] = {
+	{ "ELSEIF", "ELSIF", ST_ELSIF, true }, { "ELIF", "ELSIF", ST_ELSIF, true },
+	{ "ELSE_IF", "ELSIF", ST_ELSIF, true },
+	{ "ENDIF", "END_IF", ST_END_IF, false }, { "ENDCASE", "END_CASE", ST_END_CASE, false },
+	{ "ENDFOR", "END_FOR", ST_END_FOR, false }, { "NEXT", "END_FOR", ST_END_FOR, false },
+	{ "ENDWHILE", "END_WHILE", ST_END_WHILE, false }, { "WEND", "END_WHILE", ST_END_WHILE, false },
+	{ "BREAK", "EXIT", ST_EXIT, false }, { "GOTO", "IF, or a loop with EXIT", ST_KINDS, false },
+	{ "SWITCH", "CASE … OF", ST_KINDS, true },
+};
+
+static bool said_foreign(struct st_reader *s, const struct token *at, const char *text, int len,
+			 const char *right)
+{
+	const struct token wrong = { .text = text, .len = (size_t)len };
+
+	return said_at(s, DIAG_ST_FOREIGN, at, &wrong, right);
+}
+
+/* The word at the lexer is taken for @word; st_next() reads on behind it. */
+static void take_as(struct lex *lex, const char *word)
+{
+	lex->token.kind = TOKEN_NAME;
+	lex->token.text = word;
+	lex->token.len = strlen(word);
+}
+
+/* `END IF`, and END or } alone for the innermost block, as its right word. */
+static enum st_kind split_end(struct st_reader *s, struct lex *lex)
+{
+	const struct token first = lex->token;
+	const struct st_block *block = innermost(s);
+	const bool brace = lex_is(lex, "}");
+	struct lex ahead = *lex;
+
+	if (!lex_is(lex, "END") && !brace)
+		return ST_KINDS;
+	lex_next(&ahead);
+	for (size_t i = 0; i < PAIRS; i++) {
+		const bool named = !brace && lex_is(&ahead, st_form(pairs[i].begin)->word);
+
+		if (pairs[i].begin == ST_REPEAT ||
+		    (!named && !(block && block->kind == pairs[i].begin && (brace || lex_is(&ahead, ";")))))
+			continue;
+		if (named)
+			*lex = ahead;
+		said_foreign(s, &first, first.text,
+			     (int)(lex->token.text + lex->token.len - first.text), pairs[i].word);
+		take_as(lex, pairs[i].word);
+		return pairs[i].end;
+	}
+	return ST_KINDS;
+}
+
+/* A word of another language is told and taken for the right one; ST_KINDS: it is none, or @told. */
+static enum st_kind foreign_word(struct st_reader *s, struct lex *lex, bool *told)
+{
+	const struct st_block *block = innermost(s);
+	struct lex ahead = *lex;
+	const enum st_kind kind = split_end(s, lex);
+
+	lex_next(&ahead);
+	if (kind != ST_KINDS || lex->token.kind != TOKEN_NAME || lex_is(&ahead, ":=") ||
+	    lex_is(&ahead, "[") || lex_is(&ahead, "."))
+		return kind;
+	if (block && block->kind == ST_CASE && lex_is(lex, "Default") && lex_is(&ahead, ":")) {
+		take_as(lex, "ELSE"); /* the colon is told */
+		return ST_ELSE;
+	}
+	if (lex_is(lex, "END_REPEAT") && block && block->kind == ST_REPEAT) {
+		drop_block(s);
+		*told = true;
+		return ST_KINDS;
+	}
+	for (size_t i = 0; i < sizeof(foreign) / sizeof(*foreign); i++) {
+		if (!lex_is(lex, foreign[i].word) || (lex_is(&ahead, "(") && !foreign[i].parens))
+			continue;
+		said_of(s, DIAG_ST_FOREIGN, &lex->token, foreign[i].right);
+		*told = foreign[i].kind == ST_KINDS;
+		if (!*told)
+			take_as(lex, foreign[i].right);
+		return foreign[i].kind;
+	}
+	return ST_KINDS;
+}
+
+/* Signs of other languages, from the first byte on. */
+static const struct { const char *sign, *right; } signs[] = {
+	{ "==", "=" }, { "!=", "<>" }, { "><", "<>" }, { "=<", "<=" }, { "=>", ">=" }, { "&&", "AND" },
+	{ "||", "OR" }, { "!", "NOT" }, { "%", "MOD" }, { "+=", ":= … +" }, { "-=", ":= … -" },
+	{ "*=", ":= … *" }, { "/=", ":= … /" }, { "++", ":= … + 1" }, { "--", ":= … - 1" },
+	{ "::", ":=" }, { "=:", ":=" }, { ": =", ":=" }, { "#", "//" }, { "?", "IF … THEN … ELSE … END_IF" },
+	{ "^", "EXPT(base, exponent)" },
+};
+
+/* A text in quotes of another kind, at @token. */
+static bool said_quotes(struct st_reader *s, const struct token *token)
+{
+	const unsigned char *byte = (const unsigned char *)token->text;
+	char right[LIMIT_ARG / 2];
+
+	if (token->kind == TOKEN_STRING && *byte == '"' && token->len < sizeof(right)) {
+		snprintf(right, sizeof(right), "'%.*s'", (int)token->len - 2, token->text + 1);
+		said_of(s, DIAG_ST_FOREIGN, token, right);
+		return true;
+	}
+	if (token->len < 3 || byte[0] != 0xe2 || byte[1] != 0x80 || byte[2] < 0x98 || byte[2] > 0x9f)
+		return false;
+	said_foreign(s, token, token->text, 3, "'");
+	return true;
+}
+
+/* `Label: A := 1;` */
+static bool is_label(struct lex lex)
+{
+	while (!lex_is(&lex, ";") && lex.token.kind != TOKEN_END)
+		if (lex_is(&lex, ":="))
+			return true;
+		else
+			lex_next(&lex);
+	return false;
+}
+
+/* Why the statement from @first on cannot be read at @lex, if something of another language is the reason. */
+static bool said_sign(struct st_reader *s, enum st_kind kind, const struct lex *first, const struct lex *lex)
+{
+	const struct token *token = &lex->token;
+	const bool tests = st_form(kind)->tests;
+	struct token at = *token;
+
+	if (said_quotes(s, token))
+		return true;
+	if (lex_is(first, "-") && first->token.text[1] == '-') {
+		said_foreign(s, &first->token, first->token.text, 2, "//");
+		return true;
+	}
+	if (tests && lex_is(lex, ":=")) {
+		said_of(s, DIAG_ST_FOREIGN, token, "=");
+		return true;
+	}
+	if (tests && lex_is(lex, "{")) {
+		said_of(s, DIAG_ST_FOREIGN, token, st_form(kind)->end);
+		return true;
+	}
+	for (int back = 0; back < 3; back++)
+		for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++) {
+			const size_t len = strlen(signs[i].sign);
+			const char *text = token->text - back;
+
+			if (text < first->token.text || len > (size_t)(lex->end - text) ||
+			    (len <= (size_t)back && back < 2) || memcmp(text, signs[i].sign, len) != 0 ||
+			    (lex_is(lex, "=>") && kind == ST_CALL))
+				continue;
+			at.column -= back;
+			said_foreign(s, &at, text, (int)len, signs[i].right);
+			return true;
+		}
+	if (kind != ST_ASSIGN || !lex_is(lex, ":") || is_label(*lex))
+		return false;
+	said_of(s, DIAG_ST_FOREIGN, token, ":=");
+	return true;
+}
+
+/* `FOR i = 1`: @lex is behind it. */
+static bool said_for(struct st_reader *s, const struct lex *first)
+{
+	struct lex lex = *first, open;
+
+	lex.newlines = lex.comments = false;
+	lex_next(&lex);
+	open = lex;
+	lex_next(&lex);
+	if (lex_is(&lex, "="))
+		said_of(s, DIAG_ST_FOREIGN, &lex.token, ":=");
+	else if (lex_is(&open, "("))
+		said_of(s, DIAG_ST_FOREIGN, &open.token, "FOR i := 1 TO 10 DO");
+	else
+		return false;
+	return true;
+}
+
+/* Takes back what was said since @count and @errors, if there is a better reason. */
+static void said_better(struct st_reader *s, enum st_kind kind, const struct lex *first,
+			const struct lex *lex, int count, int errors)
+{
+	struct diag_list *diags = s->r->diags;
+	const struct diag kept = count < diags->count ? diags->diag[count] : (struct diag){ .line = 0 };
+	const int now = diags->count, now_errors = diags->errors;
+
+	if (now != count + 1 || diags->dropped > 0)
+		return;
+	diags->count = count;
+	diags->errors = errors;
+	if ((kind == ST_FOR && said_for(s, first)) || said_sign(s, kind, first, lex))
+		return;
+	if (kind == ST_ASSIGN && iec_type_find(first->token.text, first->token.len) && lex->token.kind == TOKEN_NAME) {
+		said_of(s, DIAG_ST_DECLARES, &first->token, "");
+		return;
+	}
+	if (lex_is(lex, "STEP") && kind == ST_FOR) {
+		said_of(s, DIAG_ST_FOREIGN, &lex->token, "BY");
+		return;
+	}
+	diags->diag[count] = kept;
+	diags->count = now;
+	diags->errors = now_errors;
+}
+
+/* VAR … END_VAR between statements: told, and stepped over. */
+static bool skip_declarations(struct st_reader *s)
+{
+	static const char *const heads[] = { "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP" };
+	struct lex *lex = &s->r->lex;
+	bool here = false;
+
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+		here |= lex_is(lex, heads[i]);
+	if (!here)
+		return false;
+	said_of(s, DIAG_ST_DECLARES, &lex->token, "");
+	while (lex->token.kind != TOKEN_END && !lex_is(lex, "END_VAR"))
+		st_step(s);
+	if (lex_is(lex, "END_VAR"))
+		st_step(s);
+	return true;
+}
+
 static void read_statement(struct st_reader *s)
 {
 	struct reader *r = s->r;
 	struct lex lex = r->lex;
 	const struct lex first = lex;
+	const int said = r->diags->count, errors = r->diags->errors;
 	enum st_kind kind;
-	bool good;
+	bool good, told = false;
 
 	lex.newlines = lex.comments = false;
-	kind = kind_at(s, &lex);
+	kind = foreign_word(s, &lex, &told);
+	if (told) {
+		st_skip(s, "");
+		return;
+	}
+	if (kind == ST_KINDS)
+		kind = kind_at(s, &lex);
 	good = may_stand(s, kind);
 	const int depth = depth_of(s, kind);
 	const int count = s->st->count;
@@ -381,15 +682,25 @@ static void read_statement(struct st_reader *s)
 		good = open_block(s, kind);
 	if (!read_parts(s, kind, &lex))
 		good = false;
+	if (kind == ST_ELSE && lex_is(&lex, ":")) {
+		said_foreign(s, &first.token, first.token.text,
+			     (int)(lex.token.text + 1 - first.token.text), "ELSE");
+		lex_next(&lex);
+	}
+	if (kind == ST_RETURN && !lex_is(&lex, ";") && lex.token.line == first.token.line)
+		good = said_foreign(s, &first.token, first.token.text,
+				    (int)(lex.token.text + lex.token.len - first.token.text),
+				    "Name := …; RETURN; with the name of the function");
 	if (good)
 		good = take_statement(s, kind, &first, &lex);
 	for (int i = count; good && i < s->st->count; i++)
 		s->st->item[i].depth = (uint8_t)depth;
 	if (good)
 		return;
+	said_better(s, kind, &first, &lex, said, errors);
 	r->lex = lex;
 	r->lex.newlines = r->lex.comments = true;
-	st_skip(s);
+	st_skip(s, st_form(kind)->opens ? st_form(kind)->end : "");
 }
 
 void read_st(struct reader *r, struct pou *pou)
@@ -408,7 +719,7 @@ void read_st(struct reader *r, struct pou *pou)
 		if (item)
 			item->text = buffer_take(r, &r->above);
 	}
-	while (r->lex.token.kind != TOKEN_END && !r->no_memory && !read_ends_block(r)) {
+	while (r->lex.token.kind != TOKEN_END && !r->no_memory && (skip_declarations(s) || !read_ends_block(r))) {
 		if (r->lex.token.kind == TOKEN_NEWLINE) {
 			s->lines++;
 			st_step(s);

@@ -550,6 +550,14 @@ static void note_range(struct st_il *s, const char *at, const char *end, uint32_
 	if (!literal_value(s, low, IEC_LINT, &range.low) || !literal_value(s, high, IEC_LINT, &range.high))
 		return;
 	snprintf(text, sizeof(text), "%.*s", end - at < LIMIT_ARG ? (int)(end - at) : LIMIT_ARG, at);
+	if (range.low > range.high) {
+		char both[2 * LIMIT_ARG];
+
+		snprintf(both, sizeof(both), "%.30s" DIAG_AND "%lld..%lld", text, (long long)range.high,
+			 (long long)range.low);
+		st_report(s, DIAG_ST_EMPTY_RANGE, at, both);
+		return;
+	}
 	for (int i = 0; i < s->ranges; i++)
 		if (range.low <= s->range[i].high && s->range[i].low <= range.high) {
 			st_report(s, DIAG_ST_CHOICE_TWICE, at, text);
