@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/theme.h"
 
 #include "engine/base/name.h"
+#include "engine/model/named.h"
 #include "engine/ladder.h"
 
 #include <adwaita.h>
@@ -27,6 +28,7 @@
 /* A line of the list: where its operand and the value that it counts are, and its result. */
 struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
+	const struct var **like;  /* by part: declares an enumeration; NULL: no part is of one */
 	struct location now, goal; /* of a call: what counts in the instance      */
 	bool instruction;         /* the program that runs has one here          */
 	bool missing;             /* the board runs without this line            */
@@ -40,6 +42,7 @@ struct _LadderLineValues {
 	GtkSourceView parent;
 	LadderSim *sim;           /* NULL: none                                  */
 	char *pou;
+	bool st;                  /* Structured Text                             */
 	struct live_map *map;     /* NULL: not made yet                          */
 	int *places;              /* by line: line of the file that runs, from 1; 0: none. NULL:
 				   * of no line */
@@ -62,6 +65,8 @@ static void seen_free(gpointer data)
 
 	if (seen && seen->parts)
 		g_array_unref(seen->parts);
+	if (seen)
+		g_free(seen->like);
 	g_free(seen);
 }
 
@@ -115,6 +120,111 @@ static int columns_of(const char *line)
 	return columns;
 }
 
+/* ---- Structured Text ---- */
+
+/* A line without comments and texts, as the colours know them. Caller frees. */
+static char *code_of_line(GtkTextBuffer *buffer, int line)
+{
+	GtkSourceBuffer *coloured = GTK_SOURCE_BUFFER(buffer);
+	GString *code = g_string_new(NULL);
+	GtkTextIter at, end;
+
+	gtk_text_buffer_get_iter_at_line(buffer, &at, line);
+	end = at;
+	if (!gtk_text_iter_ends_line(&end))
+		gtk_text_iter_forward_to_line_end(&end);
+	gtk_source_buffer_ensure_highlight(coloured, &at, &end);
+	for (; gtk_text_iter_compare(&at, &end) < 0; gtk_text_iter_forward_char(&at))
+		if (gtk_source_buffer_iter_has_context_class(coloured, &at, "comment") ||
+		    gtk_source_buffer_iter_has_context_class(coloured, &at, "string"))
+			g_string_append_c(code, ' ');
+		else
+			g_string_append_unichar(code, gtk_text_iter_get_char(&at));
+	return g_string_free(code, FALSE);
+}
+
+static bool in_name(char c)
+{
+	return g_ascii_isalnum(c) || c == '_' || (guchar)c >= 0x80;
+}
+
+/* Blanks in place of what looks like a variable and is none: `PT :=` in a call, `Phase#Idle`. */
+static void blank_words(char *code)
+{
+	int open = 0;
+
+	for (char *at = code; *at;) {
+		char *end = at;
+
+		open += (*at == '(') - (*at == ')');
+		if (!in_name(*at)) {
+			at++;
+			continue;
+		}
+		while (in_name(*end))
+			end++;
+		if (*end == '#')
+			while (in_name(*end) || *end == '#' || *end == '.' || *end == ':')
+				end++;
+		else if (!(open > 0 && (g_str_has_prefix(end + strspn(end, " "), ":=") ||
+					g_str_has_prefix(end + strspn(end, " "), "=>")))) {
+			while (in_name(*end) || *end == '.')
+				end++;
+			at = end;
+			continue;
+		}
+		memset(at, ' ', (gsize)(end - at));
+		at = end;
+	}
+}
+
+static const struct var *enumeration_of(LadderLineValues *values, const char *name)
+{
+	struct ladder *ladder = ladder_sim_ladder(values->sim);
+	struct project *project = ladder ? ladder_project(ladder) : NULL;
+	char *local = g_strdup_printf("%s.%s", values->pou, name);
+	const struct var *var = project ? named_of_path(project, local, strlen(local)) : NULL;
+
+	if (project && !var)
+		var = named_of_path(project, name, strlen(name));
+	g_free(local);
+	return var && var->enumeration ? var : NULL;
+}
+
+static void find_enumerations(LadderLineValues *values, struct seen *seen)
+{
+	for (guint i = 0; seen->parts && i < seen->parts->len; i++) {
+		const struct live_part *part = &g_array_index(seen->parts, struct live_part, i);
+		const struct var *var = part->at.type == IEC_NONE ? NULL :
+					enumeration_of(values, part->text);
+
+		if (var && !seen->like)
+			seen->like = g_new0(const struct var *, seen->parts->len);
+		if (var)
+			seen->like[i] = var;
+	}
+}
+
+static struct seen *look_up_st(LadderLineValues *values, int line, const char *text)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	struct seen *seen = g_new0(struct seen, 1);
+	char *code = code_of_line(buffer, line), *name = code + strspn(code, " \t");
+
+	seen->columns = columns_of(text);
+	seen->now.type = seen->goal.type = IEC_NONE;
+	if (name[strcspn(name, " (:;")] == '(')
+		find_count(values->map, name, seen);
+	blank_words(code);
+	if (seen->now.type == IEC_NONE)
+		seen->parts = live_parts(values->map, code);
+	find_enumerations(values, seen);
+	g_free(code);
+	return seen;
+}
+
+/* ---- a list ---- */
+
 static struct seen *look_up(LadderLineValues *values, const char *line)
 {
 	struct seen *seen = g_new0(struct seen, 1);
@@ -144,8 +254,11 @@ static bool was_before(GArray *parts, guint index)
 	return false;
 }
 
-static void print_parts(struct seen *seen, const struct image *image)
+static void print_parts(LadderLineValues *values, struct seen *seen, const struct image *image)
 {
+	struct ladder *ladder = ladder_sim_ladder(values->sim);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+	const char *word;
 	char value[48];
 
 	for (guint i = 0; i < seen->parts->len; i++) {
@@ -153,8 +266,13 @@ static void print_parts(struct seen *seen, const struct image *image)
 
 		if (part->at.type == IEC_NONE || was_before(seen->parts, i))
 			continue;
-		live_value_print(part->at.type, image_get(image, part->at), value,
-				 sizeof(value));
+		word = seen->like && seen->like[i] && project ?
+			named_word(project, seen->like[i], image_get(image, part->at).i) : NULL;
+		if (word)
+			g_strlcpy(value, word, sizeof(value));
+		else
+			live_value_print(part->at.type, image_get(image, part->at), value,
+					 sizeof(value));
 		if (seen->text[0])
 			g_strlcat(seen->text, " · ", sizeof(seen->text));
 		g_strlcat(seen->text, value, sizeof(seen->text));
@@ -164,7 +282,7 @@ static void print_parts(struct seen *seen, const struct image *image)
 		seen->text[strlen(seen->text) - 1] = '\0';
 }
 
-static void print_value(struct seen *seen, const struct image *image)
+static void print_value(LadderLineValues *values, struct seen *seen, const struct image *image)
 {
 	seen->text[0] = '\0';
 	if (seen->now.type != IEC_NONE && seen->goal.type == seen->now.type)
@@ -174,7 +292,7 @@ static void print_value(struct seen *seen, const struct image *image)
 		live_value_print(seen->now.type, image_get(image, seen->now), seen->text,
 				 sizeof(seen->text));
 	else if (seen->parts)
-		print_parts(seen, image);
+		print_parts(values, seen, image);
 }
 
 static void print_result(struct seen *seen, const struct image *image)
@@ -287,11 +405,12 @@ static struct seen *seen_of(LadderLineValues *values, int line)
 	seen = values->lines->pdata[line];
 	if (!seen) {
 		text = text_of_line(buffer, line);
-		seen = values->lines->pdata[line] = look_up(values, text);
+		seen = values->lines->pdata[line] = values->st ? look_up_st(values, line, text) :
+				      look_up(values, text);
 		find_result(values, line, seen);
 		g_free(text);
 	}
-	print_value(seen, &twin->resource.image);
+	print_value(values, seen, &twin->resource.image);
 	print_result(seen, &twin->resource.image);
 	return seen;
 }
@@ -563,6 +682,14 @@ void line_values_set_pou(LadderLineValues *values, const char *pou)
 	values->pou = g_strdup(pou);
 	forget(values);
 	state_changed(values);
+}
+
+void line_values_set_st(LadderLineValues *values, bool st)
+{
+	if (values->st == st)
+		return;
+	values->st = st;
+	forget(values);
 }
 
 void line_values_set_result(LadderLineValues *values, LineResult result, void *context)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * line_values - an instruction list that shows its values while it is simulated: right of the
+ * line_values - an instruction list, or Structured Text, that shows its values while it is simulated: right of the
  * longest line the value of the operand of each line, and the current result after it.
  *
  * Both are of the scan that is shown. A result is what that scan has computed
@@ -24,6 +24,9 @@ LadderLineValues *line_values_new(GtkSourceBuffer *buffer);
 void line_values_set_sim(LadderLineValues *values, LadderSim *sim);
 /** line_values_set_pou - the POU whose list is shown; "": none. */
 void line_values_set_pou(LadderLineValues *values, const char *pou);
+/** line_values_set_st - is the text Structured Text? Then the values of all variables of a line are
+ * shown, in the order in which they stand there; those of enumerations by name. */
+void line_values_set_st(LadderLineValues *values, bool st);
 /* The current result after line @line, from 0, of a list that is not in the file, as
  * live_map_result() finds it. False: it is not known. */
 typedef bool (*LineResult)(void *context, const struct live_map *map, int line,

@@ -219,6 +219,7 @@ static void name_pou(LadderTextView *view)
 	gtk_source_buffer_set_language(view->buffer,
 				       text_language_of(view->document, view->pou));
 	st_typing_set(view->view, ladder_text_view_is_st(view));
+	line_values_set_st(view->values, ladder_text_view_is_st(view));
 	line_values_set_pou(view->values, !project || view->pou < 0 ||
 			    view->pou >= project->pou_count ? "" :
 			    project_text(project, project->pou[view->pou].name));

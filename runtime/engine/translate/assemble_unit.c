@@ -7,6 +7,8 @@
  * checked; nothing is judged here.
  */
 #include "engine/translate/assembler.h"
+
+#include "engine/model/st.h"
 #include "engine/translate/lists.h"
 
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
@@ -613,16 +615,83 @@ static void assemble_op(struct list *list, const struct il_line *line)
 
 /* ---- the current result after each line, while watched ---- */
 
-/* Of a written list, and of the lists in a chart. */
+/* Of a written list, of the lists in a chart, and of Structured Text. */
 static bool keeps_results(const struct list *list)
 {
+	if (list->pou->st)
+		return list->as->watching && list->pou->st->count > 0;
 	return list->as->watching && list->pou->il.count > 0 &&
 	       (list->pou->language == LANGUAGE_IL || list->pou->language == LANGUAGE_SFC);
+}
+
+static uint32_t bit_of(enum st_kind kind)
+{
+	return 1u << kind;
+}
+
+/* The kinds of the statements that begin in a line, as bits. */
+static uint32_t st_kinds_in(const struct st *st, uint32_t line)
+{
+	int low = 0, high = st->count;
+	uint32_t kinds = 0;
+
+	while (low < high) {
+		const int middle = low + (high - low) / 2;
+
+		if ((uint32_t)st->item[middle].line < line)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	for (; low < st->count && (uint32_t)st->item[low].line == line; low++)
+		kinds |= bit_of((enum st_kind)st->item[low].kind);
+	return kinds;
+}
+
+/* Lines that do something: not those that only end a block. */
+static bool st_does(uint32_t kinds)
+{
+	return kinds & ~(bit_of(ST_ELSE) | bit_of(ST_END_IF) | bit_of(ST_END_CASE) |
+			 bit_of(ST_END_FOR) | bit_of(ST_END_WHILE) | bit_of(ST_REPEAT) |
+			 bit_of(ST_EMPTY) | bit_of(ST_COMMENT));
+}
+
+/* Has its line one value that a person looks for: what is stored, or a condition? */
+static bool st_has_value(uint32_t kinds)
+{
+	const uint32_t most = kinds & ~(bit_of(ST_COMMENT) | bit_of(ST_EMPTY));
+
+	return most == bit_of(ST_ASSIGN) || most == bit_of(ST_IF) || most == bit_of(ST_ELSIF) ||
+	       most == bit_of(ST_WHILE) || most == bit_of(ST_UNTIL);
+}
+
+/* The jump behind the branch above ELSIF has the line of the ELSIF, which did not run for it. */
+static bool st_runs(const struct list *list, const struct il_line *line)
+{
+	if (line->kind == IL_LABEL)
+		return false;
+	return line->kind != IL_OP || line->op != OP_JMP || line->modifiers & MOD_C ||
+	       st_kinds_in(list->pou->st, line->line) & (bit_of(ST_EXIT) | bit_of(ST_CONTINUE));
 }
 
 static struct frame *frame_of(const struct list *list)
 {
 	return &list->as->frame[list->unit - list->as->translation->unit];
+}
+
+/* The same of Structured Text. */
+static bool make_st_slots(struct list *list, struct frame *frame)
+{
+	const struct st *st = list->pou->st;
+
+	frame->first_line = (uint32_t)st->item[0].line;
+	frame->lines = (uint32_t)st->item[st->count - 1].line - frame->first_line + 1;
+	frame->slot_of = arena_alloc(list->as->arena, ((size_t)frame->lines + 1) *
+				     sizeof(*frame->slot_of));
+	for (int i = 0; frame->slot_of && i < st->count; i++)
+		if (st_does(bit_of((enum st_kind)st->item[i].kind)))
+			frame->slot_of[(uint32_t)st->item[i].line - frame->first_line] = SLOT_FREE;
+	return frame->slot_of;
 }
 
 /* First pass: room for the number of the result of each line of the POU. */
@@ -634,6 +703,8 @@ static bool make_slots(struct list *list)
 
 	if (!keeps_results(list) || frame->slot_of)
 		return true;
+	if (list->pou->st)
+		return make_st_slots(list, frame);
 	frame->first_line = UINT32_MAX;
 	for (int i = 0; i < il->count; i++) {
 		frame->first_line = il->line[i].line < frame->first_line ? il->line[i].line :
@@ -714,7 +785,8 @@ static void note_result(struct list *list, struct frame *frame, int *slot, uint3
 	if (*slot == SLOT_FREE)
 		*slot = frame->result_count;
 	frame->result[*slot - 1] = (struct result){ .line = line,
-						    .type = result_type(&list->now) };
+		.type = list->pou->st && !st_has_value(st_kinds_in(list->pou->st, line)) ?
+			IEC_NONE : result_type(&list->now) };
 }
 
 /* Second pass: into the places that they have got. */
@@ -740,7 +812,7 @@ static void keep_written(struct list *list, const struct il_line *line)
 	int *slot = keeps_results(list) && is_written(line) ?
 		    slot_of_line(frame, line->line) : NULL;
 
-	if (!slot)
+	if (!slot || (list->pou->st && !st_runs(list, line)))
 		return;
 	if (list->as->text != &list->as->watch)
 		note_result(list, frame, slot, line->line);

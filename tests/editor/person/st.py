@@ -6,7 +6,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import A11Y, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 TANK = '''RUNGBOARD 1
 
@@ -231,5 +231,29 @@ def formatted(screen):
     until(lambda: 'Lamp' not in view.text(), 'what was before')
 
 
+def described(view):
+    """What a screen reader adds to the name of the text: the values of the line of the cursor."""
+    return str(view.editor.bus.call_blocking(view.editor.name, view.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                             (A11Y + 'Accessible', 'Description')))
+
+
+def simulated(screen):
+    """while simulating, each line shows its values, conditions what they were, and lines that did not run say so; so in a dark, small window; a screen reader hears it"""
+    for env in {}, {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'}:
+        editor, _, view = in_the_text(screen, NAMED[:NAMED.index('FUNCTION')] + NAMED[NAMED.index('PROGRAM Main'):].replace('Limited(X := Level)', 'Level'), **env)
+        if env:
+            sh('xdotool', 'windowsize', '--sync', editor.window, '1024', '600')
+        editor.keys('ctrl+m')
+        editor.says('SIMULATION')
+        go(editor, view, 'Valve := Start', 'Valve')
+        until(lambda: 'result not run' in described(view), 'a line that did not run')
+        go(editor, view, 'Now := Filling', 'Now')
+        until(lambda: 'value Idle' in described(view), 'the name of the value')
+        go(editor, view, 'IF Level', 'Level')
+        until(lambda: 'value 0 \u00b7 200, result FALSE' in described(view), 'the condition')
+        editor.shot('st-simulated' + ('-dark' if env else ''))
+        editor.finish()
+
+
 completed.quick = 'editor-gtk/text'
-main([completed, wrong, names, formatted])
+main([completed, wrong, names, formatted, simulated])

@@ -570,6 +570,64 @@ static void test_chart_results(void)
 	document = other;
 }
 
+static const char statements[] =
+	"RUNGBOARD 1\n\nTYPE\n  Phase : (Idle, Filling := 3);\nEND_TYPE\n\n"
+	"VAR\n  Start : BOOL;\n  Level : INT := 7;\n  Now : Phase;\n  PT : INT := 9;\nEND_VAR\n\n"
+	"PROGRAM Main ST\nVAR\n  Wait : TON;\n  i : INT;\nEND_VAR\n"
+	"  // Level\n  Wait(IN := TRUE, PT := T#1s);\n"
+	"  IF Start THEN\n    Now := Phase#Filling;\n  ELSIF Level > 5 THEN\n    Level := Level + 100;\n"
+	"  ELSE\n    Level := 0;\n  END_IF;\n"
+	"  FOR i := 1 TO 3 DO\n    IF i = 2 THEN\n      EXIT;\n    END_IF;\n  END_FOR;\n"
+	"  CASE Now OF\n    Idle:\n      PT := 1;\n    Filling:\n      PT := 2;\n  END_CASE;\n"
+	"  WHILE FALSE DO\n    PT := 3;\n  END_WHILE;\nEND_PROGRAM\n";
+
+/* Structured Text: the values of a line, what a condition was, and which lines ran. */
+static void test_statement_values(void)
+{
+	LadderDocument *written = ladder_document_new(), *other = document;
+	LadderTextView *listed = view;
+	GtkTextBuffer *text = buffer;
+	LadderSim *sim;
+
+	ladder_document_open_text(written, "/tmp/x/st.rung", statements, strlen(statements), true);
+	ladder_document_check_now(written);
+	document = written;
+	view = g_object_ref_sink(LADDER_TEXT_VIEW(ladder_text_view_new(written, 0)));
+	buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(view));
+	sim = ladder_sim_new(written);
+	ladder_text_view_set_sim(view, sim);
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK(has_result("IF Start", "not run") && has_result("ELSE", NULL) &&
+	      has_result("END_IF", NULL) && has_beside("//", NULL));
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(has_result("IF Start", "FALSE"));
+	CHECK(has_result("ELSIF Level", "TRUE") && has_result("Level := Level", NULL) &&
+	      has_beside("Level := Level", "107") &&
+	      has_result("Now := ", "not run") && has_result("Level := 0", "not run"));
+	CHECK(has_beside("Now := ", "Idle") && has_beside("IF Start", "FALSE") &&
+	      has_beside("ELSIF Level", "107") && has_beside("Wait(", "0.0 s / 1 s"));
+	CHECK(has_result("EXIT", NULL) && has_result("IF i", "TRUE") &&
+	      has_result("FOR i", NULL) && has_beside("FOR i", "2"));
+	CHECK(has_result("PT := 1", "1") && has_result("PT := 2", "not run") &&
+	      has_result("WHILE FALSE", "FALSE") && has_result("PT := 3", "not run"));
+	set_bit(sim, "Start", true);
+	CHECK_SOON(has_result("IF Start", "TRUE"));
+	CHECK(has_result("ELSIF Level", "not run") && has_result("Level := Level", "not run") &&
+	      has_result("PT := 2", "2") && has_beside("Now := ", "Filling") &&
+	      has_beside("CASE Now", "Filling"));
+	CHECK(ladder_sim_show(sim, 1));
+	CHECK_AS(has_result("IF Start", "FALSE") && has_beside("Now := ", "Idle"),
+		 "the lines show an earlier scan");
+	ladder_sim_end(sim);
+	CHECK(has_result("IF Start", NULL));
+	g_object_unref(sim);
+	g_object_unref(view);
+	g_object_unref(written);
+	view = listed;
+	buffer = text;
+	document = other;
+}
+
 static void test_values(void)
 {
 	LadderSim *sim = ladder_sim_new(document);
@@ -664,6 +722,7 @@ int main(void)
 	test_values();
 	test_results();
 	test_chart_results();
+	test_statement_values();
 	test_first_place(window);
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
