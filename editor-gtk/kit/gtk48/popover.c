@@ -157,11 +157,12 @@ static void go_on(GtkWidget *popover, GtkDirectionType direction)
 }
 
 static gboolean form_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType held,
-			 GtkWidget *back)
+			 gpointer unused)
 {
 	GtkWidget *popover = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
 
 	(void)code;
+	(void)unused;
 	if (held & (GDK_CONTROL_MASK | GDK_ALT_MASK))
 		return FALSE;
 	switch (key) {
@@ -173,11 +174,19 @@ static gboolean form_key(GtkEventControllerKey *keys, guint key, guint code, Gdk
 		return TRUE;
 	case GDK_KEY_Escape:
 		gtk_popover_popdown(GTK_POPOVER(popover));
-		gtk_widget_grab_focus(back);
 		return TRUE;
 	default:
 		return FALSE;
 	}
+}
+
+/* Unless the focus is elsewhere already. */
+static void form_closed(GtkWidget *popover, GtkWidget *back)
+{
+	GtkWidget *focus = focus_of(popover);
+
+	if (!focus || gtk_widget_is_ancestor(focus, popover))
+		gtk_widget_grab_focus(back);
 }
 
 void popover_form(GtkWidget *popover, GtkWidget *back)
@@ -185,7 +194,8 @@ void popover_form(GtkWidget *popover, GtkWidget *back)
 	GtkEventController *keys = gtk_event_controller_key_new();
 
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
-	g_signal_connect(keys, "key-pressed", G_CALLBACK(form_key), back);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(form_key), NULL);
+	g_signal_connect(popover, "closed", G_CALLBACK(form_closed), back);
 	gtk_widget_add_controller(popover, keys);
 }
 

@@ -54,8 +54,8 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 /** popover_menu_of - @button opens the menu that @make gives, which is called the first time:
  * most menus are never seen. When it closes, the focus goes back. Owns: takes the menu. */
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
-/** popover_form - from now on Tab goes round inside @popover, and Escape closes it and gives the focus to
- * @back, which must live as long as @popover. */
+/** popover_form - from now on Tab goes round inside @popover, and Escape closes it. When it closes, the focus
+ * goes to @back, which must live as long as @popover. */
 void popover_form(GtkWidget *popover, GtkWidget *back);
 /** popover_tell - sets the text of a label inside a popover, and shows all of its lines; "":
  * hides the label. Call it when the label has a parent. */
