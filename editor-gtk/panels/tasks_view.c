@@ -613,7 +613,7 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 static void add_columns(LadderTasksView *view)
 {
 	static const struct { enum task_field field; int width; } column[] = {
-		{ TASKS_NAME, 170 }, { TASKS_PROGRAM, 130 }, { TASKS_KIND, 100 },
+		{ TASKS_NAME, 170 }, { TASKS_PROGRAM, 124 }, { TASKS_KIND, 106 },
 		{ TASKS_WHEN, 120 }, { TASKS_PRIORITY, 70 }, { TASKS_WATCHDOG, 90 },
 		{ TASKS_COMMENT, 140 },
 	};
