@@ -82,6 +82,25 @@ if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tm
 	echo
 	echo "1,000 REAL additions and comparisons: $vm ns each; the same C with -O2: $c ns; ratio $(per "$vm" "$c" %.1f)."
 fi
+# loop FILE ROUNDS TITLE: a program in ST beside the same in C, ns of one of its rounds.
+loop() {
+	"$ladder" bench --json "$(dirname "$0")/st/$1.st" >"$tmp/loop.json" 2>/dev/null
+	st=$(per "$(median "$tmp/loop.json" body_fixed_ns)" "$2" %.2f)
+	c=$(per "$(awk -v name="$1" '$1 == name { print $2 }' "$tmp/loops.txt")" "$2" %.2f)
+	echo "| $3 | $st | $c | $(per "$st" "$c" %.1f) |"
+}
+if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/loops.c" -o "$tmp/loops"; then
+	"$tmp/loops" >"$tmp/loops.txt"
+	echo
+	echo '| Structured Text | ns | C with -O2, without checks, ns | ratio |'
+	echo '|---|---|---|---|'
+	loop int 1000 'a round of INT arithmetic with MOD'
+	loop real 1000 'a round of a REAL product and sum'
+	loop product 1000 'a round of the product of two arrays of INT'
+	loop sort 1 'bubble sort of 100 INT, a scan'
+	loop states 1 'a state machine of 50 states by CASE, a scan'
+	loop pid 1 'a PID in REAL, a scan'
+fi
 # chart NAME FILE: prints a row of the table of charts.
 chart() {
 	"$ladder" bench --json "$2" >"$tmp/chart.json" 2>/dev/null
