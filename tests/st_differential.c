@@ -15,6 +15,7 @@
 
 #include "engine/ladder.h"
 
+#include <math.h>
 #include <time.h>
 
 #define TEXT_MAX (64 * 1024)
@@ -103,7 +104,7 @@ static void set_input(struct match *match, int index, struct random_source *sour
 	union iec_value theirs;
 
 	if (mine->type == IEC_REAL) {
-		static const float some[] = { 0, 1, -1.5f, 2.5f, 3.0e38f, 1.0e-40f, 0.5f };
+		static const float some[] = { 0, 1, -1.5f, 2.5f, 3.0e38f, 1.0e-40f, 0.5f, NAN };
 
 		mine->r = some[random_below(source, sizeof(some) / sizeof(*some))];
 		theirs.r = (double)mine->r;

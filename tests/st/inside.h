@@ -33,6 +33,7 @@ enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_C
 struct tree {
 	enum tree_kind kind;
 	enum word fn;               /* of TREE_TWO, TREE_CALL                 */
+	bool lazy;                  /* AND_THEN, OR_ELSE                      */
 	struct tree *left, *right;
 	struct tree *next;          /* the next argument or index             */
 	struct literal literal;

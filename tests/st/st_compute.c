@@ -230,6 +230,11 @@ static struct value tell(struct frame_of *f, const struct tree *tree, enum outco
 	return value;
 }
 
+static bool is_nan(struct value value)
+{
+	return (value.type == IEC_REAL && isnan(value.r)) || (value.type == IEC_LREAL && isnan(value.d));
+}
+
 static struct value compute_two(struct frame_of *f, const struct tree *tree, enum iec_type wanted,
 				struct chain_state *chain)
 {
@@ -244,10 +249,14 @@ static struct value compute_two(struct frame_of *f, const struct tree *tree, enu
 	if (type == IEC_NONE)
 		type = test || wanted == IEC_NONE ? has_point(tree) ? IEC_REAL : IEC_DINT : wanted;
 	in[0] = tree_compute(f, tree->left, timely ? IEC_NONE : type, chain);
+	if (tree->lazy && chain->on && value_is_true(in[0]) == (tree->fn == FN_OR))
+		return value_bool(tree->fn == FN_OR);
 	in[1] = tree_compute(f, tree->right, timely ? IEC_NONE : type, chain);
 	out.type = test ? IEC_BOOL : timely ? value_time_type(tree->fn, left, right) : type;
 	if (!chain->on)
 		return out;
+	if (test && (is_nan(in[0]) || is_nan(in[1])))
+		return value_bool(tree->fn == FN_NE);
 	outcome = timely ? value_compute_time(tree->fn, in[0], in[1], &out) :
 			   value_compute(tree->fn, in, 2, &out);
 	return tell(f, tree, outcome, out, chain);
@@ -362,11 +371,16 @@ static enum outcome known(enum word fn, struct value *in, int count, enum iec_ty
 		*out = in[1 + in[0].i];
 		return OUTCOME_GOOD;
 	}
+	for (int i = 0; i < count && (fn == FN_LIMIT || fn == FN_MIN || fn == FN_MAX); i++)
+		if (is_nan(in[i]))
+			return OUTCOME_FAILED;
 	if (fn == FN_LIMIT) {
 		value_compute(FN_MAX, (struct value[]){ in[1], in[0] }, 2, &pair[0]);
 		pair[1] = in[2];
 		return value_compute(FN_MIN, pair, 2, out);
 	}
+	if (fn == FN_ABS && is_nan(in[0]))
+		return OUTCOME_FAILED;
 	if (fn == FN_ABS && is_float(in[0].type)) {
 		*out = in[0];
 		out->r = fabsf(in[0].r);

@@ -205,11 +205,13 @@ static void call(struct parse *p, struct tree *tree)
 
 /* ---- expressions ---- */
 
-static const struct { const char *text; enum word fn; int level; } operators[] = {
-	{ "OR", FN_OR, 1 }, { "XOR", FN_XOR, 2 }, { "AND", FN_AND, 3 }, { "&", FN_AND, 3 },
-	{ "=", FN_EQ, 4 }, { "<>", FN_NE, 4 }, { "<", FN_LT, 5 }, { ">", FN_GT, 5 },
-	{ "<=", FN_LE, 5 }, { ">=", FN_GE, 5 }, { "+", FN_ADD, 6 }, { "-", FN_SUB, 6 },
-	{ "*", FN_MUL, 7 }, { "/", FN_DIV, 7 }, { "MOD", FN_MOD, 7 },
+/* The right side of a lazy one is computed only if it matters. */
+static const struct { const char *text; enum word fn; int level; bool lazy; } operators[] = {
+	{ "OR", FN_OR, 1, false }, { "XOR", FN_XOR, 2, false }, { "AND", FN_AND, 3, false }, { "&", FN_AND, 3, false },
+	{ "AND_THEN", FN_AND, 3, true }, { "OR_ELSE", FN_OR, 1, true },
+	{ "=", FN_EQ, 4, false }, { "<>", FN_NE, 4, false }, { "<", FN_LT, 5, false }, { ">", FN_GT, 5, false },
+	{ "<=", FN_LE, 5, false }, { ">=", FN_GE, 5, false }, { "+", FN_ADD, 6, false }, { "-", FN_SUB, 6, false },
+	{ "*", FN_MUL, 7, false }, { "/", FN_DIV, 7, false }, { "MOD", FN_MOD, 7, false },
 };
 #define OPERATORS (sizeof(operators) / sizeof(*operators))
 #define UNARY 8
@@ -235,6 +237,8 @@ static struct tree *unary(struct parse *p)
 		must(p, ")");
 		return inner;
 	}
+	if (lex_accept(&p->lex, "+"))
+		return unary(p);
 	if (lex_is(&p->lex, "-") || lex_is(&p->lex, "NOT")) {
 		tree.kind = lex_is(&p->lex, "-") ? TREE_NEG : TREE_NOT;
 		lex_next(&p->lex);
@@ -276,7 +280,7 @@ static struct tree *expression(struct parse *p, int level)
 			continue;
 		}
 		lex_next(&p->lex);
-		left = new_tree(p, (struct tree){ .kind = TREE_TWO, .fn = operators[i].fn,
+		left = new_tree(p, (struct tree){ .kind = TREE_TWO, .fn = operators[i].fn, .lazy = operators[i].lazy,
 			.left = left, .right = expression(p, level + 1), .local = -1 });
 		i = 0;
 	}

@@ -62,7 +62,7 @@ static const char globals[] =
 	"  ar : ARRAY[0..1, 1..2, 0..2] OF REAL;\n  ab : ARRAY[2..4] OF BOOL := [TRUE];\n"
 	"  ap : ARRAY[1..3] OF Percent;\n"
 	"  pt1 : Point;\n  pt2 : Point;\n  pts : ARRAY[1..3] OF Point;\n"
-	"  wait : TON;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
+	"  wait : TON;\n  late : TOF;\n  pulse : TP;\n  down : CTD;\n  latch : SR;\n  clear : RS;\n  fall : F_TRIG;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
 	"  mix1 : Mix;\n  mix2 : Mix;\n"
 	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
 	"  g1 : INT;\n  g2 : INT;\n  g3 : INT;\n  g4 : INT;\n"
@@ -279,7 +279,7 @@ static void comparison(struct maker *m, int depth)
 
 static void bool_expr(struct maker *m, int depth)
 {
-	static const char *const logic[] = { "AND", "OR", "XOR", "&" };
+	static const char *const logic[] = { "AND", "OR", "XOR", "&", "AND", "OR" };
 
 	if (chance(m, 45)) {
 		comparison(m, depth);
@@ -439,6 +439,11 @@ static void expr(struct maker *m, enum type type, int depth)
 		}
 	} else if (chance(m, 25)) {
 		called(m, type, depth);
+	} else if (type == T_DINT && m->room >= ROOM_BLOCK && chance(m, 12)) {
+		say(m, "Carry(");
+		leaf_or_constant(m, T_INT, depth);
+		say(m, ", %s, %s)", one_of(m, (const char *const[]){ "i2", "aj[k1]", "pt2.x", NULL }, 4),
+		    chance(m, 50) ? "ai" : "aj");
 	} else if (type == T_INT && m->room >= ROOM_BLOCK && chance(m, 15)) {
 		own_call(m, depth);
 	} else if (type == T_INT && chance(m, 8)) {
@@ -631,8 +636,26 @@ static void while_of(struct maker *m, int depth, int indent)
 	say(m, repeat ? "END_REPEAT;\n" : "END_WHILE;\n");
 }
 
+static void more_calls(struct maker *m)
+{
+	static const struct { const char *begin, *end; } calls[] = {
+		{ "late(IN := ", ", PT := T#4ms, Q => b1)" }, { "pulse(", ", T#6ms)" },
+		{ "down(CD := ", ", LD := nb, PV := 3, CV => i4)" }, { "latch(", ", b3)" },
+		{ "clear(S := b1, R1 := ", ", Q1 => ab[k1])" }, { "fall(CLK := ", ", Q => b2)" },
+	};
+	const uint32_t i = below(m, sizeof(calls) / sizeof(*calls));
+
+	say(m, "%s", calls[i].begin);
+	expr(m, T_BOOL, 2);
+	say(m, "%s;\n", calls[i].end);
+}
+
 static void call_of(struct maker *m)
 {
+	if (m->room != ROOM_BLOCK && chance(m, 25)) {
+		more_calls(m);
+		return;
+	}
 	switch (below(m, m->room == ROOM_BLOCK ? 3 : 7)) {
 	case 0:
 		say(m, m->room == ROOM_BLOCK ? "Inner" : "wait");
@@ -737,6 +760,8 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 	statements(&m, 1, 3, 1);
 	if (chance(&m, 20))
 		say(&m, "  ENO := A <> B;\n");
+	say(&m, "END_FUNCTION\n\nFUNCTION Carry : DINT ST\nVAR_INPUT\n  By : INT;\nEND_VAR\nVAR_IN_OUT\n  One : INT;\n  Row : ARRAY[1..5] OF INT;\nEND_VAR\n"
+		"  Carry := One;\n  Row[By] := One;\n  One := By + i4;\n");
 	say(&m, "END_FUNCTION\n\nFUNCTION_BLOCK Mix ST\nVAR_INPUT\n  Add : INT := 2;\nEND_VAR\nVAR_IN_OUT\n  Both : INT;\nEND_VAR\n"
 		"VAR_OUTPUT\n  Half : INT;\n  Total : UINT;\nEND_VAR\nVAR\n  Kept : INT;\n  Inner : TON;\nEND_VAR\n"
 		"VAR_TEMP\n  Fresh : INT := 4;\nEND_VAR\n"

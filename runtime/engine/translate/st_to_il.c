@@ -395,7 +395,7 @@ static bool has_room(struct st_il *s, const struct st_open *open, enum iec_type 
 	       (!m || !meaning_is_ranged(m) || (value.i >= m->like->range->low && value.i <= m->like->range->high));
 }
 
-/* May the statement write the variable with this name? Calls may write anything. */
+/* May the statement write the variable with this name? Calls and pointers may write anything. */
 static bool may_write(struct st_il *s, const struct st_item *item, uint32_t variable)
 {
 	const struct names *names = &s->translation->project->names;
@@ -414,7 +414,7 @@ static bool may_write(struct st_il *s, const struct st_item *item, uint32_t vari
 		    scope_pou(s->translation->scope, s->pou,
 			      names_intern(&s->translation->project->names, lex.token.text, lex.token.len)))
 			return true;
-		if (lex_is(&lex, name) && lex_is(&ahead, ":="))
+		if ((lex_is(&lex, name) && lex_is(&ahead, ":=")) || lex_is(&lex, "^"))
 			return true;
 	}
 	return false;
