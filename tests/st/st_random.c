@@ -279,7 +279,7 @@ static void comparison(struct maker *m, int depth)
 
 static void bool_expr(struct maker *m, int depth)
 {
-	static const char *const logic[] = { "AND", "OR", "XOR", "&", "AND", "OR" };
+	static const char *const logic[] = { "AND", "OR", "XOR", "&", "AND_THEN", "OR_ELSE" };
 
 	if (chance(m, 45)) {
 		comparison(m, depth);
