@@ -9,7 +9,6 @@
 #include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,6 +44,14 @@ static bool is_whole(const char *text)
 	return strstr(text, "PROGRAM") || strstr(text, "FUNCTION") || strstr(text, "TYPE");
 }
 
+static char *put(char *at, const char *text)
+{
+	const size_t len = strlen(text);
+
+	memcpy(at, text, len);
+	return at + len;
+}
+
 /* The text of an input; its bytes above PLAIN are words. malloc'ed. */
 static char *spell(const uint8_t *bytes, size_t len, size_t *out_len)
 {
@@ -63,14 +70,14 @@ static char *spell(const uint8_t *bytes, size_t len, size_t *out_len)
 	wrap = !is_whole(copy);
 	free(copy);
 	if (wrap)
-		at += sprintf(at, "%s", head);
+		at = put(at, head);
 	for (size_t i = 0; i < len; i++)
 		if (wrap && bytes[i] >= PLAIN)
-			at += sprintf(at, "%s", words[(bytes[i] - PLAIN) % WORDS]);
+			at = put(at, words[(bytes[i] - PLAIN) % WORDS]);
 		else
 			*at++ = (char)bytes[i];
 	if (wrap)
-		at += sprintf(at, "\nEND_PROGRAM\n");
+		at = put(at, "\nEND_PROGRAM\n");
 	*out_len = (size_t)(at - text);
 	return text;
 }
