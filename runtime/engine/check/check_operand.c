@@ -50,13 +50,46 @@ static bool operand_report(struct operand_check *c, enum diag_id id, struct oper
 	return good;
 }
 
+/* 5s, 0xFF, T#5: how this list of statements writes it. DIAG_COUNT: it is nothing of the kind. */
+static enum diag_id foreign_constant(const char *name, char *out, size_t size)
+{
+	const bool based = name[0] == '0' && (name[1] | 32) == 'x';
+	const char *digits = based ? name + 2 : name, *hash = strchr(name, '#');
+	char timed[LIMIT_NAME + 8];
+	int64_t ns;
+
+	if (strlen(name) > 40 || (name[0] | 32) < '0')
+		return DIAG_COUNT;
+	if (based && *digits && strspn(digits, "0123456789abcdefABCDEF_") == strlen(digits)) {
+		snprintf(out, size, "%.40s" DIAG_AND "16#%.40s", name, digits);
+		return DIAG_ST_FOREIGN;
+	}
+	snprintf(timed, sizeof(timed), "T#%s", name);
+	if (name[0] >= '0' && name[0] <= '9' && literal_parse_duration(name, strlen(name), &ns)) {
+		snprintf(out, size, "%.40s" DIAG_AND "%.44s", name, timed);
+		return DIAG_ST_FOREIGN;
+	}
+	snprintf(timed, sizeof(timed), "%sms", name);
+	if (hash && (name[0] | 32) == 't' && hash[1] && strspn(hash + 1, "0123456789") == strlen(hash + 1) &&
+	    literal_parse_duration(strchr(timed, '#') + 1, strlen(strchr(timed, '#') + 1), &ns)) {
+		snprintf(out, size, "%.40s" DIAG_AND "TIME" DIAG_AND "%.44s", name, timed);
+		return DIAG_WRONG_CONSTANT;
+	}
+	return DIAG_COUNT;
+}
+
 /* @kinds: kinds of words to suggest in the message. */
 static void report_unknown(struct operand_check *c, struct operand_spot at, uint32_t id,
 			   enum diag_id why, unsigned int kinds)
 {
 	const char *name = project_text(c->project, id);
-	char text[LIMIT_ARG];
+	char text[2 * LIMIT_ARG];
+	const enum diag_id foreign = c->rung ? DIAG_COUNT : foreign_constant(name, text, sizeof(text));
 
+	if (foreign != DIAG_COUNT) {
+		operand_report(c, foreign, at, text);
+		return;
+	}
 	if (why != DIAG_UNKNOWN_NAME) {
 		char told[2 * LIMIT_ARG];
 
@@ -639,6 +672,15 @@ static bool use_measured(struct operand_check *c, struct operand_spot at, struct
 	return true;
 }
 
+/* `Table(1)` for Table[1]. */
+static bool is_array_name(struct operand_check *c, const struct expr_node *call)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(c->scope, c->pou, operand_intern(c, call->text, call->len), &why);
+
+	return m && m->kind == MEANING_ARRAY;
+}
+
 static void check_call(struct operand_check *c, struct operand_spot at, struct expr *expr,
 		       const struct expr_node *call)
 {
@@ -652,6 +694,14 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 		return;
 	if (word == WORD_COUNT && !c->rung && use_measured(c, at, expr, call))
 		return;
+	if (word == WORD_COUNT && !c->rung && is_array_name(c, call)) {
+		char text[2 * LIMIT_NAME + 8];
+		const int len = call->len < LIMIT_NAME ? call->len : LIMIT_NAME;
+
+		snprintf(text, sizeof(text), "%.*s(" DIAG_AND "%.*s[", len, call->text, len, call->text);
+		operand_report(c, DIAG_ST_FOREIGN, at, text);
+		return;
+	}
 	if (word == WORD_COUNT) {
 		report_call(c, at, words_find(words, call->text, call->len) == WORD_COUNT ?
 			    DIAG_UNKNOWN_WORD : DIAG_NOT_FUNCTION, call, row, &args);

@@ -86,10 +86,31 @@ static const struct word_pin *pin_of(struct callee *callee, const struct st_part
 	return index >= 0 && index < callee->row->pin_count ? &callee->row->pin[index] : NULL;
 }
 
+/* `IN = On` for IN := On. */
+static bool said_equals(struct operand_check *c, const struct callee *callee, const struct st_part *part,
+			const struct expr *expr)
+{
+	const struct expr_node *root = &expr->node[expr->root];
+	const struct expr_node *left = root->op == EXPR_FN && root->fn == FN_EQ ? &expr->node[root->left] : NULL;
+	char text[LIMIT_ARG];
+	enum diag_id why;
+
+	if (!left || left->op != EXPR_NAME || part->pin.len || !callee->row || left->len > 20 ||
+	    word_pin_find(callee->row, left->text, left->len) < 0 ||
+	    scope_find(c->scope, c->pou, names_intern(&c->project->names, left->text, left->len), &why))
+		return false;
+	c->spot = left->text;
+	snprintf(text, sizeof(text), "%.*s =" DIAG_AND "%.*s :=", left->len, left->text, left->len, left->text);
+	check_said(c, DIAG_ST_FOREIGN, text);
+	return true;
+}
+
 static void check_argument(struct operand_check *c, struct callee *callee, const struct st_part *part,
 			   struct expr *expr)
 {
 	const struct word_pin *pin = pin_of(callee, part);
+	if (said_equals(c, callee, part, expr))
+		return;
 	const int at = pin ? (int)(pin - callee->row->pin) : INT_MAX;
 	const bool whole = pin && (pin->elements || pin->type == IEC_NONE);
 

@@ -611,6 +611,32 @@ static bool said_for(struct st_reader *s, const struct lex *first)
 	return true;
 }
 
+static bool is_digit(char byte)
+{
+	return byte >= '0' && byte <= '9';
+}
+
+/* `1,5` and `.5` at @lex. */
+static bool said_number(struct st_reader *s, const struct lex *first, const struct lex *lex)
+{
+	const char *sign = lex->token.text, *from = sign, *to = sign + 1;
+	char right[40];
+	struct token at = lex->token;
+
+	if ((*sign != ',' && *sign != '.') || to >= lex->end || !is_digit(*to))
+		return false;
+	while (from > first->token.text && is_digit(from[-1]))
+		from--;
+	while (to < lex->end && is_digit(*to))
+		to++;
+	if (to - from > 30 || (*sign == ',' && from == sign))
+		return false;
+	at.column -= (int)(sign - from);
+	snprintf(right, sizeof(right), "%.*s.%.*s", from == sign ? 1 : (int)(sign - from),
+		 from == sign ? "0" : from, (int)(to - sign - 1), sign + 1);
+	return !said_foreign(s, &at, from, (int)(to - from), right);
+}
+
 /* Takes back what was said since @count and @errors, if there is a better reason. */
 static void said_better(struct st_reader *s, enum st_kind kind, const struct lex *first,
 			const struct lex *lex, int count, int errors)
@@ -629,6 +655,8 @@ static void said_better(struct st_reader *s, enum st_kind kind, const struct lex
 		said_of(s, DIAG_ST_DECLARES, &first->token, "");
 		return;
 	}
+	if (said_number(s, first, lex))
+		return;
 	if (lex_is(lex, "STEP") && kind == ST_FOR) {
 		said_of(s, DIAG_ST_FOREIGN, &lex->token, "BY");
 		return;
