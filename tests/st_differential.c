@@ -93,7 +93,7 @@ static int64_t input_value(struct random_source *source, const struct iec_type_r
 	switch (random_below(source, 5)) {
 	case 0: return row->low;
 	case 1: return row->high;
-	case 2: return row->low + (int64_t)(bits % ((uint64_t)row->high - (uint64_t)row->low));
+	case 2: return (int64_t)((uint64_t)row->low + bits % ((uint64_t)row->high - (uint64_t)row->low));
 	default: return (int64_t)random_below(source, 8) + (row->low < 0 && row->size > 1 ? -2 : 0);
 	}
 }
