@@ -522,6 +522,7 @@ $(BIN)/ladder_random: $(call obj,$(wildcard tests/classic/ladder_*.c) tests/walk
 tests: $(BIN)/classic_trace $(BIN)/classic_random $(BIN)/ladder_random
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_O)
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
+$(BIN)/fuzz_st: $(BUILD)/tests/st/st_random.o
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
 $(BIN)/fuzz_link $(BIN)/fuzz_serial: $(filter-out %/finder_avahi.o,$(ONLINE))
@@ -546,7 +547,7 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|code|s
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
-	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
+	  $(if $(filter st,$(TARGET)),tests/st/st_random.c tests/walker/random.c $(filter-out tests/walker/random_sfc%,$(wildcard tests/walker/random_*.c)) $(wildcard tests/walker/words*.c)) $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----

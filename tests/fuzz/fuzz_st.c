@@ -4,10 +4,11 @@
  * runs them. What was read is written, and reads again the same.
  *
  * Bytes that are no ASCII stand for words of the language, so that much of what they make is close to a
- * program.
+ * program. An input that begins with MADE is a random program (tests/st/st_random.h) with a few changes.
  */
 #include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/st/st_random.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,10 @@ static const char *const words[] = {
 	"MAX(", "LIMIT(", "SEL(", "INT_TO_REAL(", "(* c *)", "// c\n", "END_PROGRAM\n", "VAR\n", "END_VAR\n", "{p}", "K#Red",
 };
 #define WORDS (sizeof(words) / sizeof(*words))
+
+#define MADE 0x01
+#define MADE_MAX (64 * 1024)
+#define CHANGES 3
 
 uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 {
@@ -82,6 +87,32 @@ static char *spell(const uint8_t *bytes, size_t len, size_t *out_len)
 	return text;
 }
 
+/* The program of the number in bytes 1 and 2; each 4 bytes more put a word, or nothing, in place of what stands
+ * between two places. malloc'ed. */
+static char *make(const uint8_t *bytes, size_t len, size_t *out_len)
+{
+	char *text = malloc(MADE_MAX + CHANGES * 32);
+	size_t size;
+
+	if (!text)
+		return NULL;
+	size = st_random_print((uint64_t)bytes[1] << 8 | bytes[2], text, MADE_MAX);
+	for (size_t i = 3; i + 4 <= len && i < 3 + 4 * CHANGES; i += 4) {
+		const size_t at = ((size_t)bytes[i] << 8 | bytes[i + 1]) % size;
+		size_t end = at + bytes[i + 2] % 12;
+		const char *word = bytes[i + 3] >= PLAIN ? words[(bytes[i + 3] - PLAIN) % WORDS] : "";
+		const size_t word_len = strlen(word);
+
+		if (end > size)
+			end = size;
+		memmove(text + at + word_len, text + end, size - end);
+		memcpy(text + at, word, word_len);
+		size = at + word_len + size - end;
+	}
+	*out_len = size;
+	return text;
+}
+
 static void write_twice(struct ladder *ladder)
 {
 	size_t len, again_len;
@@ -123,7 +154,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	struct ladder *ladder = ladder_new();
 	struct diag_list *diags = ladder_diags(ladder);
 	size_t size = 0;
-	char *text = spell(bytes, len, &size);
+	char *text = len > 2 && *bytes == MADE ? make(bytes, len, &size) : spell(bytes, len, &size);
 
 	fuzz_expect(ladder && text, "memory");
 	ladder_watch(ladder, len % 2);
