@@ -251,7 +251,8 @@ static void st_keywords(void)
 	}
 	for (size_t i = 0; i < sizeof(other) / sizeof(other[0]); i++)
 		printf("      <keyword>%s</keyword>\n", other[i]);
-	printf("    </context>\n    <context id=\"type\" style-ref=\"type\">\n");
+	printf("    </context>\n    <context id=\"type\" style-ref=\"type\">\n"
+	       "      <prefix>(?&lt;!\\.)\\b</prefix>\n"); /* not the member .Time */
 	for (int i = 1; i < IEC_TYPE_COUNT; i++)
 		printf("      <keyword>%s</keyword>\n", iec_type_row((enum iec_type)i)->word);
 	printf("    </context>\n");

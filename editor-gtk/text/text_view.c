@@ -12,6 +12,7 @@
 #include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
+#include "editor-gtk/sim/st_why.h"
 #include "editor-gtk/kit/text_scheme.h"
 #include "editor-gtk/kit/verbs.h"
 #include "editor-gtk/kit/gtk48/text_scroll.h"
@@ -495,6 +496,20 @@ static char *values_of(LadderTextView *view, int line)
 		project->pou[view->pou].name), text);
 	g_free(text);
 	return values;
+}
+
+char *ladder_text_view_why(LadderTextView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+	char *text, *why;
+
+	if (!view->sim || !ladder_text_view_is_st(view))
+		return NULL;
+	text = text_of_buffer(view);
+	why = st_why(view->sim, project_text(project, project->pou[view->pou].name), text,
+		     cursor_line(view));
+	g_free(text);
+	return why;
 }
 
 char *ladder_text_view_tip(LadderTextView *view, int line)

@@ -46,6 +46,9 @@ gboolean ladder_text_view_format(LadderTextView *view);
 /** ladder_text_view_mend - mends the first error of the cursor's line whose message says how.
  * Fails: FALSE: there is none. */
 gboolean ladder_text_view_mend(LadderTextView *view);
+/** ladder_text_view_why - why the condition in the line of the cursor is TRUE or FALSE, in
+ * Structured Text while simulating; NULL: no condition is there. Caller frees. */
+char *ladder_text_view_why(LadderTextView *view);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);

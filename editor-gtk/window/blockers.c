@@ -164,6 +164,15 @@ static bool meant(LadderGridView *sheet, int *row, int *col)
 	return false;
 }
 
+static void tell_condition(struct blockers *blockers, LadderTextView *list)
+{
+	char *why = ladder_text_view_why(list);
+
+	messages_tell(blockers->core->messages, why ? why :
+		      _("No condition begins in this line whose values are known."));
+	g_free(why);
+}
+
 void blockers_ask(struct blockers *blockers)
 {
 	LadderGridView *sheet = front_seen_sheet(blockers->core->front);
@@ -179,6 +188,10 @@ void blockers_ask(struct blockers *blockers)
 	/* Opens the condition as rungs first, so that their power is visible. */
 	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
+	if (!sheet && front_list(blockers->core->front)) {
+		tell_condition(blockers, front_list(blockers->core->front));
+		return;
+	}
 	if (!sheet || !meant(sheet, &row, &col)) {
 		messages_tell(blockers->core->messages, _("Put the cursor on an element first"));
 		return;

@@ -251,6 +251,8 @@ def simulated(screen):
         until(lambda: 'value Idle' in described(view), 'the name of the value')
         go(editor, view, 'IF Level', 'Level')
         until(lambda: 'value 0 \u00b7 200, result FALSE' in described(view), 'the condition')
+        editor.keys('ctrl+F12')
+        editor.says('FALSE: Level > Mix.Wanted is not true (Level = 0, Mix.Wanted = 200)')
         editor.shot('st-simulated' + ('-dark' if env else ''))
         editor.finish()
 

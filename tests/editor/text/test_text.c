@@ -6,6 +6,7 @@
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/sim/st_why.h"
 #include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
@@ -157,7 +158,7 @@ static void test_statement_colours(void)
 		{ "  Sum := Level(1);", 11, false }, { "  Wait : TON;", 10, true },
 		{ "  Wait : ARRAY[1..2] OF TON;", 25, true }, { "  END_REPEAT", 4, true },
 		{ "  Level := %IW2;", 12, true }, { "  Level := TRUE;", 12, true },
-		{ "  X : LREAL;", 8, true },
+		{ "  X : LREAL;", 8, true }, { "  X := Mix.Time;", 13, false },
 	};
 	LadderDocument *other = ladder_document_new();
 	GtkSourceBuffer *body;
@@ -581,6 +582,35 @@ static const char statements[] =
 	"  CASE Now OF\n    Idle:\n      PT := 1;\n    Filling:\n      PT := 2;\n  END_CASE;\n"
 	"  WHILE FALSE DO\n    PT := 3;\n  END_WHILE;\nEND_PROGRAM\n";
 
+static void check_why(LadderSim *sim, const char *condition, const char *wanted)
+{
+	char *text = g_strdup_printf("PROGRAM Main ST\n  %s\n", condition);
+	char *why = st_why(sim, "Main", text, 1);
+
+	CHECK_TEXT(why ? why : "", wanted);
+	g_free(why);
+	g_free(text);
+}
+
+/* The parts of a condition that decide. */
+static void test_why(LadderSim *sim)
+{
+	check_why(sim, "IF Start THEN", "FALSE: Start is FALSE");
+	check_why(sim, "ELSIF Level > 5 AND NOT Start THEN",
+		  "TRUE: Level > 5 is true (Level = 107); and NOT Start is true");
+	check_why(sim, "IF Start OR Level < 5 THEN",
+		  "FALSE: Start is FALSE; and Level < 5 is not true (Level = 107)");
+	check_why(sim, "IF Level > 5 AND (Start OR Wait.Q) THEN", "FALSE: (Start OR Wait.Q) is not true");
+	check_why(sim, "IF Start OR Now = Idle THEN", "TRUE: Now = Idle is true (Now = Idle)");
+	check_why(sim, "WHILE Now = Phase#Filling DO",
+		  "FALSE: Now = Phase#Filling is not true (Now = Idle)");
+	check_why(sim, "UNTIL i >= 2 // why\n END_REPEAT;", "TRUE: i >= 2 is true (i = 2)");
+	check_why(sim, "Start := Level = 107;", "TRUE: Level = 107 is true (Level = 107)");
+	check_why(sim, "Level := Level + 1;", "");
+	check_why(sim, "IF Nowhere THEN", "");
+	check_why(sim, "END_IF;", "");
+}
+
 /* Structured Text: the values of a line, what a condition was, and which lines ran. */
 static void test_statement_values(void)
 {
@@ -610,6 +640,7 @@ static void test_statement_values(void)
 	      has_result("FOR i", NULL) && has_beside("FOR i", "2"));
 	CHECK(has_result("PT := 1", "1") && has_result("PT := 2", "not run") &&
 	      has_result("WHILE FALSE", "FALSE") && has_result("PT := 3", "not run"));
+	test_why(sim);
 	set_bit(sim, "Start", true);
 	CHECK_SOON(has_result("IF Start", "TRUE"));
 	CHECK(has_result("ELSIF Level", "not run") && has_result("Level := Level", "not run") &&
