@@ -10,7 +10,7 @@
 /* A list of tabs: the pinned ones, or the others. */
 struct seen {
 	GtkWidget *tabs;        /* borrowed: @down is its                         */
-	double width;           /* px, at the last look                           */
+	double width, upper;    /* px, at the last look                           */
 	guint idle;
 };
 
@@ -56,10 +56,12 @@ static gboolean show_selected(gpointer data)
 static void along_changed(GtkAdjustment *along, struct seen *seen)
 {
 	const double width = gtk_adjustment_get_page_size(along);
+	const double upper = gtk_adjustment_get_upper(along);
 
-	if (width < seen->width && !seen->idle)
+	if ((width < seen->width || upper != seen->upper) && !seen->idle)
 		seen->idle = g_idle_add(show_selected, seen);
 	seen->width = width;
+	seen->upper = upper;
 }
 
 static void keep_in(GtkWidget *widget)
