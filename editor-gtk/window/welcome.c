@@ -333,6 +333,8 @@ GtkWidget *welcome_new(void)
 		"win.begin", NULL);
 	add_row(begin, _("New project with a chart"), _("A sequence of steps and transitions."),
 		"win.begin-chart", NULL);
+	add_row(begin, _("New project in Structured Text"), _("Statements and expressions as text."),
+		"win.begin-statements", NULL);
 	add_row(begin, _("Open a file…"), _("Rung files. A damaged file opens as text."),
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),

@@ -240,6 +240,20 @@ def empty(screen):
     editor.element('Rung 1, NO', 'Start')
 
 
+def statements(screen):
+    """a project in Structured Text is begun from the welcome page; what is typed next is its first statement"""
+    path = os.path.join(screen.home, 'lamp.rung')
+    editor = Editor(screen)
+    editor.click(editor.find('New project in Structured Text', 'label'))
+    until(lambda: not editor.all('Samples, opened as copies'), 'the page to be gone')
+    editor.focus_on(role='text')
+    editor.type('Q0 := I0;')
+    editor.shot('begin-statements')
+    editor.give_path(path, 'ctrl+s')
+    until(lambda: os.path.exists(path) and 'PROGRAM Main ST\n  Q0 := I0;\nEND_PROGRAM' in open(path).read(), 'the statement in the file')
+    check(path)
+
+
 def searched(screen):
     """the palette finds an element by its word or its description; Return puts it at the cursor, Escape ends the search"""
     path = new_file(screen, PROGRAM)
@@ -338,4 +352,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, cards, belongings, killed, lately, only_projects, empty, searched, folded, tables])
+main([sample, cards, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])
