@@ -295,6 +295,13 @@ static int lack_of(const struct panel_column *column)
 	       MAX(column->whole - wish_of(column), 0) : 0;
 }
 
+/* Px of its longest text that one that does not expand cuts. */
+static int cut_of(const struct panel_column *column)
+{
+	return is_ours(column) && !gtk_column_view_column_get_expand(column->column) ?
+	       MAX(column->whole - wish_of(column), 0) : 0;
+}
+
 static bool has_column(struct panel_list *list, const GtkColumnViewColumn *column)
 {
 	bool has = false;
@@ -327,6 +334,7 @@ struct widths {
 	int lack;   /* of the texts of one that expands                       */
 	int slack;  /* all wishes less what texts and headings need           */
 	int spare;  /* what texts need beyond their headings                   */
+	int cut;    /* of the texts of those that do not expand                */
 };
 
 static struct widths widths_of(struct panel_list *list)
@@ -342,6 +350,7 @@ static struct widths widths_of(struct panel_list *list)
 		of.lack += lack_of(each);
 		of.slack += slack_of(each);
 		of.spare += spare_of(each);
+		of.cut += cut_of(each);
 	}
 	return of;
 }
@@ -540,14 +549,14 @@ static void forget_actions(struct panel_list *list)
 	g_clear_object(&list->actions);
 }
 
-/* Each column has the width that it wishes, or more for its texts. Where that is more than the
- * list has, or the texts of one that expands lack room, all give up what their texts do not need,
+/* Each column has the width that it wishes, or more for its texts; room that is left then goes to
+ * texts that are cut. Where that is more than the list has, or the texts of one that expands lack room, all give up what their texts do not need,
  * then headings have two lines, then columns leave. If then all headings can be seen where long
  * texts end in an ellipsis, they do. */
 static void fit(struct panel_list *list)
 {
 	struct widths of;
-	int over = 0, cut = 0;
+	int over = 0, cut = 0, more = 0;
 
 	measure(list);
 	set_low(list, false);
@@ -566,6 +575,7 @@ static void fit(struct panel_list *list)
 		cut = MAX(of.all - of.slack - list->page, 0);
 		if (cut > of.spare)
 			cut = 0;
+		more = CLAMP(list->page - of.all - of.lack, 0, of.cut);
 	}
 	show_headings(list);
 	for (guint i = 0; i < list->columns->len; i++) {
@@ -573,10 +583,11 @@ static void fit(struct panel_list *list)
 		const int now = list_column_width(each->column);
 		const int less = share(slack_of(each), over, of.slack) +
 				 share(spare_of(each), cut, of.spare);
+		const int grown = of.cut > 0 ? (int)((gint64)cut_of(each) * more / of.cut) : 0;
 
 		if (!each->width || now != each->set || each->away)
 			continue;
-		each->set = wish_of(each) - less;
+		each->set = wish_of(each) - less + grown;
 		if (each->set != now)
 			gtk_column_view_column_set_fixed_width(each->column, each->set);
 	}

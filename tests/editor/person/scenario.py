@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import LADDER, Chinese, Editor, main, new_file, until  # noqa: E402
+from desk import LADDER, Chinese, Editor, main, new_file, sh, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -105,6 +105,25 @@ def rests(screen):
     editor.shot('scenario-rests')
 
 
+def long_names(screen):
+    """a name is whole where the list has room for it; in a narrow window it ends in an ellipsis, and the result has room"""
+    path = new_file(screen, PROGRAM, 'motor.rung')
+    name = 'The motor starts by itself at once, and nobody knows who built it so'
+    new_file(screen, BAD.replace('starts by itself', name), 'motor.scn')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+F5')
+    editor.tab('Scenarios')
+
+    def width(window):
+        sh('xdotool', 'windowsize', '--sync', editor.window, str(window), '700')
+        until(lambda: editor.place()[2] <= window, 'that window')
+        return [until(lambda: row(editor, text), text).box()[2] for text in (name, 'failed: at 50 ms')]
+    until(lambda: width(1400)[0] >= 400, 'the whole name')
+    editor.shot('scenario-long')
+    until(lambda: 100 < width(900)[0] < 300 and width(900)[1] > 150, 'room for the result')
+
+
 def fails(screen):
     """Run all: one fails, one was recorded on another machine; each opens at its line and scan"""
     path = new_file(screen, PROGRAM, 'motor.rung')
@@ -152,4 +171,4 @@ def chinese(screen):
 
 
 chinese.size = '1024x700x24'
-main([records, rests, fails, chinese])
+main([records, rests, long_names, fails, chinese])
