@@ -295,8 +295,25 @@ static void print_value(LadderLineValues *values, struct seen *seen, const struc
 		print_parts(values, seen, image);
 }
 
-static void print_result(struct seen *seen, const struct image *image)
+/* The name of what was stored, if the line begins with a variable of an enumeration. */
+static const char *stored_name(LadderLineValues *values, const struct seen *seen,
+			       const struct image *image)
 {
+	struct ladder *ladder = ladder_sim_ladder(values->sim);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+
+	for (guint i = 0; project && seen->like && i < seen->parts->len; i++)
+		if (g_array_index(seen->parts, struct live_part, i).at.type != IEC_NONE)
+			return seen->result.at.type == IEC_BOOL || !seen->like[i] ? NULL :
+			       named_word(project, seen->like[i],
+					  image_get(image, seen->result.at).i);
+	return NULL;
+}
+
+static void print_result(LadderLineValues *values, struct seen *seen, const struct image *image)
+{
+	const char *name;
+
 	seen->after[0] = '\0';
 	if (seen->missing)
 		g_strlcpy(seen->after, _("not downloaded"), sizeof(seen->after));
@@ -305,6 +322,8 @@ static void print_result(struct seen *seen, const struct image *image)
 	seen->ran = image->memory[seen->result.ran];
 	if (!seen->ran)
 		g_strlcpy(seen->after, _("not run"), sizeof(seen->after));
+	else if (seen->result.at.type != IEC_NONE && (name = stored_name(values, seen, image)))
+		g_strlcpy(seen->after, name, sizeof(seen->after));
 	else if (seen->result.at.type != IEC_NONE)
 		live_value_print(seen->result.at.type, image_get(image, seen->result.at),
 				 seen->after, sizeof(seen->after));
@@ -411,7 +430,7 @@ static struct seen *seen_of(LadderLineValues *values, int line)
 		g_free(text);
 	}
 	print_value(values, seen, &twin->resource.image);
-	print_result(seen, &twin->resource.image);
+	print_result(values, seen, &twin->resource.image);
 	return seen;
 }
 

@@ -257,5 +257,37 @@ def simulated(screen):
         editor.finish()
 
 
+PLAIN = '''TYPE
+  Phase : (Idle, Filling := 3, Draining);
+END_TYPE
+
+PROGRAM Main
+VAR
+  Wait : TON;
+  Now  : Phase;
+END_VAR
+  Wait(IN := TRUE, PT := T#1s);
+END_PROGRAM
+'''
+
+
+def plain(screen):
+    """a file of plain IEC text has the same sheet, and stays such a file"""
+    path = new_file(screen, PLAIN, 'plant.st')
+    editor = Editor(screen, path)
+    view = editor.find('Text of the program')
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the text')
+    editor.keys('ctrl+Home', *['Down'] * 5, 'End', 'Return')
+    editor.type('Now := Dr')
+    offered(editor, 'Draining')
+    editor.keys('Return')
+    editor.type(';')
+    good(editor)
+    editor.shot('st-plain')
+    assert editor.save(path) == PLAIN.replace('T#1s);', 'T#1s);\n  Now := Draining;')
+    check(path)
+
+
 completed.quick = 'editor-gtk/text'
-main([completed, wrong, names, formatted, simulated])
+main([completed, wrong, names, formatted, simulated, plain])

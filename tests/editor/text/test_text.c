@@ -645,6 +645,7 @@ static void test_statement_values(void)
 	CHECK_SOON(has_result("IF Start", "TRUE"));
 	CHECK(has_result("ELSIF Level", "not run") && has_result("Level := Level", "not run") &&
 	      has_result("PT := 2", "2") && has_beside("Now := ", "Filling") &&
+	      has_result("Now := ", "Filling") &&
 	      has_beside("CASE Now", "Filling"));
 	CHECK(ladder_sim_show(sim, 1));
 	CHECK_AS(has_result("IF Start", "FALSE") && has_beside("Now := ", "Idle"),
