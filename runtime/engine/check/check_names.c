@@ -279,6 +279,21 @@ static void check_range(struct names_check *c, const struct var *var, struct dia
 			report_outside(c, var, var->init_list[i].value.i, place);
 }
 
+/* := REF(Name) */
+static void check_points(struct names_check *c, const struct pou *pou, const struct var *var)
+{
+	const uint32_t name = names_intern(&c->project->names, text_of(c, var->points->text) + 1,
+					   strlen(text_of(c, var->points->text)) - 1);
+	const struct meaning *m;
+	enum diag_id why;
+
+	m = scope_find(c->scope, pou, name, &why);
+	if (m && scope_find(c->scope, pou, var->points->text, &why))
+		uses_add(&c->uses, m, USE_READ | USE_WRITTEN);
+	else
+		report_line(c, why, pou, var->line, text_of(c, name));
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint16_t flags)
 {
@@ -308,6 +323,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
+	if (var->points)
+		check_points(c, pou, var);
 	check_range(c, var, place_of(c, DIAG_COUNT, pou, var->line));
 	if (init_has_parts(var))
 		c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,

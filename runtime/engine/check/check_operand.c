@@ -184,6 +184,8 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 		return operand_refuse(c, fault, at, id, m);
 	/* Writes in a chart do not happen in every scan, so two of them are no conflict. */
 	always &= c->pou->language != LANGUAGE_SFC;
+	if (m->through)
+		uses_add(c->uses, m, USE_READ); /* the pointer is */
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
 		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
 	return m;
@@ -522,7 +524,7 @@ static void use_element(struct operand_check *c, struct operand_spot at, uint32_
 	else if (write && !m->writable)
 		operand_refuse(c, DIAG_WRITE_INPUT, at, id, m);
 	else
-		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
+		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) | (!write || m->through ? USE_READ : 0u));
 }
 
 /* A value, or if @whole an array, too. */
@@ -554,11 +556,38 @@ static void check_bit(struct operand_check *c, struct operand_spot at, uint32_t 
 	operand_report(c, DIAG_NO_SUCH_PART, at, text);
 }
 
+/* May a pointer lead to it? */
+static void check_place(struct operand_check *c, struct operand_spot at, const char *name)
+{
+	char text[LIMIT_NAME + 4];
+	enum diag_id why;
+	const int len = snprintf(text, sizeof(text), "&%s", name);
+
+	if (!scope_find(c->scope, c->pou, operand_intern(c, text, (size_t)len), &why) &&
+	    why == DIAG_ADR_OF)
+		operand_report(c, why, at, name);
+}
+
 /* What an assignment writes. */
 static void use_target(struct operand_check *c, struct operand_spot at, const struct expr *expr)
 {
 	uint32_t id = operand_intern(c, expr->target, expr->target_len);
 
+	if (expr->target_points) {
+		const struct expr_node *root = &expr->node[expr->root];
+		char text[2 * LIMIT_NAME + 4];
+		const int len = snprintf(text, sizeof(text), "@%.*s", (int)expr->target_len, expr->target);
+
+		id = operand_intern(c, text, (size_t)len);
+		operand_write(c, at, id, false);
+		snprintf(text, sizeof(text), "%.*s", root->len, root->text);
+		c->spot = root->text;
+		if (root->op != EXPR_NAME || expr->target_index >= 0)
+			operand_report(c, DIAG_ADR_OF, at, text);
+		else
+			check_place(c, at, text);
+		return;
+	}
 	if (expr->target_index >= 0) {
 		if (expr->target_base >= 0)
 			id = use_indices(c, at, expr, expr->target_base);
@@ -658,6 +687,10 @@ static bool use_measured(struct operand_check *c, struct operand_spot at, struct
 		       of->text);
 	of->whole = true;
 	c->spot = of->text;
+	if (adr && of->op == EXPR_INDEX && of->right < 0 && !of->tail.len) {
+		check_place(c, at, text + 1);
+		return true;
+	}
 	if (of->op != EXPR_NAME) {
 		operand_report(c, DIAG_ADR_OF, at, of->len ? text + 1 : "+");
 		return true;
@@ -665,9 +698,12 @@ static bool use_measured(struct operand_check *c, struct operand_spot at, struct
 	m = scope_find(c->scope, c->pou, operand_intern(c, text + 1, (size_t)len - 1), &why);
 	if (!m)
 		return true; /* the name is told as any other */
-	if (adr && !scope_find(c->scope, c->pou, operand_intern(c, text, (size_t)len), &why) &&
-	    why == DIAG_ADR_OF)
-		operand_report(c, why, at, text + 1);
+	if (adr && m->opens == 1 && text[len - 1] == ']') {
+		text[expr_array(text, (size_t)len)] = '\0';
+		check_place(c, at, text + 1);
+	} else if (adr) {
+		check_place(c, at, text + 1);
+	}
 	uses_add(c->uses, m, adr ? USE_READ | USE_WRITTEN : USE_READ);
 	return true;
 }

@@ -418,6 +418,7 @@ struct path {
 	int opens;
 	const struct meaning *index_of;
 	enum diag_id why;
+	bool raw;                /* a REFERENCE is meant, not what it leads to */
 };
 
 static bool refuse(struct path *path, enum diag_id why)
@@ -706,31 +707,57 @@ const struct areas *scope_areas(const struct scope *scope)
 	return &scope->areas;
 }
 
-/* `^` behind a pointer: what it points to. Its element, if that is an array, has an index. */
-static bool step_through(struct path *path)
+/* What a pointer at @path leads to. */
+static bool mean_target(struct path *path, const struct var_target *target)
 {
-	const struct var_target *target = path->m.like ? path->m.like->target : NULL;
+	const struct var *like = target->like;
 	struct meaning *pointer;
 
-	path->at++;
-	if (!target || path->opens || path->m.through || meaning_is_whole(&path->m))
-		return refuse(path, DIAG_NOT_POINTER);
+	while (like->named && scope_project(path->scope)->named[like->named - 1].like.var)
+		like = scope_project(path->scope)->named[like->named - 1].like.var;
 	pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
 	if (!pointer)
 		return refuse(path, DIAG_NO_MEMORY);
 	*pointer = path->m;
 	path->m = (struct meaning){
-		.kind = target->list ? MEANING_ARRAY : MEANING_ELEMENT, .type = target->type,
+		.kind = target->list ? MEANING_ARRAY : MEANING_ELEMENT, .type = like->type,
 		.writable = true, .index = pointer->index, .pou = pointer->pou,
 		.var = pointer->var, .through = pointer,
 	};
 	if (target->list) {
-		path->m.stride = iec_type_row(target->type)->size;
+		path->m.stride = iec_type_row(like->type)->size;
 		path->m.array = (struct var_array){ target->low, LIMIT_ELEMENTS };
+	} else if (like->type == IEC_NONE) {
+		path->m.word = (uint16_t)like->fb;
+		scope_mean_whole(path->scope, like->fb, &path->m);
 	}
 	return true;
 }
 
+/* A REFERENCE TO is what it leads to, unless its own place is meant. */
+static bool follow(struct path *path)
+{
+	const struct var_target *target = path->m.kind != MEANING_LITERAL && path->m.like ?
+					  path->m.like->target : NULL;
+
+	if (!target || target->word != REFERENCE_TO || path->raw || path->m.through ||
+	    path->m.kind == MEANING_ARRAY || path->opens)
+		return true;
+	return mean_target(path, target);
+}
+
+/* `^` behind a pointer: what it points to. Its element, if that is an array, has an index. */
+static bool step_through(struct path *path)
+{
+	const struct var_target *target = path->m.like ? path->m.like->target : NULL;
+
+	path->at++;
+	if (path->m.through && path->m.through->like->target->word == REFERENCE_TO && !path->opens)
+		return true; /* r and r^ are the same */
+	if (!target || path->opens || path->m.through || meaning_is_whole(&path->m))
+		return refuse(path, DIAG_NOT_POINTER);
+	return mean_target(path, target);
+}
 /* ---- paths ---- */
 
 /* An address before [ is an array that reaches to the end of its area. */
@@ -759,7 +786,7 @@ static bool begin(struct path *path)
 	if (!len || path->at == path->end)
 		return false;
 	if (scope_mean_name(path->scope, path->table, text, len, &path->m))
-		return true;
+		return follow(path);
 	path->at = start;
 	len = take(path, "[", &text); /* %MX0.0[3] */
 	return path->at < path->end && begin_address(path, text, len);
@@ -786,6 +813,8 @@ static bool finish(struct path *path, struct meaning *out)
 {
 	struct meaning *m = &path->m;
 
+	if (m->through && m->kind == MEANING_STRUCT)
+		return refuse(path, DIAG_THROUGH_WHOLE);
 	m->index_of = path->index_of;
 	if (path->opens) {
 		if (m->kind == MEANING_INSTANCE)
@@ -806,11 +835,11 @@ static bool finish(struct path *path, struct meaning *out)
 /* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`, with or without blanks inside
  * brackets. Scan-safe: no. Fails: false with @why; @out is unchanged. */
 static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
-			    size_t len, struct meaning *out, enum diag_id *why)
+			    size_t len, bool raw, struct meaning *out, enum diag_id *why)
 {
 	struct open_index open[LIMIT_INDICES];
 	struct path path = { .scope = scope, .table = table, .at = text,
-			     .end = text + len, .open = open, .pin = -1,
+			     .end = text + len, .open = open, .pin = -1, .raw = raw,
 			     .why = *why };
 	bool good = begin(&path);
 
@@ -823,7 +852,7 @@ static bool scope_mean_path(struct scope *scope, uint32_t table, const char *tex
 		       *path.at == '^' ? step_through(&path) :
 					 refuse(&path, DIAG_UNKNOWN_NAME);
 	}
-	good = good && finish(&path, out);
+	good = good && follow(&path) && finish(&path, out);
 	*why = path.why;
 	return good;
 }
@@ -859,18 +888,30 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	struct names *names = &scope->project->names;
 	const char *text = names_text(names, id);
 	size_t len = names_len(names, id);
+	const bool raw = len > 1 && *text == '@'; /* what REF= stores to */
 	const struct declared *slot;
 
 	*why = DIAG_UNKNOWN_NAME;
+	if (raw) {
+		text++;
+		len--;
+		id = names_intern(names, text, len);
+	}
 	slot = find_declared(scope, table, names_fold(names, id));
 	if (slot) {
-		mean_variable(scope, slot, out);
+		struct path path = { .scope = scope, .raw = raw, .pin = -1 };
+
+		mean_variable(scope, slot, &path.m);
+		if (!follow(&path) || !finish(&path, out)) {
+			*why = path.why;
+			return false;
+		}
 		return true;
 	}
 	if (len > 1 && *text == '&')
 		return mean_address_of(scope, table, text, len, out, why);
 	if (scope_has_index(text, len))
-		return scope_mean_path(scope, table, text, len, out, why);
+		return scope_mean_path(scope, table, text, len, raw, out, why);
 	if (is_step(scope, table, text, len, why))
 		return false;
 	*why = DIAG_UNKNOWN_NAME;
@@ -883,9 +924,11 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		if (*why != DIAG_UNKNOWN_NAME)
 			return false;
 	}
+	if (ascii_is("NULL", text, len))
+		return mean_literal("LWORD#0", 7, out, why);
 	return mean_system(text, len, out) ||
 	       (memchr(text, '.', len) &&
-		scope_mean_path(scope, table, text, len, out, why)) ||
+		scope_mean_path(scope, table, text, len, raw, out, why)) ||
 	       mean_literal(text, len, out, why) ||
 	       scope_mean_address(scope, text, len, out, why);
 }

@@ -206,6 +206,20 @@ static void expr_skip_path(struct lex *lex)
 	}
 }
 
+size_t expr_array(const char *text, size_t len)
+{
+	int open = 0;
+
+	while (len > 0) {
+		len--;
+		open += text[len] == ']';
+		open -= text[len] == '[';
+		if (open == 0)
+			break;
+	}
+	return len;
+}
+
 /* ---- parts of bit strings ---- */
 
 bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number)
@@ -612,6 +626,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	out->target_index = -1;
 	out->target_tail = out->target_bit = (struct expr_tail){ NULL, 0 };
 	out->target_base = -1;
+	out->target_points = false;
 	parser->bit = out->target_bit;
 }
 
@@ -684,25 +699,33 @@ static bool skip_brackets(struct lex *lex)
 	}
 }
 
-/* Whether the expression at the token is followed by :=. */
+/* REF= at the token? */
+static bool is_points(struct lex lex)
+{
+	return lex_is(&lex, "REF") && lex_next(&lex) == TOKEN_SYMBOL && lex_is(&lex, "=");
+}
+
+/* Whether the expression at the token is followed by := or REF=. */
 static bool expr_has_target(struct lex lex)
 {
 	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)
 		return false;
 	lex_next(&lex);
-	lex_accept(&lex, "^");
-	while (lex_is(&lex, "[")) {
-		if (!skip_brackets(&lex))
+	for (;;) {
+		struct lex ahead = lex;
+
+		if (lex_accept(&lex, "^"))
+			continue;
+		if (lex_is(&lex, "[") && !skip_brackets(&lex))
 			return false;
-		if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
-			lex_next(&lex);
-	}
-	/* .3, .%B1 */
-	if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_SYMBOL)
-		return false;
-	if (lex.token.kind == TOKEN_NUMBER || lex.token.kind == TOKEN_ADDRESS)
+		if (lex.at != ahead.at)
+			continue;
+		if (!lex_is(&lex, ".") || lex_next(&ahead) == TOKEN_SYMBOL)
+			break;
+		lex = ahead; /* a member, or .3, .%B1 */
 		lex_next(&lex);
-	return lex_is(&lex, ":=");
+	}
+	return lex_is(&lex, ":=") || is_points(lex);
 }
 
 /* `target :=`, if the text begins so; otherwise the lexer does not move. */
@@ -723,7 +746,10 @@ static bool take_target(struct parser *parser)
 	while (!out->target_bit.len && lex_is(lex, "["))
 		if (!take_target_index(parser))
 			return false;
-	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
+	out->target_points = is_points(*lex);
+	if (out->target_points)
+		lex_next(lex);
+	return lex_accept(lex, out->target_points ? "=" : ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
 }
 
 static bool parse_cell(struct parser *parser)

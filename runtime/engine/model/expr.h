@@ -61,6 +61,7 @@ struct expr {
 				  or a simple one within `target`             */
 	struct expr_tail target_tail; /* behind that index                    */
 	struct expr_tail target_bit;  /* of which this part is assigned: 3, %B1 */
+	bool target_points;    /* target REF= place: the reference itself     */
 	int target_base;       /* EXPR_INDEX that leads to the array of that
 				  index; -1: `target` is the array            */
 	struct expr_open { const char *text; uint16_t len; int16_t base; }
@@ -92,6 +93,9 @@ bool expr_begins(struct lex lex);
 /** expr_skip - steps over an expression, well formed or not, to the first `,` `;` `:` `]`, dot or
  * parenthesis outside of its own; @end gets where it ends. Scan-safe: yes. */
 void expr_skip(struct lex *lex, const char **end);
+/** expr_array - the bytes of the path before its last index, `Table` of `Table[i]`; @text ends with ].
+ * Scan-safe: yes. */
+size_t expr_array(const char *text, size_t len);
 /** expr_part - which bits an EXPR_BIT names: @number parts of @bits each lie below them.
  * Scan-safe: yes. Fails: false: it is no such part. */
 bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number);

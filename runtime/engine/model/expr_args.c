@@ -24,7 +24,7 @@ struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
 {
 	struct expr_node *arg = call->left >= 0 ? &expr->node[call->left] : NULL;
 
-	*adr = ascii_is("ADR", call->text, call->len);
+	*adr = ascii_is("ADR", call->text, call->len) || ascii_is("REF", call->text, call->len);
 	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || arg->len ||
 	    (!*adr && !ascii_is("SIZEOF", call->text, call->len)))
 		return NULL;

@@ -265,6 +265,7 @@ bool named_take(struct project *project, struct var *var)
 	var->capacity = like->capacity;
 	var->enumeration = like->enumeration;
 	var->range = like->range;
+	var->target = like->target;
 	if (like->array.count && !take_dimensions(project, var, like))
 		return false;
 	return take_value(project, var, like);

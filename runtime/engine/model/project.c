@@ -306,8 +306,9 @@ void project_write_type(const struct project *project, const struct var *var,
 		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
 			    (long long)var->array.low + var->array.count - 1);
 	}
-	if (var->target) {
-		sink_text(sink, "POINTER TO ");
+	if (var->target && !var->named) {
+		sink_text(sink, var->target->word == REF_TO ? "REF_TO " :
+				var->target->word == REFERENCE_TO ? "REFERENCE TO " : "POINTER TO ");
 		project_write_type(project, var->target->like, sink);
 		return;
 	}

@@ -59,12 +59,22 @@ struct var_range {
 	int64_t low, high;
 };
 
+/* How a pointer is declared. */
+enum var_pointer { POINTER_TO, REF_TO, REFERENCE_TO };
+
 /* POINTER TO T. The variable itself is an LWORD. */
 struct var_target {
+	enum var_pointer word;
 	enum iec_type type;  /* of the value, or of an element                 */
 	bool list;           /* T is an array, its first index is low          */
 	int32_t low;
 	const struct var *like; /* declared as T                               */
+};
+
+/* := REF(Name): the initial value of a pointer. */
+struct var_points {
+	int pou;             /* in which it is declared; -1: a global          */
+	uint32_t text;       /* string id: &Name                               */
 };
 
 struct var {
@@ -96,6 +106,7 @@ struct var {
 	struct var_array *dim; /* its dimensions; array has all elements, from 0 on if there are several */
 	struct var_range *range; /* of a subrange; NULL: none                   */
 	struct var_target *target; /* of a pointer; NULL: it is none            */
+	struct var_points *points; /* its initial value; NULL: NULL, or none    */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;

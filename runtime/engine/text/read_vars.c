@@ -11,6 +11,9 @@
 #include "engine/base/literal.h"
 #include "engine/model/named.h"
 
+#include <stdio.h>
+#include <string.h>
+
 static bool add_name(struct reader *r, struct var_table *table)
 {
 	uint32_t name = 0;
@@ -225,29 +228,33 @@ static bool is_named(struct reader *r, struct var *var)
 	return var->named;
 }
 
-/* POINTER TO T: T is a value, or an array of values. */
+/* POINTER TO T, REF_TO T: T is a value, a structure, or an array of values. */
 static bool read_pointer(struct reader *r, struct var *var)
 {
 	struct var *to = arena_alloc(&r->project->arena, sizeof(*to));
 	struct var_target *target = arena_alloc(&r->project->arena, sizeof(*target));
 	const struct token at = r->lex.token;
+	const enum var_pointer word = lex_is(&r->lex, "REF_TO") ? REF_TO :
+				      lex_is(&r->lex, "REFERENCE") ? REFERENCE_TO : POINTER_TO;
 	bool list;
 
-	if (var->array.count || var->at_text)
+	if (var->at_text)
 		return reader_fail_token(r, DIAG_MISPLACED);
 	reader_step(r);
-	if (!lex_is(&r->lex, "TO"))
+	if (word != REF_TO && !lex_is(&r->lex, "TO"))
 		return reader_fail_word(r, DIAG_EXPECTED, "TO");
-	reader_step(r);
+	if (word != REF_TO)
+		reader_step(r);
 	list = lex_is(&r->lex, "ARRAY");
 	if (!to || !target)
 		return !(r->no_memory = true);
 	to->line = var->line;
 	if (!reader_type_of(r, to, 0))
 		return false;
-	if (to->type == IEC_NONE || to->type == IEC_STRING || to->dims > 1 || to->target)
+	if ((to->type == IEC_NONE && words_row(&r->project->words, to->fb)->kind != WORD_STRUCT) ||
+	    (list && to->type == IEC_NONE) || to->type == IEC_STRING || to->dims > 1 || to->target)
 		return reader_fail(r, DIAG_POINTER_TYPE, at.text, at.len);
-	*target = (struct var_target){ .type = to->type, .list = list, .low = to->array.low,
+	*target = (struct var_target){ .word = word, .type = to->type, .list = list, .low = to->array.low,
 				       .like = to };
 	var->target = target;
 	var->type = IEC_LWORD;
@@ -261,7 +268,7 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 
 	if (!read_array(r, var))
 		return false;
-	if (lex_is(&r->lex, "POINTER"))
+	if (lex_is(&r->lex, "POINTER") || lex_is(&r->lex, "REF_TO") || lex_is(&r->lex, "REFERENCE"))
 		return read_pointer(r, var);
 	if (reader_is(r, '('))
 		return reader_own_type(r, var, name);
@@ -363,11 +370,52 @@ static bool init_named(struct reader *r, struct var *var)
 	return true;
 }
 
+/* The initial value of a pointer: NULL, REF(Name), ADR(Name). */
+static bool init_pointer(struct reader *r, struct var *var)
+{
+	const bool null = lex_is(&r->lex, "NULL");
+	uint32_t path = 0;
+	char text[LIMIT_NAME + 2];
+
+	if (!null && !lex_is(&r->lex, "REF") && !lex_is(&r->lex, "ADR"))
+		return reader_fail_word(r, DIAG_EXPECTED, "NULL or REF(Name)");
+	var->has_init = true;
+	var->init_text = reader_intern(r, r->lex.token.text, r->lex.token.len);
+	reader_step(r);
+	if (null)
+		return true;
+	if (!reader_is(r, '('))
+		return reader_fail_word(r, DIAG_EXPECTED, "(");
+	reader_step(r);
+	buffer_clear(&r->text);
+	while (!reader_is(r, ')') && !reader_is(r, ';') && r->lex.token.kind != TOKEN_END) {
+		buffer_add(r, &r->text, r->lex.token.text, r->lex.token.len);
+		reader_step(r);
+	}
+	if (!reader_is(r, ')'))
+		return reader_fail_word(r, DIAG_EXPECTED, ")");
+	reader_step(r);
+	path = buffer_take(r, &r->text);
+	var->points = arena_alloc(&r->project->arena, sizeof(*var->points));
+	if (!var->points || names_len(&r->project->names, path) >= LIMIT_NAME)
+		return reader_fail_word(r, DIAG_NAME_TOO_LONG, "");
+	snprintf(text, sizeof(text), "&%s", names_text(&r->project->names, path));
+	*var->points = (struct var_points){ .pou = r->pou ? (int)(r->pou - r->project->pou) : -1,
+					    .text = reader_intern(r, text, strlen(text)) };
+	buffer_add(r, &r->text, "REF(", 4);
+	buffer_add(r, &r->text, text + 1, strlen(text + 1));
+	buffer_add(r, &r->text, ")", 1);
+	var->init_text = buffer_take(r, &r->text);
+	return !r->no_memory;
+}
+
 bool reader_init(struct reader *r, struct var *var)
 {
 	if (!lex_is(&r->lex, ":="))
 		return true;
 	reader_step(r);
+	if (var->target && !var->array.count)
+		return init_pointer(r, var);
 	if (var->named)
 		return init_named(r, var);
 	if (var->type == IEC_NONE)

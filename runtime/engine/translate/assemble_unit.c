@@ -1044,7 +1044,7 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->listing = watch && translation->listing;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
-	if (!as->entry || !layout_make(as) || !pack_tasks(as) || !find_pointed(as) ||
+	if (!as->entry || !layout_make(as) || !layout_pointers(as) || !pack_tasks(as) || !find_pointed(as) ||
 	    !assemble_section(as, false))
 		return NULL;
 	layout_core(as);

@@ -32,6 +32,9 @@ struct bits {
 	uint32_t leaf[3];
 };
 
+/* A pointer with an initial value; its variable may have no place yet. */
+struct pointing { uint32_t offset; const struct var_points *points; };
+
 struct assembler {
 	struct translation *translation;
 	const struct areas *areas; /* of the project                          */
@@ -39,6 +42,8 @@ struct assembler {
 	bool failed;
 
 	/* layout */
+	struct pointing *pointing;
+	int pointing_count;
 	struct code_run *run;
 	int run_count, run_core;   /* run_core: data of the part that runs unwatched */
 	struct code_bits *bit_run;
@@ -148,6 +153,9 @@ void layout_core(struct assembler *as);
 /** layout_power - places for the power of cells and the results of lines, and for a copy an
  * instance. */
 void layout_power(struct assembler *as);
+/** layout_pointers - the initial values of pointers, when all variables have their places. Fails:
+ * false: no memory. */
+bool layout_pointers(struct assembler *as);
 /** layout_spot - where the value of @meaning lies; not for literals. */
 struct spot layout_spot(struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */

@@ -144,7 +144,15 @@ static struct literal init_text(const struct assembler *as, const struct var *va
 static void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var)
 {
 	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
+	struct pointing *pending;
 
+	if (var->points) {
+		pending = arena_push(as->arena, &as->pointing, &as->pointing_count, sizeof(*pending));
+		as->failed |= !pending;
+		if (pending)
+			*pending = (struct pointing){ offset, var->points };
+		return;
+	}
 	if (init_has_parts(var))
 		layout_init_parts(as, offset, var);
 	else if (var->array.count)
@@ -820,19 +828,39 @@ static bool layout_place_powers(struct assembler *as, int table)
 	return !as->failed;
 }
 
-/* Where the value of ADR stands: the place, its bytes, and a position in it (code.h). */
-static uint32_t layout_address_of(struct assembler *as, const struct meaning *m)
+/* The value of ADR: the place, its bytes, and a position in it (code.h). */
+static union iec_value address_of(struct assembler *as, const struct pou *pou, uint32_t text)
 {
 	struct scope *scope = as->translation->scope;
 	enum diag_id why;
-	const struct meaning *of = scope_find(scope, m->pou, m->address_of, &why);
-	const uint32_t bytes = scope_bytes(scope, of);
+	const struct meaning *of = scope_find(scope, pou, text, &why);
 	union iec_value value = { .i = 0 };
+
+	if (!of)
+		return value;
+	const uint32_t bytes = scope_bytes(scope, of);
 
 	value.i = (int64_t)((uint64_t)layout_spot(as, of).offset << CODE_POINTER_PLACE |
 			    (uint64_t)(bytes < CODE_POINTER_MOST ? bytes : CODE_POINTER_MOST)
 				    << CODE_POINTER_BYTES);
-	return layout_constant(as, IEC_LWORD, value);
+	return value;
+}
+
+bool layout_pointers(struct assembler *as)
+{
+	const struct project *project = as->translation->project;
+	enum diag_id why;
+
+	for (int i = 0; i < as->pointing_count; i++) {
+		const struct var_points *points = as->pointing[i].points;
+		const struct pou *pou = points->pou < 0 ? NULL : &project->pou[points->pou];
+		const struct meaning *m = scope_find(as->translation->scope, pou, points->text, &why);
+
+		if (m)
+			layout_init(as, as->pointing[i].offset, IEC_LWORD,
+				    address_of(as, pou, m->address_of));
+	}
+	return !as->failed;
 }
 
 struct spot layout_spot(struct assembler *as, const struct meaning *m)
@@ -840,7 +868,7 @@ struct spot layout_spot(struct assembler *as, const struct meaning *m)
 	struct spot spot = { .type = m->type };
 
 	if (m->address_of) {
-		spot.offset = layout_address_of(as, m);
+		spot.offset = layout_constant(as, IEC_LWORD, address_of(as, m->pou, m->address_of));
 		return spot;
 	}
 	if (m->addr.area == AREA_NONE) {

@@ -1007,6 +1007,34 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	return other ? chain_convert(c, out, back, target) : out;
 }
 
+/* ADR(Table[index]): behind the first element. */
+static struct value address_of_element(struct chain *c, uint32_t array, struct value index)
+{
+	const struct value none = { .type = IEC_NONE };
+	const struct names *names = &c->ld->translation->project->names;
+	const struct meaning *m = meaning(c, array);
+	struct value place = { .type = IEC_LWORD };
+	char text[3 * LIMIT_NAME];
+	int len = snprintf(text, sizeof(text), "&%s", names_text(names, array));
+
+	if (!m || m->kind != MEANING_ARRAY || len >= (int)sizeof(text)) {
+		c->ld->failed = true;
+		return none;
+	}
+	place.operand = chain_intern(c, text, (size_t)len);
+	place = operate(c, FN_CONVERT, place, none, IEC_LINT, 0);
+	if (index.type != IEC_LINT)
+		index = operate(c, FN_CONVERT, index, none, IEC_LINT, 0);
+	len = snprintf(text, sizeof(text), "LINT#%ld", (long)m->array.low);
+	index = operate(c, FN_SUB, index, (struct value){ .operand = chain_intern(c, text, (size_t)len),
+							  .type = IEC_LINT }, IEC_LINT, 0);
+	len = snprintf(text, sizeof(text), "LINT#%lu", (unsigned long)m->stride);
+	index = operate(c, FN_MUL, index, (struct value){ .operand = chain_intern(c, text, (size_t)len),
+							  .type = IEC_LINT }, IEC_LINT, 0);
+	place = operate(c, FN_ADD, place, index, IEC_LINT, 0);
+	return operate(c, FN_CONVERT, place, none, IEC_LWORD, 0);
+}
+
 /* ADR and SIZEOF. */
 static struct value chain_measure(struct chain *c, const struct expr_node *of, bool adr,
 				  enum iec_type hint)
@@ -1016,6 +1044,16 @@ static struct value chain_measure(struct chain *c, const struct expr_node *of, b
 	const struct meaning *m = meaning(c, place);
 	int len;
 
+	if (adr && of->op == EXPR_INDEX)
+		return address_of_element(c, place, settle(c, chain_compute(c, of->left, IEC_DINT, 0)));
+	if (adr && m && m->opens == 1) {
+		const char *path = scope_text(c->ld->translation->scope, place);
+		const size_t array = expr_array(path, strlen(path));
+		const uint32_t index = chain_intern(c, path + array + 1, strlen(path) - array - 2);
+
+		return address_of_element(c, chain_intern(c, path, array),
+			settle(c, (struct value){ .operand = index, .type = type_of(c, index) }));
+	}
 	if (!adr) {
 		len = snprintf(text, sizeof(text), "%lu",
 			       m ? (unsigned long)scope_bytes(c->ld->translation->scope, m) : 0ul);
@@ -1261,10 +1299,28 @@ static bool is_loadable(struct chain *c, uint32_t from, uint32_t to)
 	       (!meaning_is_indexed(b) || !meaning_is_whole(b));
 }
 
+/* Reference REF= place */
+static void store_reference(struct chain *c)
+{
+	const struct expr *expr = c->expr;
+	const struct value none = { .type = IEC_NONE };
+	char text[2 * LIMIT_NAME + 2];
+	const int len = snprintf(text, sizeof(text), "@%.*s", (int)expr->target_len, expr->target);
+	const uint32_t target = intern_name(c, text, (size_t)len);
+
+	operate(c, FN_MOVE, chain_measure(c, &expr->node[expr->root], true, IEC_LWORD), none, IEC_LWORD,
+		target);
+}
+
 void ld_store(struct ld *ld)
 {
 	struct chain c = statement(ld);
 	const struct value none = { .type = IEC_NONE };
+
+	if (ld->expr->target_points) {
+		store_reference(&c);
+		return;
+	}
 	const uint32_t target = chain_target(&c);
 	const enum iec_type type = type_of(&c, target);
 	const bool other = !ld->expr->target_bit.len &&
