@@ -233,7 +233,7 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 	if (m->var)
 		forget(c, m->var);
 	if (line->mark & IL_MADE && m->var && m->pou == c->fn.pou &&
-	    vars_flags(&c->fn.pou->vars, m->index) & VAR_SFC)
+	    (vars_flags(&c->fn.pou->vars, m->index) & VAR_SFC || m->var->edge))
 		return true;
 	if (m->kind == MEANING_LITERAL || m->constant)
 		return il_report(&c->fn, line, DIAG_WRITE_CONSTANT, il_operand_text(c, line));

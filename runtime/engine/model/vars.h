@@ -88,6 +88,7 @@ struct var {
 				project_resolve() fills in type, word, bounds   */
 	uint16_t enumeration; /* its values are project.enumeration[… - 1]; 0: none */
 	uint8_t dims;        /* of its array; 0 or 1: array alone counts       */
+	uint8_t edge;        /* of an input: 1 R_EDGE, 2 F_EDGE; 0: neither     */
 	uint8_t own_dims;    /* so many are in the declaration, the others in its named type */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
 	struct var_array array;

@@ -24,7 +24,7 @@ static bool step_past(struct reader *r, const char *symbol)
 
 /* ---- TASK ---- */
 
-static bool read_time(struct reader *r, int64_t *ns, uint32_t *text)
+static bool read_time(struct reader *r, int64_t *ns, uint32_t *text, bool zero)
 {
 	const struct token *token = &r->lex.token;
 	struct literal literal;
@@ -34,6 +34,10 @@ static bool read_time(struct reader *r, int64_t *ns, uint32_t *text)
 	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
 	    literal.type != IEC_TIME)
 		return reader_fail_token(r, DIAG_BAD_LITERAL);
+	if (zero && literal.value.i == 0) { /* as if it were not given */
+		reader_step(r);
+		return true;
+	}
 	if (literal.value.i < LIMIT_TICK || literal.value.i > LIMIT_INTERVAL)
 		return reader_fail_token(r, DIAG_BAD_INTERVAL);
 	*ns = literal.value.i;
@@ -88,6 +92,17 @@ static const char *const setting_word[SETTINGS] = {
 	"INTERVAL", "SINGLE", "PRIORITY", "WATCHDOG",
 };
 
+/* Has the task a SINGLE, too? Then INTERVAL := T#0s means none. */
+static bool has_single(const struct reader *r, unsigned int given)
+{
+	struct lex lex = r->lex;
+
+	while (!lex_is(&lex, ")") && !lex_is(&lex, ";") && !lex_is(&lex, "SINGLE") &&
+	       lex.token.kind != TOKEN_END)
+		lex_next(&lex);
+	return given & 1u << SET_SINGLE || lex_is(&lex, "SINGLE");
+}
+
 /* NAME := VALUE; sets the bit of the setting in @given. */
 static bool read_setting(struct reader *r, struct config_entry *entry,
 			 unsigned int *given)
@@ -107,13 +122,14 @@ static bool read_setting(struct reader *r, struct config_entry *entry,
 		return false;
 	switch ((enum setting)which) {
 	case SET_INTERVAL:
-		return read_time(r, &entry->interval_ns, &entry->interval);
+		return read_time(r, &entry->interval_ns, &entry->interval,
+				 has_single(r, *given));
 	case SET_SINGLE:
 		return read_single(r, &entry->single);
 	case SET_PRIORITY:
 		return read_count(r, UINT16_MAX, &entry->priority);
 	case SET_WATCHDOG:
-		return read_time(r, &entry->watchdog_ns, &entry->watchdog);
+		return read_time(r, &entry->watchdog_ns, &entry->watchdog, false);
 	case SETTINGS:
 		break;
 	}
@@ -137,6 +153,8 @@ static bool read_task(struct reader *r, struct config_entry *entry)
 		if (more)
 			reader_step(r);
 	} while (more);
+	if (!entry->interval)
+		given &= ~(1u << SET_INTERVAL);
 	if (!(given & 1u << SET_INTERVAL) == !(given & 1u << SET_SINGLE))
 		return reader_fail_word(r, DIAG_EXPECTED,
 					"either INTERVAL or SINGLE");

@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -271,6 +272,37 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	reader_end_head(r);
 }
 
+/* What an input with R_EDGE or F_EDGE was at the last call: the hidden variable Input.M. */
+static void add_edges(struct reader *r, struct var_table *table)
+{
+	const int count = table->count;
+	struct var_block *block = NULL;
+
+	for (int i = 0; i < count && !r->no_memory; i++) {
+		char name[LIMIT_NAME + 4];
+		struct var *slot;
+
+		if (!table->var[i].edge)
+			continue;
+		if (!block) {
+			block = arena_push(&r->project->arena, &table->block, &table->block_count,
+					   sizeof(*block));
+			if (block)
+				*block = (struct var_block){ .flags = VAR_SFC, .first = count };
+		}
+		snprintf(name, sizeof(name), "%s.M", names_text(&r->project->names, table->var[i].name));
+		slot = arena_push(&r->project->arena, &table->var, &table->count, sizeof(*slot));
+		if (!slot || !block) {
+			r->no_memory = true;
+			return;
+		}
+		*slot = (struct var){ .name = reader_intern(r, name, strlen(name)), .type = IEC_BOOL,
+				      .line = table->var[i].line };
+		slot->fold = names_fold(&r->project->names, slot->name);
+		block->count++;
+	}
+}
+
 /* VAR_TEMP is a row without a name. */
 static void add_temps(struct reader *r, struct pou *pou, int index)
 {
@@ -317,6 +349,7 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	r->pou = NULL;
 	pou->tail = buffer_take(r, &r->above);
 	add_temps(r, pou, index);
+	add_edges(r, &pou->vars);
 	if (lex_is(&r->lex, kinds[kind].end)) {
 		reader_next(r);
 		r->place.pou = NULL;

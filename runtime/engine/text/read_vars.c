@@ -48,6 +48,16 @@ static bool read_names(struct reader *r, struct var_table *table)
 	return true;
 }
 
+/* %I*, %QX*: an address that somebody else gives. Here the variable is one without address. */
+static bool is_open_address(struct lex lex)
+{
+	const struct token at = lex.token;
+
+	return at.kind == TOKEN_ADDRESS && at.len >= 2 && at.len <= 3 &&
+	       strchr("IQM", ascii_upper(at.text[1])) && lex_next(&lex) == TOKEN_SYMBOL &&
+	       lex_is(&lex, "*") && !lex.token.space_before;
+}
+
 static bool read_at(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -57,6 +67,12 @@ static bool read_at(struct reader *r, struct var *var)
 	if (!lex_is(&r->lex, "AT"))
 		return true;
 	reader_step(r);
+	if (is_open_address(r->lex)) {
+		var->at_text = reader_intern(r, token->text, token->len + 1);
+		reader_step(r);
+		reader_step(r);
+		return true;
+	}
 	if (token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "address");
 	why = iec_addr_fault(token->text, token->len, &var->at);
@@ -158,7 +174,7 @@ static bool read_capacity(struct reader *r, struct var *var)
 	struct literal literal;
 
 	var->capacity = IEC_STRING_DEFAULT;
-	if (var->at_text)
+	if (var->at.area != AREA_NONE)
 		return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	if (!reader_is(r, '[') && !reader_is(r, '('))
 		return true;
@@ -238,7 +254,7 @@ static bool read_pointer(struct reader *r, struct var *var)
 				      lex_is(&r->lex, "REFERENCE") ? REFERENCE_TO : POINTER_TO;
 	bool list;
 
-	if (var->at_text)
+	if (var->at.area != AREA_NONE)
 		return reader_fail_token(r, DIAG_MISPLACED);
 	reader_step(r);
 	if (word != REF_TO && !lex_is(&r->lex, "TO"))
@@ -292,10 +308,10 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 			return reader_fail_token(r, DIAG_BAD_TYPE);
 		if (kind == WORD_FB && !may_hold_blocks(r))
 			return reader_fail_token(r, DIAG_MISPLACED);
-		if (var->at_text)
+		if (var->at.area != AREA_NONE)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
-	if (var->array.count && var->at_text && leaves_area(var))
+	if (var->array.count && var->at.area != AREA_NONE && leaves_area(var))
 		return reader_fail_word(r, DIAG_BAD_ADDRESS,
 					names_text(&r->project->names,
 						   var->at_text));
@@ -448,6 +464,21 @@ static bool repeat_written(struct reader *r, struct var *var)
 	return true;
 }
 
+/* R_EDGE, F_EDGE behind the type of an input. */
+static bool read_edge(struct reader *r, struct var *var)
+{
+	const bool rising = lex_is(&r->lex, "R_EDGE");
+
+	if (!rising && !lex_is(&r->lex, "F_EDGE"))
+		return true;
+	if (!(r->var_flags & VAR_INPUT) || !r->pou || r->pou->kind != POU_BLOCK ||
+	    r->pou->language != LANGUAGE_ST || var->type != IEC_BOOL || var->array.count)
+		return reader_fail_token(r, DIAG_MISPLACED);
+	var->edge = rising ? 1 : 2;
+	reader_step(r);
+	return true;
+}
+
 static bool read_declaration(struct reader *r, struct var_table *table)
 {
 	const int first = table->count;
@@ -458,9 +489,14 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 	bool many = table->count - first > 1 || r->members ||
 		    (r->pou && pou_has_frame(r->pou));
 
-	if (many && lex_is(&r->lex, "AT"))
-		return reader_fail_token(r, DIAG_MISPLACED);
-	if (!read_at(r, &like) || !reader_type(r, &like) || !reader_init(r, &like))
+	if (many && lex_is(&r->lex, "AT")) {
+		struct lex ahead = r->lex;
+
+		lex_next(&ahead);
+		if (!is_open_address(ahead))
+			return reader_fail_token(r, DIAG_MISPLACED);
+	}
+	if (!read_at(r, &like) || !reader_type(r, &like) || !read_edge(r, &like) || !reader_init(r, &like))
 		return false;
 	const bool closed = reader_is(r, ';');
 	const bool next = !closed && r->lex.token.line > r->begun;

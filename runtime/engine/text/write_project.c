@@ -159,6 +159,8 @@ static void write_var(const struct sink *sink, const struct project *project,
 	}
 	sink_text(sink, " : ");
 	project_write_type(project, var, sink);
+	if (var->edge)
+		sink_text(sink, var->edge == 1 ? " R_EDGE" : " F_EDGE");
 	write_init(sink, project, var);
 	sink_text(sink, ";");
 	if (var->comment) {

@@ -869,6 +869,30 @@ static void st_item_to_il(struct st_il *s, int at)
 	}
 }
 
+/* Before the body: an input with R_EDGE or F_EDGE becomes its edge. */
+static void take_edges(struct st_il *s)
+{
+	const struct var_table *vars = &s->pou->vars;
+	const uint8_t mark = s->ld.mark;
+
+	s->ld.mark |= IL_MADE;
+	for (int i = 0; i < vars->count; i++) {
+		const char *name = project_text(s->translation->project, vars->var[i].name);
+		char text[LIMIT_NAME + 4];
+		uint32_t before, edge;
+
+		if (!vars->var[i].edge)
+			continue;
+		before = st_intern(s, text, (size_t)snprintf(text, sizeof(text), "%s.M", name));
+		ld_emit(&s->ld, OP_LD, vars->var[i].edge == 1 ? 0 : MOD_N, vars->var[i].name);
+		ld_emit(&s->ld, OP_AND, vars->var[i].edge == 1 ? MOD_N : 0, before);
+		edge = ld_store_new(&s->ld);
+		copy(s, vars->var[i].name, before);
+		copy(s, edge, vars->var[i].name);
+	}
+	s->ld.mark = mark;
+}
+
 bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch)
 {
 	struct st_il *s = arena_alloc(scratch, sizeof(*s));
@@ -882,6 +906,7 @@ bool st_to_il(struct translation *translation, struct unit *unit, struct arena *
 	if (!ld_begin(&s->ld))
 		return false;
 	temps_rung(s->ld.temps);
+	take_edges(s);
 	for (int i = 0; i < unit->pou->st->count && !s->ld.failed; i++) {
 		const struct level level = level_of(s);
 		const enum st_kind kind = (enum st_kind)unit->pou->st->item[i].kind;
