@@ -125,7 +125,7 @@ static bool first_value(const struct project *project, const struct var *var, un
 	*out = (union iec_value){ .i = 0 };
 	if (like && like->has_init && !like->array.count)
 		*out = like->init;
-	else if (var->enumeration)
+	else if (var->enumeration && project->enumeration[var->enumeration - 1].count)
 		out->i = project->enum_value[project->enumeration[var->enumeration - 1].first].number;
 	else if (var->range)
 		out->i = var->range->low;
