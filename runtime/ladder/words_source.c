@@ -5,6 +5,8 @@
  */
 #include "ladder/words.h"
 
+#include <string.h>
+
 #define IEC(table) "IEC 61131-3 table " #table
 #define LD_ELEMENTS "IEC 61131-3, 8.2"
 #define LISTS "IEC 61131-3, edition 2, table 52"
@@ -66,10 +68,13 @@ static const struct words_source of_nanoseconds = {
 #define NANOSECONDS FN_CONVERT_NS
 #endif
 
-/* INT_TO_REAL and its like have no rows. */
+/* INT_TO_REAL and its like have no rows; ADD_INT has that of ADD. */
 static const struct words_source *made_source(const struct word_row *row)
 {
-	return row->runs == NANOSECONDS ? &of_nanoseconds : &of_converts;
+	if (row->runs == NANOSECONDS)
+		return &of_nanoseconds;
+	return strstr(row->word, "TO_") || strstr(row->word, "TRUNC") ? &of_converts :
+								       &sources[of_word[row->runs]];
 }
 
 const struct words_source *words_source(const struct words_entry *entry)

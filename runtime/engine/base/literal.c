@@ -33,7 +33,7 @@ static enum literal_result take_part(struct rest *rest, size_t digits,
 	return *out > most ? LITERAL_RANGE : LITERAL_OK;
 }
 
-/* 08:30:00.5 */
+/* 08:30:00.5, 08:30 */
 static enum literal_result take_clock(struct rest *rest, int64_t *ns)
 {
 	static const uint64_t most[] = { 23, 59, 59 };
@@ -43,6 +43,12 @@ static enum literal_result take_clock(struct rest *rest, int64_t *ns)
 	for (int i = 0; i < 3; i++) {
 		enum literal_result result;
 
+#ifndef RUNGBOARD_SMALL /* others leave the seconds out */
+		if (i == 2 && literal_end(rest)) {
+			part[i] = 0;
+			break;
+		}
+#endif
 		if (i > 0 && !literal_byte(rest, ':'))
 			return LITERAL_BAD;
 		result = take_part(rest, 2, most[i], &part[i]);

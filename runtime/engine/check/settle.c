@@ -328,6 +328,10 @@ static enum word find_call(struct settle *s, const struct expr_node *call,
 		return WORD_COUNT;
 	}
 	why = expr_match(&s->expr, call, words_row(words, word), args);
+	if (why == DIAG_COUNT && args->count > words_row(words, word)->most_inputs) {
+		refuse(s, DIAG_NOT_COMPUTED, call->text, call->len);
+		return WORD_COUNT;
+	}
 	if (why == DIAG_COUNT)
 		return word;
 	refuse_call(s, why, call, words_row(words, word), args);

@@ -150,7 +150,7 @@ static bool make_typed(struct convert_word *out)
 	out->row.word = name;
 	out->row.runs = row->number;
 	out->row.pin = out->pin;
-	out->doc = explain_word(row);
+	out->doc = NULL; /* its own */
 	return shared;
 }
 

@@ -14,7 +14,7 @@
 struct convert_word {
 	struct word_row row; /* explanation (words_explain); points to pin and name */
 	struct word_pin pin[4];
-	const char *doc;     /* explanation; static                            */
+	const char *doc;     /* explanation; static; NULL: that of its word    */
 	char name[48];
 };
 

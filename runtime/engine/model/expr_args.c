@@ -52,10 +52,19 @@ static bool takes(const struct word_row *row, int index)
 	       row->pin[index].dir == PIN_IN_OUT;
 }
 
+/* GT(A, B, C) is A > B AND B > C in an expression. */
+static int most_of(const struct word_row *row)
+{
+	if (is_own(row))
+		return row->pin_count;
+	return row->number == FN_GT || row->number == FN_GE || row->number == FN_EQ ||
+	       row->number == FN_LE || row->number == FN_LT ? LIMIT_FN_INPUTS : row->most_inputs;
+}
+
 /* The next pin after @index for an argument without a name; -1: none. */
 static int next_pin(const struct word_row *row, int index)
 {
-	int most = is_own(row) ? row->pin_count : row->most_inputs;
+	int most = most_of(row);
 
 	while (++index < most)
 		if (takes(row, index))
@@ -174,7 +183,7 @@ enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 			const struct word_row *row, struct expr_args *out)
 {
 	enum diag_id why = collect(expr, call, out);
-	int most = is_own(row) ? row->pin_count : row->most_inputs;
+	int most = most_of(row);
 
 	if (why == DIAG_COUNT)
 		why = find_others(expr, row, out);

@@ -205,7 +205,8 @@ const char *words_explain(const struct word_row *row)
 	/* A made row has the number of its catalogue row, but is another struct; it
 	 * begins a struct convert_word. */
 	if (row->number < WORD_COUNT && row != word_row(row->number))
-		return ((const struct convert_word *)row)->doc;
+		return ((const struct convert_word *)row)->doc ?
+		       ((const struct convert_word *)row)->doc : explain_word(word_row(row->number));
 	return explain_word(row);
 }
 

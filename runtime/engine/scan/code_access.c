@@ -199,19 +199,17 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	}
 }
 
+#ifndef RUNGBOARD_SMALL
 bool code_has_pointers(const struct program *program)
 {
-#ifndef RUNGBOARD_SMALL
 	const uint32_t *end = program->text + program->text_words;
 
 	for (const uint32_t *code = program->text; code < end; code += code_words(code))
 		if ((*code & 0xff) == VM_PEEK || (*code & 0xff) == VM_POKE)
 			return true;
-#else
-	(void)program;
-#endif
 	return false;
 }
+#endif
 
 void code_each_access(const struct program *program,
 		      void (*take)(void *context, const struct code_access *access),

@@ -28,7 +28,15 @@ void code_each_access(const struct program *program,
 		      void (*take)(void *context, const struct code_access *access),
 		      void *context);
 /** code_has_pointers - does it reach memory that no instruction names? Scan-safe: yes. */
+#ifndef RUNGBOARD_SMALL
 bool code_has_pointers(const struct program *program);
+#else
+static inline bool code_has_pointers(const struct program *program)
+{
+	(void)program;
+	return false; /* it has no such instructions */
+}
+#endif
 /** code_access - the accesses of one instruction of a verified program. As code_each_access(),
  * without a program: of a STRING only its head is given. Scan-safe: no. */
 void code_access(const uint32_t *code,

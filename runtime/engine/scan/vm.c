@@ -169,7 +169,7 @@ static bool lead(const struct vm *vm, const uint32_t *at, struct led *out)
 	if (index < INT32_MIN || index > INT32_MAX)
 		return false;
 	where = position + at[MORE] + (index - (int32_t)at[AT_LOW]) * size;
-	if (where < 0 || where + size > bytes || place < vm->program->areas.size ||
+	if (where < 0 || where + size > bytes || place < vm->program->areas.size + 2 ||
 	    place + bytes > vm->program->header->data_size)
 		return false;
 	run = code_run_at(vm->program, place);

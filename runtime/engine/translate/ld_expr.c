@@ -972,6 +972,25 @@ static struct value argument(struct chain *c, int index, const struct word_pin *
 	return value;
 }
 
+/* A comparison of several: each with the next. */
+static struct value call_tests(struct chain *c, enum word word, const struct expr_args *args)
+{
+	const enum iec_type type = shared_type(c, ld_row(c->ld, word), args);
+	struct value in[LIMIT_FN_INPUTS], out = { .type = IEC_BOOL };
+
+	for (int i = 0; i < args->count; i++)
+		in[args->arg[i].pin] = settle(c, chain_side(c, args->arg[i].at, type));
+	for (int i = 1; i < args->count; i++) {
+		ld_emit(c->ld, OP_LD, 0, in[i - 1].operand);
+		ld_emit_line(c->ld, (struct il_line){ .kind = IL_FN, .word = (uint16_t)word,
+						      .operand = in[i].operand });
+		if (out.operand)
+			ld_emit(c->ld, OP_AND, 0, out.operand);
+		out.operand = ld_store_new(c->ld);
+	}
+	return out;
+}
+
 /* Of the catalogue. */
 static struct value call_known(struct chain *c, enum word word, const struct expr_args *args,
 			       int index, enum iec_type hint, uint32_t target)
@@ -1113,6 +1132,9 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	}
 	if (is_integer_power(c, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
 		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
+	if (!word_is_own(word) && word_is_test(ld_row(c->ld, word)) &&
+	    args.count > ld_row(c->ld, word)->most_inputs)
+		return call_tests(c, word, &args);
 	return word_is_own(word) ? call_own(c, word, &args, target) :
 				   call_known(c, word, &args, index, hint, target);
 }

@@ -80,6 +80,22 @@ static const char grids[] =
 	"  MOVE(IN := Z[2], OUT => Z[i])\n"
 	"END_PROGRAM\n";
 
+/* Pointers to values of several kinds. */
+static const char pointers[] =
+	"VAR\n"
+	"  T : ARRAY[1..4] OF INT := [7, 2(8)];\n  S : STRING[8] := 'abc';\n  R : REAL := 1.5;\n"
+	"  P : POINTER TO ARRAY[1..4] OF INT;\n  C : POINTER TO BYTE;\n"
+	"  W : POINTER TO DWORD;\n  Any : POINTER TO INT;\n"
+	"  i : LINT;\n  u : ULINT;\n  x : INT;\n  b : BYTE;\n  d : DWORD;\n"
+	"END_VAR\n"
+	"PROGRAM Main ST\n"
+	"  P := ADR(T);\n  C := ADR(S);\n  W := ADR(R);\n"
+	"  x := P^[i];\n  P^[u] := x;\n"
+	"  C := C + i;\n  b := C^;\n  C^ := b;\n"
+	"  d := W^;\n  W^ := d;\n"
+	"  Any^ := 300;\n  x := Any^;\n"
+	"END_PROGRAM\n";
+
 static uint8_t *good, *image;
 static size_t len;
 
@@ -332,6 +348,24 @@ static void test_grids(void)
 	CHECK(refuses(VM_ABLOCK, 0, 6, areas->size) && refuses(VM_ABLOCK, 0, 0, VM_ABLOCK | 18u << 8));
 }
 
+static void test_pointers(void)
+{
+	const uint32_t *peek = find(VM_PEEK, 0), *poke = find(VM_POKE, 0);
+	const uint32_t pointer = CODE_OFFSET(peek[4]);
+
+	CHECK_AS(let_in(), "the unchanged image is accepted");
+	CHECK(CODE_TYPE(peek[4]) == IEC_INT && CODE_TYPE(poke[4]) == IEC_INT);
+	CHECK(refuses(VM_PEEK, 0, 1, pointer) && refuses(VM_PEEK, 0, 2, CODE_TRUE_AT(usual_areas())));
+	CHECK_AS(refuses(VM_PEEK, 0, 4, CODE_OPERAND(IEC_STRING, pointer)),
+		 "a pointer leads to no whole text");
+	CHECK(refuses(VM_PEEK, 0, 4, CODE_OPERAND(IEC_INT, pointer + 2)) &&
+	      refuses(VM_PEEK, 0, 4, CODE_OPERAND(IEC_INT, 0xfffff8)));
+	CHECK(refuses(VM_PEEK, 0, 6, CODE_OPERAND(IEC_REAL, CODE_OFFSET(peek[6]))) &&
+	      refuses(VM_PEEK, 0, 3, CODE_OPERAND(IEC_STRING, CODE_OFFSET(peek[3]))));
+	CHECK_AS(refuses(VM_POKE, 0, 4, CODE_OPERAND(IEC_DINT, CODE_OFFSET(poke[4]))),
+		 "a value of another type is refused");
+}
+
 static int64_t value_of(struct rig *rig, const char *name)
 {
 	return image_get(&rig->resource.image,
@@ -361,6 +395,32 @@ static void test_member_names(void)
 	      row.array.low == 1 && row.array.count == 3 && row.stride == 8);
 	CHECK(!image_find_members(&rig.resource.image, "P", 1, ".N", 2, &row));
 	CHECK(!image_find_members(&rig.resource.image, "Z", 1, ".X", 2, &row));
+	rig_close(&rig);
+}
+
+/* Whatever a pointer says, constants and addresses stay, and every text fits its room. */
+static void test_any_pointer(void)
+{
+	struct rig rig;
+	uint64_t seed = 1;
+	uint8_t *memory;
+
+	if (!rig_open(&rig, pointers, false))
+		return;
+	memory = rig.memory;
+	for (int round = 0; round < 20000; round++) {
+		const struct location any = image_find(&rig.resource.image, "Any", 3);
+
+		seed = seed * 6364136223846793005u + 1442695040888963407u;
+		const uint64_t place = usual_areas()->size - 16 + seed / 65536 % 400;
+
+		image_set(&rig.resource.image, any, (union iec_value){
+			.i = (int64_t)(place << 40 | (seed >> 40 & 63) << 20 | (seed >> 48 & 15)) });
+		rig_scan(&rig);
+		if (memory[CODE_FALSE_AT(usual_areas())] != 0 || memory[CODE_TRUE_AT(usual_areas())] != 1)
+			break;
+	}
+	CHECK(memory[CODE_FALSE_AT(usual_areas())] == 0 && memory[CODE_TRUE_AT(usual_areas())] == 1);
 	rig_close(&rig);
 }
 
@@ -468,5 +528,7 @@ int main(void)
 	test_image(source, test_values);
 	test_image(members, test_members);
 	test_image(grids, test_grids);
+	test_image(pointers, test_pointers);
+	test_any_pointer();
 	return tap_done();
 }
