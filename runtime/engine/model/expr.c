@@ -274,7 +274,9 @@ static const char *take_bit(struct parser *parser)
 		return end - len - 1;
 	if (lex_next(&ahead) != TOKEN_SYMBOL || !lex_is(&ahead, "."))
 		return end;
-	if (lex_next(&ahead) != TOKEN_NUMBER && ahead.token.kind != TOKEN_ADDRESS)
+	lex_next(&ahead);
+	if (ahead.token.kind != TOKEN_ADDRESS &&
+	    (ahead.token.kind != TOKEN_NUMBER || !ascii_digit(*ahead.token.text)))
 		return end;
 	parser->bit = (struct expr_tail){ ahead.token.text, (uint16_t)(ahead.token.len < LIMIT_NAME ?
 								       ahead.token.len : LIMIT_NAME) };

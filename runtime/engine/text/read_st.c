@@ -29,6 +29,7 @@ struct st_reader {
 	int depth;
 	int lines;           /* newlines since the last item                  */
 	bool comment;        /* the token is a comment or a pragma            */
+	bool empty;          /* a ; alone was read                            */
 };
 
 /* The next token, newlines and comments too. */
@@ -344,6 +345,7 @@ static bool take_statement(struct st_reader *s, enum st_kind kind, const struct 
 	const struct token stop = lex->token;
 
 	if (kind == ST_EMPTY) {
+		s->empty = true;
 		go_behind(s, lex);
 		return true;
 	}
@@ -731,6 +733,17 @@ static void read_statement(struct st_reader *s)
 	st_skip(s, st_form(kind)->opens ? st_form(kind)->end : "");
 }
 
+/* A body of ; alone keeps one: without it, comments would stand behind no statement. */
+static void keep_empty(struct st_reader *s)
+{
+	for (int i = 0; i < s->st->count; i++)
+		if (s->st->item[i].kind != ST_COMMENT)
+			return;
+	s->lines = 0;
+	if (s->empty)
+		add_item(s, ST_EMPTY, &s->r->lex.token, 0);
+}
+
 void read_st(struct reader *r, struct pou *pou)
 {
 	struct st_reader *s = arena_alloc(&r->project->arena, sizeof(*s));
@@ -761,4 +774,5 @@ void read_st(struct reader *r, struct pou *pou)
 	}
 	while (s->depth > 0)
 		drop_block(s);
+	keep_empty(s);
 }
