@@ -116,8 +116,8 @@ bool parse_body(struct st_world *world, struct body *body);
 /* A chain of operations; what fails ends it. */
 struct chain_state {
 	bool on;
-	bool target;                /* an element that is not there is told later */
-	const struct tree *nowhere; /* the call whose result has no place     */
+	const struct stmt *nowhere; /* its value is a call, which needs its target */
+	const struct value *index;  /* of that target                         */
 	const struct tree *wrapped; /* the operation that overflowed           */
 };
 /** type_of - of the value where @wanted is wanted; IEC_NONE: constants alone. */
@@ -127,6 +127,13 @@ struct value tree_compute(struct frame_of *f, const struct tree *tree, enum iec_
 			  struct chain_state *chain);
 /** tree_slot - the place; NULL, and an error is counted: it has no such element. */
 struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain_state *chain);
+#define INDICES_MAX 16
+/** target_begin - computes the indices of a target that are expressions; target_slot - the target, with
+ * its other indices as they are now. NULL: it has no such element. */
+void target_begin(struct frame_of *f, const struct tree *tree, struct chain_state *chain,
+		  struct value index[INDICES_MAX]);
+struct slot *target_slot(struct frame_of *f, const struct tree *tree,
+			 const struct value index[INDICES_MAX]);
 /** tree_first - the same with the first element of each array. */
 struct slot *tree_first(struct frame_of *f, const struct tree *tree);
 /** slot_put - stores; false, and an error is counted, if it may not hold the value. */

@@ -34,10 +34,25 @@ static bool is_beyond(const struct slot *slot, struct value index)
 	return index.i < slot->low || index.i - slot->low >= slot->count;
 }
 
+/* A name or a number. */
+static bool is_plain(const struct tree *index)
+{
+	if (index->kind != TREE_PLACE)
+		return index->kind == TREE_CONSTANT;
+	for (const struct step *step = index->step; step; step = step->next)
+		if (step->index)
+			return false;
+	return true;
+}
+
+static struct value index_value(struct frame_of *f, const struct tree *index, struct chain_state *chain)
+{
+	return tree_compute(f, index, tree_type(f, index, IEC_NONE) ? IEC_NONE : IEC_DINT, chain);
+}
+
 struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain_state *chain)
 {
 	struct slot *slot = begin_of(f, tree);
-	const bool target = chain->target;
 	bool there = true;
 
 	for (const struct step *step = tree->step; step; step = step->next) {
@@ -47,10 +62,7 @@ struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain
 			slot = slot_member(slot, step->name, step->len);
 			continue;
 		}
-		chain->target = false;
-		index = tree_compute(f, step->index,
-				     tree_type(f, step->index, IEC_NONE) ? IEC_NONE : IEC_DINT, chain);
-		chain->target = target;
+		index = index_value(f, step->index, chain);
 		if (!chain->on)
 			return NULL;
 		there = there && !is_beyond(slot, index);
@@ -58,11 +70,40 @@ struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain
 	}
 	if (there)
 		return slot;
-	if (!chain->target) {
-		f->world->errors++;
-		chain->on = false;
-	}
+	f->world->errors++;
+	chain->on = false;
 	return NULL;
+}
+
+void target_begin(struct frame_of *f, const struct tree *tree, struct chain_state *chain,
+		  struct value index[INDICES_MAX])
+{
+	int n = 0;
+
+	for (const struct step *step = tree->step; step && n < INDICES_MAX; step = step->next)
+		if (step->index && !is_plain(step->index))
+			index[n++] = index_value(f, step->index, chain);
+}
+
+struct slot *target_slot(struct frame_of *f, const struct tree *tree, const struct value index[INDICES_MAX])
+{
+	struct chain_state chain = { .on = true };
+	struct slot *slot = begin_of(f, tree);
+	bool there = true;
+	int n = 0;
+
+	for (const struct step *step = tree->step; step; step = step->next) {
+		struct value value;
+
+		if (!step->index) {
+			slot = slot_member(slot, step->name, step->len);
+			continue;
+		}
+		value = is_plain(step->index) ? index_value(f, step->index, &chain) : index[n++];
+		there = there && !is_beyond(slot, value);
+		slot = &slot->part[there ? value.i - slot->low : 0];
+	}
+	return there ? slot : NULL;
 }
 
 /* ---- storing ---- */
@@ -140,6 +181,17 @@ static bool shares(enum word fn, int place)
 	return true;
 }
 
+/* A constant that does not fit the other side is a DINT or LINT. */
+static enum iec_type roomy(enum iec_type type, const struct tree *side)
+{
+	union iec_value value;
+
+	if (side->kind != TREE_CONSTANT || side->literal.type != IEC_NONE || side->literal.real || side->minus ||
+	    !(iec_type_row(type)->class & ANY_INT) || literal_fit(&side->literal, type, &value))
+		return type;
+	return literal_fit(&side->literal, IEC_DINT, &value) ? IEC_DINT : IEC_LINT;
+}
+
 /* The type of an operation whose operands share one: without a type, numbers with a point
  * make it a REAL, or the LREAL that is wanted. */
 static enum iec_type shared(struct frame_of *f, const struct tree *tree, enum iec_type wanted)
@@ -149,6 +201,7 @@ static enum iec_type shared(struct frame_of *f, const struct tree *tree, enum ie
 
 	if (tree->kind == TREE_TWO) {
 		type = joined(tree_type(f, tree->left, wanted), tree_type(f, tree->right, wanted));
+		type = roomy(roomy(type, tree->left), tree->right);
 	} else {
 		for (const struct tree *arg = tree->left; arg; arg = arg->next)
 			if (shares(tree->fn, place++))

@@ -29,27 +29,29 @@ static bool fits_text(const struct slot *slot, struct value value)
 	return value.type != IEC_STRING || value.len <= slot->value->room;
 }
 
-/* The target is found, then the value is computed; the last operation stores, a wrapped
- * result too. A target that is not there: one error, whatever the value is. */
+/* The value is computed, then the target is found; the last operation stores, a wrapped result too. A
+ * target that is not there: one error, whatever the value is. */
 static void assign(struct frame_of *f, const struct stmt *stmt)
 {
-	struct chain_state chain = { .on = true, .target = true };
+	struct chain_state chain = { .on = true };
 	const struct slot *first = tree_first(f, stmt->place);
 	struct st_world *world = f->world;
-	struct slot *to = tree_slot(f, stmt->place, &chain), *from;
-	const bool found = chain.on;
-	struct value value;
+	struct value value, index[INDICES_MAX] = { { 0 } };
+	struct slot *to, *from;
 
-	chain.target = false;
+	target_begin(f, stmt->place, &chain, index);
 	if (first->kind != SLOT_VALUE) {
-		from = found ? tree_slot(f, stmt->value, &chain) : NULL;
+		from = chain.on ? tree_slot(f, stmt->value, &chain) : NULL;
+		to = target_slot(f, stmt->place, index);
 		if (from && to)
 			slot_copy(to, from);
 		world->errors += from && !to;
 		return;
 	}
-	chain.nowhere = to ? NULL : stmt->value;
+	chain.nowhere = stmt->value->kind == TREE_CALL ? stmt : NULL;
+	chain.index = index;
 	value = tree_compute(f, stmt->value, first->value->type, &chain);
+	to = target_slot(f, stmt->place, index);
 	if (!to) {
 		world->errors += chain.on;
 		return;
@@ -163,7 +165,8 @@ bool run_function(struct frame_of *f, const struct tree *call, struct chain_stat
 
 	*out = (struct value){ .type = callee.part[0].value ? callee.part[0].value->type : IEC_NONE };
 	read_arguments(f, call->left, &callee, chain, &given);
-	if (chain->on && chain->nowhere == call) {
+	if (chain->on && chain->nowhere && chain->nowhere->value == call &&
+	    !target_slot(f, chain->nowhere->place, chain->index)) {
 		f->world->errors++;
 		chain->on = false;
 	}

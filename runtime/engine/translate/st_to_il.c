@@ -361,11 +361,12 @@ static void leave_for(struct st_il *s, const struct st_open *open)
 	here(s, round);
 }
 
-/* The lowest or highest value that the variable can have, as a constant. */
-static uint32_t for_limit(struct st_il *s, const struct st_open *open, bool high, union iec_value less)
+/* The lowest or highest value that the variable can have, as a constant of @type. */
+static uint32_t for_limit(struct st_il *s, const struct st_open *open, enum iec_type type, bool high,
+			  union iec_value less)
 {
 	const struct meaning *m = ld_meaning(&s->ld, open->variable);
-	const struct iec_type_row *row = iec_type_row(m ? m->type : IEC_DINT);
+	const struct iec_type_row *row = iec_type_row(type);
 	union iec_value value = { .i = high ? row->high : row->low };
 	char text[40];
 	int len;
@@ -374,7 +375,7 @@ static uint32_t for_limit(struct st_il *s, const struct st_open *open, bool high
 		value.i = high ? m->like->range->high : m->like->range->low;
 	value.i = (int64_t)((uint64_t)value.i - (uint64_t)less.i);
 	len = snprintf(text, sizeof(text), "%s#", row->word);
-	len += literal_print(m ? m->type : IEC_DINT, value, text + len, sizeof(text) - (size_t)len);
+	len += literal_print(type, value, text + len, sizeof(text) - (size_t)len);
 	return st_intern(s, text, (size_t)len);
 }
 
@@ -496,27 +497,30 @@ static void leave_at(struct st_il *s, const struct st_open *open, enum word beyo
 /* Leaves the loop if the variable cannot have the next value: one more step is no error. */
 static void leave_at_limit(struct st_il *s, const struct st_open *open, enum iec_type type)
 {
+	const struct meaning *m = ld_meaning(&s->ld, open->variable);
 	const union iec_value none = { .i = 0 };
 	union iec_value by = { .i = 1 };
+	/* A step may lead far beyond a subrange. */
+	const enum iec_type wide = m && meaning_is_ranged(m) && !iec_is_wide(type) ? IEC_LINT : type;
 	uint32_t up, step, limit;
 
 	if (!open->by || literal_value(s, open->by, IEC_LINT, &by.i)) {
-		leave_at(s, open, by.i < 0 ? FN_LT : FN_GT, for_limit(s, open, by.i >= 0, by));
+		leave_at(s, open, by.i < 0 ? FN_LT : FN_GT, for_limit(s, open, type, by.i >= 0, by));
 		return;
 	}
 	up = new_label(s);
 	step = new_label(s);
-	limit = temps_number(s->ld.temps, type);
+	limit = temps_number(s->ld.temps, wide);
 	ld_emit(&s->ld, OP_LD, 0, open->by);
 	compare(s, FN_GT, st_intern(s, "0", 1));
 	jump(s, MOD_C, up);
-	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, false, none));
+	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, wide, false, none));
 	compare(s, FN_SUB, open->by);
 	ld_emit(&s->ld, OP_ST, 0, limit);
 	leave_at(s, open, FN_LT, limit);
 	jump(s, 0, step);
 	here(s, up);
-	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, true, none));
+	ld_emit(&s->ld, OP_LD, 0, for_limit(s, open, wide, true, none));
 	compare(s, FN_SUB, open->by);
 	ld_emit(&s->ld, OP_ST, 0, limit);
 	leave_at(s, open, FN_GT, limit);
