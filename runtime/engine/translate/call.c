@@ -564,6 +564,13 @@ int list_skip_call(struct list *list, const struct il_line *line)
 	return jump_over(list, line->modifiers & MOD_N ? now : bits_not(now));
 }
 
+int list_skip_kept(struct list *list, const struct il_line *line)
+{
+	const struct bits now = list_now_bits(list);
+
+	return jump_over(list, line->modifiers & MOD_N ? now : bits_not(now));
+}
+
 void list_end_skip(struct list *list, int skip)
 {
 	if (skip < 0)

@@ -281,7 +281,7 @@ static int skip_failed(struct list *list, const struct frame *frame,
 	*en = bits_leaf(list->as, ok);
 	list->now.kind = RESULT_BITS;
 	list->now.bits = *en;
-	return list_skip_call(list, &jump);
+	return list_skip_kept(list, &jump);
 }
 
 /* @en: also becomes FALSE if the body clears ENO. */

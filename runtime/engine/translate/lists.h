@@ -210,6 +210,9 @@ void list_fetch_args(struct list *list, struct bits *en,
 /** list_skip_call - a jump over the following code unless the result is TRUE (N: FALSE); stores
  * everything that waits before it. list_end_skip() ends it; < 0: none. */
 int list_skip_call(struct list *list, const struct il_line *line);
+/** list_skip_kept - the same where all values have been kept: a jump that leads over this place must
+ * not lead over stores of them. */
+int list_skip_kept(struct list *list, const struct il_line *line);
 void list_end_skip(struct list *list, int skip);
 
 /* ---- call_own.c: functions and blocks of the project ---- */
