@@ -259,6 +259,15 @@ static size_t bit_len(const struct token *token)
 	return len && len + 1 < token->len && token->text[token->len - 1 - len] == '.' ? len : 0;
 }
 
+static bool is_number(const struct token *token)
+{
+	size_t digits = 0;
+
+	while (digits < token->len && ascii_digit(token->text[digits]))
+		digits++;
+	return digits == token->len;
+}
+
 /* On the last token of a path: where the path ends, without the bit behind it. parser->bit gets
  * that bit, or what follows in tokens of their own: `.%B1`. */
 static const char *take_bit(struct parser *parser)
@@ -276,7 +285,7 @@ static const char *take_bit(struct parser *parser)
 		return end;
 	lex_next(&ahead);
 	if (ahead.token.kind != TOKEN_ADDRESS &&
-	    (ahead.token.kind != TOKEN_NUMBER || !ascii_digit(*ahead.token.text)))
+	    (ahead.token.kind != TOKEN_NUMBER || !is_number(&ahead.token)))
 		return end;
 	parser->bit = (struct expr_tail){ ahead.token.text, (uint16_t)(ahead.token.len < LIMIT_NAME ?
 								       ahead.token.len : LIMIT_NAME) };
