@@ -38,7 +38,7 @@ static void check_counter(struct operand_check *c, struct expr *expr)
 		return;
 	m = scope_find(c->scope, c->pou,
 		       names_intern(&c->project->names, root->text, root->len), &why);
-	if (!m || iec_type_row(m->type)->class & (CLASS_SIGNED | CLASS_UNSIGNED))
+	if (!m || iec_type_row(m->type)->class & (ANY_INT | CLASS_BITS))
 		return;
 	snprintf(text, sizeof(text), "%.*s" DIAG_AND "%s", root->len < 30 ? root->len : 30, root->text,
 		 iec_type_row(m->type)->word);

@@ -416,7 +416,7 @@ struct path {
 	int pin;                 /* the first part that was named; -1: none   */
 	struct open_index *open; /* room for LIMIT_INDICES                    */
 	int opens;
-	const struct meaning *index_of;
+	const struct meaning *index_of, *pointer;
 	enum diag_id why;
 	bool raw;                /* a REFERENCE is meant, not what it leads to */
 };
@@ -719,10 +719,11 @@ static bool mean_target(struct path *path, const struct var_target *target)
 	if (!pointer)
 		return refuse(path, DIAG_NO_MEMORY);
 	*pointer = path->m;
+	path->pointer = pointer;
 	path->m = (struct meaning){
 		.kind = target->list ? MEANING_ARRAY : MEANING_ELEMENT, .type = like->type,
 		.writable = true, .index = pointer->index, .pou = pointer->pou,
-		.var = pointer->var, .through = pointer,
+		.var = pointer->var, .through = true,
 	};
 	if (target->list) {
 		path->m.stride = iec_type_row(like->type)->size;
@@ -752,7 +753,7 @@ static bool step_through(struct path *path)
 	const struct var_target *target = path->m.like ? path->m.like->target : NULL;
 
 	path->at++;
-	if (path->m.through && path->m.through->like->target->word == REFERENCE_TO && !path->opens)
+	if (path->m.through && path->pointer->like->target->word == REFERENCE_TO && !path->opens)
 		return true; /* r and r^ are the same */
 	if (!target || path->opens || path->m.through || meaning_is_whole(&path->m))
 		return refuse(path, DIAG_NOT_POINTER);
@@ -792,8 +793,8 @@ static bool begin(struct path *path)
 	return path->at < path->end && begin_address(path, text, len);
 }
 
-/* @m has @count indices that are computed in the scan. Scan-safe: no. Fails: false when memory
- * is out. */
+/* @m has @count indices that are computed in the scan, the last of which is the pointer that leads to
+ * it, if one does. Scan-safe: no. Fails: false when memory is out. */
 static bool scope_keep_open(struct scope *scope, struct meaning *m,
 			    const struct open_index *open, int count)
 {
@@ -804,7 +805,7 @@ static bool scope_keep_open(struct scope *scope, struct meaning *m,
 		return false;
 	memcpy(kept, open, (size_t)count * sizeof(*kept));
 	m->open = kept;
-	m->opens = (uint8_t)count;
+	m->opens = (uint8_t)(count - m->through);
 	return true;
 }
 
@@ -816,6 +817,8 @@ static bool finish(struct path *path, struct meaning *out)
 	if (m->through && m->kind == MEANING_STRUCT)
 		return refuse(path, DIAG_THROUGH_WHOLE);
 	m->index_of = path->index_of;
+	if (m->through)
+		path->open[path->opens++] = (struct open_index){ .of = path->pointer };
 	if (path->opens) {
 		if (m->kind == MEANING_INSTANCE)
 			return refuse(path, DIAG_INDEX_PLAIN);
@@ -899,7 +902,8 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	}
 	slot = find_declared(scope, table, names_fold(names, id));
 	if (slot) {
-		struct path path = { .scope = scope, .raw = raw, .pin = -1 };
+		struct open_index open[1];
+		struct path path = { .scope = scope, .raw = raw, .pin = -1, .open = open };
 
 		mean_variable(scope, slot, &path.m);
 		if (!follow(&path) || !finish(&path, out)) {

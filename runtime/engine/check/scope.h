@@ -54,11 +54,11 @@ struct meaning {
 	struct var_array array;   /* of ARRAY                                 */
 	uint8_t opens;            /* indices computed in the scan; addr and offset are those
 	                             of the first elements */
-	const struct open_index *open; /* so many, from the left             */
+	bool through;             /* a pointer leads to it: meaning_pointer()  */
+	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
+	const struct open_index *open; /* so many, from the left; then the pointer */
 	const struct meaning *index_of; /* operand of the first computed index; of a fixed
 	                                   one the named constant, or NULL */
-	const struct meaning *through; /* the pointer that leads to it; NULL: none */
-	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
 	union {
 		struct literal literal; /* of LITERAL                             */
 		struct {             /* of all others:                            */
@@ -107,6 +107,11 @@ uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
 	return meaning->opens > 0 || meaning->through;
+}
+/** meaning_pointer - the pointer that leads to it. Scan-safe: yes. */
+static inline const struct meaning *meaning_pointer(const struct meaning *meaning)
+{
+	return meaning->open[meaning->opens].of;
 }
 /** meaning_is_ranged - a value of a subrange? Scan-safe: yes. */
 static inline bool meaning_is_ranged(const struct meaning *meaning)

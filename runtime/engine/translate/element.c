@@ -58,7 +58,7 @@ static void emit_range(struct list *list, const struct var_range *range, uint32_
 static void emit_through(struct list *list, enum vm_op op, const struct meaning *m,
 			 const uint32_t operand[3])
 {
-	const uint32_t pointer = layout_spot(list->as, m->through).offset;
+	const uint32_t pointer = layout_spot(list->as, meaning_pointer(m)).offset;
 	const struct indices indices = indices_of(list, m);
 
 	list_protect(list, 0, UINT32_MAX / 2);

@@ -844,7 +844,7 @@ static struct value keep_value(struct chain *c, struct value value)
 	if (!c->calls || !value.operand)
 		return value;
 	m = meaning(c, value.operand);
-	if (!m || m->pou || m->kind == MEANING_LITERAL || meaning_is_whole(m))
+	if (!m || m->kind == MEANING_LITERAL || (m->pou && !m->through) || meaning_is_whole(m))
 		return value;
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }

@@ -5,7 +5,7 @@
  * Expressions are those of ladders (ld_expr.c); blocks become labels and jumps. A FOR and a CASE
  * keep what they compute once in temporaries until their end.
  */
-#include "engine/check/check_il.h"
+#include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/translate/ladder_unit.h"
 
@@ -23,6 +23,7 @@ struct st_open {
 	uint32_t again;       /* of a loop: its next round                    */
 	uint32_t top;         /* of a loop: its beginning                     */
 	uint32_t variable, by, to; /* of FOR: operands                        */
+	bool bits;            /* of FOR: its variable is a bit string         */
 	bool once;            /* of FOR: one more step cannot overflow        */
 	int choices;          /* of CASE: so far                              */
 	uint32_t first;       /* of CASE: number of the first label           */
@@ -331,13 +332,25 @@ static bool literal_value(struct st_il *s, uint32_t operand, enum iec_type type,
 	return true;
 }
 
+/* The number that a bit string is. */
+static uint32_t as_whole(struct st_il *s, uint32_t operand)
+{
+	const uint32_t out = temps_number(s->ld.temps, IEC_LINT);
+
+	ld_call(&s->ld, FN_CONVERT);
+	ld_arg(&s->ld, false, s->ld.in_id, operand);
+	ld_arg(&s->ld, true, s->ld.out_id, out);
+	return out;
+}
+
 /* Leaves the loop when its variable is beyond the end. */
 static void leave_for(struct st_il *s, const struct st_open *open)
 {
+	const uint32_t now = open->bits ? as_whole(s, open->variable) : open->variable;
 	int64_t by = 1;
 
 	if (!open->by || literal_value(s, open->by, IEC_LINT, &by)) {
-		ld_emit(&s->ld, OP_LD, 0, open->variable);
+		ld_emit(&s->ld, OP_LD, 0, now);
 		compare(s, by < 0 ? FN_LT : FN_GT, open->to);
 		jump(s, MOD_C, open->out);
 		return;
@@ -350,12 +363,12 @@ static void leave_for(struct st_il *s, const struct st_open *open)
 	ld_emit(&s->ld, OP_LD, 0, open->by);
 	compare(s, FN_EQ, zero);
 	jump(s, MOD_C, open->out);
-	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	ld_emit(&s->ld, OP_LD, 0, now);
 	compare(s, FN_LT, open->to);
 	jump(s, MOD_C, open->out);
 	jump(s, 0, round);
 	here(s, up);
-	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	ld_emit(&s->ld, OP_LD, 0, now);
 	compare(s, FN_GT, open->to);
 	jump(s, MOD_C, open->out);
 	here(s, round);
@@ -468,8 +481,10 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 		if (part.role == ST_VARIABLE) {
 			open->variable = ld_target(&s->ld);
 			type = st_type_of(s, open->variable);
+			open->bits = mixed_is_bits(type);
 		} else if (part.role == ST_FROM) {
 			for_begin(s, open, for_value(s, open, type));
+			type = open->bits ? IEC_LINT : type;
 		} else if (part.role == ST_TO) {
 			open->to = for_value(s, open, type);
 		} else {
@@ -478,7 +493,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 				st_report(s, DIAG_LOOP_STEP, part.text, "");
 		}
 	}
-	open->once = has_room(s, open, type) && is_steady(s, open, at);
+	open->once = !open->bits && has_room(s, open, type) && is_steady(s, open, at);
 	open->top = new_label(s);
 	open->again = new_label(s);
 	at_item(s);
@@ -527,20 +542,51 @@ static void leave_at_limit(struct st_il *s, const struct st_open *open, enum iec
 	here(s, step);
 }
 
+static void close_for(struct st_il *s, const struct st_open *open)
+{
+	jump(s, 0, open->top);
+	here(s, open->out);
+	level_back(s, &open->level);
+	s->depth--;
+}
+
+/* The next round of a FOR whose variable is a bit string: it ends where that has no such value. */
+static void next_bits(struct st_il *s, const struct st_open *open)
+{
+	const uint32_t next = as_whole(s, open->variable);
+	char most[24];
+	const int len = snprintf(most, sizeof(most), "%lld", (long long)
+				 iec_type_row(st_type_of(s, open->variable))->high);
+
+	ld_emit(&s->ld, OP_LD, 0, next);
+	compare(s, FN_ADD, open->by ? open->by : st_intern(s, "1", 1));
+	ld_emit(&s->ld, OP_ST, 0, next);
+	compare(s, FN_GT, st_intern(s, most, (size_t)len));
+	jump(s, MOD_C, open->out);
+	ld_emit(&s->ld, OP_LD, 0, next);
+	compare(s, FN_LT, st_intern(s, "0", 1));
+	jump(s, MOD_C, open->out);
+	ld_call(&s->ld, FN_CONVERT);
+	ld_arg(&s->ld, false, s->ld.in_id, next);
+	ld_arg(&s->ld, true, s->ld.out_id, open->variable);
+	close_for(s, open);
+}
+
 static void end_for(struct st_il *s)
 {
 	const struct st_open *open = innermost(s);
 
 	here(s, open->again);
+	if (open->bits) {
+		next_bits(s, open);
+		return;
+	}
 	if (!open->once)
 		leave_at_limit(s, open, st_type_of(s, open->variable));
 	ld_emit(&s->ld, OP_LD, 0, open->variable);
 	compare(s, FN_ADD, open->by ? open->by : st_intern(s, "1", 1));
 	ld_emit(&s->ld, OP_ST, 0, open->variable);
-	jump(s, 0, open->top);
-	here(s, open->out);
-	level_back(s, &open->level);
-	s->depth--;
+	close_for(s, open);
 }
 
 /* ---- CASE ---- */
