@@ -108,7 +108,7 @@ const struct iec_area_row *iec_area_row(enum iec_area area);
 bool iec_area_is_io(enum iec_area area);
 
 struct iec_addr {
-	enum iec_area area;  /* AREA_NONE: no address                          */
+	enum iec_area area : 8;  /* AREA_NONE: no address                          */
 	uint8_t bits;        /* 1, 8, 16, 32 or 64                             */
 	uint8_t bit;         /* 0..7, of bits == 1                             */
 	uint32_t byte;       /* from the start of the area                     */

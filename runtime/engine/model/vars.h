@@ -77,28 +77,30 @@ struct var_points {
 	uint32_t text;       /* string id: &Name                               */
 };
 
-struct var {
+struct var {                 /* as small as it can be: a project has thousands */
 	uint32_t name;       /* string id, as written                          */
 	uint32_t fold;       /* names_fold of it                               */
 	enum iec_type type : 8; /* of an array, of its elements; IEC_NONE for an
 				instance or structure                  */
-	bool has_init;
-	bool inherits;       /* the initial value is that of its type, not in the file */
-	uint8_t edge;        /* of an input: 1 R_EDGE, 2 F_EDGE; 0: neither     */
-	enum word fb;        /* the word of the block or structure             */
+	uint8_t edge : 2;    /* of an input: 1 R_EDGE, 2 F_EDGE; 0: neither     */
+	bool has_init : 1;
+	bool inherits : 1;   /* the initial value is that of its type, not in the file */
+	uint8_t dims;        /* of its array; 0 or 1: array alone counts       */
+	uint8_t own_dims;    /* so many are in the declaration, the others in its named type */
+	enum word fb : 16;   /* the word of the block or structure             */
 	uint16_t capacity;   /* of a STRING, in bytes; 0: of a temporary       */
 	uint16_t named;      /* has the type project.named[named - 1]; 0: none.
 				project_resolve() fills in type, word, bounds   */
 	uint16_t enumeration; /* its values are project.enumeration[… - 1]; 0: none */
-	uint8_t dims;        /* of its array; 0 or 1: array alone counts       */
-	uint8_t own_dims;    /* so many are in the declaration, the others in its named type */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
 	struct var_array array;
 	uint32_t at_text;    /* string id: canonical address                   */
+	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int init_count;      /* parts of init_list, of an array                */
 	uint32_t init_text;  /* string id: as written (16#FF stays so); for arrays of
 			      * structures, structures and instances the whole text:
 			      * model/init.h */
+	int line;
 	union {
 		union iec_value init;       /* of its type                    */
 		struct var_init *init_list; /* of an array, from its first
@@ -109,8 +111,6 @@ struct var {
 	struct var_range *range; /* of a subrange; NULL: none                   */
 	struct var_target *target; /* of a pointer; NULL: it is none            */
 	struct var_points *points; /* its initial value; NULL: NULL, or none    */
-	uint32_t comment;    /* string id: trailing, with delimiters           */
-	int line;
 };
 
 /* One VAR … END_VAR; canonical files keep blocks separate. */
