@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/text/st_typing.h"
 
+#include "engine/base/ascii.h"
+
 #include <string.h>
 
 #define STEP 2 /* blanks of a block                                             */
@@ -26,7 +28,7 @@ static const struct {
 static const char *skeleton_text(const char *word)
 {
 	for (gsize i = 0; i < G_N_ELEMENTS(skeletons); i++)
-		if (g_ascii_strcasecmp(skeletons[i].word, word) == 0)
+		if (ascii_is(skeletons[i].word, word, strlen(word)))
 			return skeletons[i].text;
 	return NULL;
 }
@@ -165,12 +167,12 @@ static void keep_word(struct line *line, const char *word, gsize len)
 	memcpy(kept, word, len);
 	kept[len] = '\0';
 	for (gsize i = 0; i < len; i++)
-		kept[i] = g_ascii_toupper(kept[i]);
-	strcpy(line->last, kept);
+		kept[i] = ascii_upper(kept[i]);
+	g_strlcpy(line->last, kept, sizeof(line->last));
 	line->depth += begins_block(kept);
 	line->depth -= g_str_has_prefix(kept, "END_") && begins_block(kept + 4);
 	if (!line->first[0])
-		strcpy(line->first, kept);
+		g_strlcpy(line->first, kept, sizeof(line->first));
 }
 
 /* Behind a comment or string at @at; @at: none begins there. */
@@ -348,7 +350,7 @@ static void typed(GtkTextBuffer *buffer)
 	gtk_text_iter_set_line_offset(&from, 0);
 	text = g_strchug(gtk_text_iter_get_slice(&from, &at));
 	for (char *c = text; *c; c++)
-		*c = g_ascii_toupper(*c);
+		*c = ascii_upper(*c);
 	if (closes(text))
 		indent_line(buffer, &at);
 	g_free(text);

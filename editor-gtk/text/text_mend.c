@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/text/text_mend.h"
 
+#include "engine/base/name.h"
+
 #include <string.h>
 
 /* Part @number, from 0, of the message's argument; "": there is none. Caller frees. */
@@ -93,7 +95,8 @@ static gboolean mend_name(const char *text, gsize at, const char *name, const ch
 {
 	const gsize len = strlen(name);
 
-	return *meant && !strchr(meant, ',') && g_ascii_strncasecmp(text + at, name, len) == 0 &&
+	return *meant && !strchr(meant, ',') && strlen(text + at) >= len &&
+	       name_is(name, text + at, len) &&
 	       put(out, at, len, g_strdup(meant));
 }
 

@@ -33,6 +33,13 @@ static enum literal_result take_part(struct rest *rest, size_t digits,
 	return *out > most ? LITERAL_RANGE : LITERAL_OK;
 }
 
+/* Other tools leave the seconds out: 08:30. Images have no such text. */
+#ifdef RUNGBOARD_SMALL
+#define HAS_SHORT_CLOCK false
+#else
+#define HAS_SHORT_CLOCK true
+#endif
+
 /* 08:30:00.5, 08:30 */
 static enum literal_result take_clock(struct rest *rest, int64_t *ns)
 {
@@ -43,12 +50,10 @@ static enum literal_result take_clock(struct rest *rest, int64_t *ns)
 	for (int i = 0; i < 3; i++) {
 		enum literal_result result;
 
-#ifndef RUNGBOARD_SMALL /* others leave the seconds out */
-		if (i == 2 && literal_end(rest)) {
+		if (HAS_SHORT_CLOCK && i == 2 && literal_end(rest)) {
 			part[i] = 0;
 			break;
 		}
-#endif
 		if (i > 0 && !literal_byte(rest, ':'))
 			return LITERAL_BAD;
 		result = take_part(rest, 2, most[i], &part[i]);

@@ -199,6 +199,12 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 /* Of an input of FN: it has a type of its own. */
 #define CODE_OWN         0x80000000u
 #define CODE_OPERAND(type, offset) ((uint32_t)(type) << 24 | (offset))
+/* PEEK and POKE, which small boards do not have. */
+#ifdef RUNGBOARD_SMALL
+#define WITH_POINTERS(...)
+#else
+#define WITH_POINTERS(...) __VA_ARGS__
+#endif
 #define CODE_FALSE_AT(areas) ((areas)->size) /* first byte behind the areas */
 #define CODE_TRUE_AT(areas)  ((areas)->size + 1)
 

@@ -187,10 +187,7 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	case VM_TICK: visit_tick(visit, at, n); return;
 	case VM_STOP: give_bool(visit, at[0], false); return;
 	case VM_JMPC: give_bool(visit, at[1], false); return;
-#ifndef RUNGBOARD_SMALL
-	case VM_PEEK:
-	case VM_POKE: visit_pointer(visit, at, op == VM_POKE); return;
-#endif
+	WITH_POINTERS(case VM_PEEK: case VM_POKE: visit_pointer(visit, at, op == VM_POKE); return;)
 	case VM_CALL:
 	case VM_JMP:
 	case VM_END:

@@ -112,6 +112,17 @@ static int print_element(const uint32_t *code, char *out, size_t size)
 			array, at[1]);
 }
 
+#ifndef RUNGBOARD_SMALL
+static int print_pointer(const uint32_t *code, char *out, size_t size)
+{
+	const uint32_t *at = code + 1;
+
+	return snprintf(out, size, "%s    en b%u ok b%u %s pointer %s + %u + %s - %d",
+			vm_row((enum vm_op)(*code & 0xff))->word, at[0], at[1], typed(at[2]).text,
+			typed(at[3]).text, at[4], typed(at[5]).text, (int)at[6]);
+}
+#endif
+
 int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 {
 	uint32_t n = *code >> 8;
@@ -168,14 +179,7 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 		return snprintf(out, size, "end");
 	case VM_POINT:
 		return snprintf(out, size, "point   %u words", n);
-#ifndef RUNGBOARD_SMALL
-	case VM_PEEK:
-	case VM_POKE:
-		return snprintf(out, size, "%s    en b%u ok b%u %s pointer %s + %u + %s - %d",
-				vm_row((enum vm_op)(*code & 0xff))->word, at[0], at[1],
-				typed(at[2]).text, typed(at[3]).text, at[4], typed(at[5]).text,
-				(int)at[6]);
-#endif
+	WITH_POINTERS(case VM_PEEK: case VM_POKE: return print_pointer(code, out, size);)
 	case VM_COUNT:
 		break;
 	}

@@ -72,11 +72,7 @@ uint32_t code_words(const uint32_t *code)
 		return 6;
 	case VM_POINT:
 		return 1;
-#ifndef RUNGBOARD_SMALL
-	case VM_PEEK:
-	case VM_POKE:
-		return 8;
-#endif
+	WITH_POINTERS(case VM_PEEK: case VM_POKE: return 8;)
 	case VM_END:
 	case VM_COUNT:
 		break;
@@ -411,11 +407,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		return verify_tick(v, at, n);
 	case VM_POINT:
 		return n <= LIMIT_IMAGE / 4;
-#ifndef RUNGBOARD_SMALL
-	case VM_PEEK:
-	case VM_POKE:
-		return check_pointer(v, at, (*code & 0xff) == VM_POKE);
-#endif
+	WITH_POINTERS(case VM_PEEK: case VM_POKE:
+		return check_pointer(v, at, (*code & 0xff) == VM_POKE);)
 	case VM_COUNT:
 		break;
 	}

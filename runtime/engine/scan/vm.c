@@ -716,6 +716,23 @@ static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 		vm->error_text = (uint32_t)(pc - base);
 }
 
+#ifndef RUNGBOARD_SMALL
+/* PEEK and POKE. */
+static void run_pointer(struct vm *vm, const uint32_t *pc, const uint32_t *base)
+{
+	uint8_t *m = vm->memory;
+	const bool get = (*pc & 0xff) == VM_PEEK;
+
+	m[pc[2]] = m[pc[1]] && (get ? peek(vm, pc + 1) : poke(vm, pc + 1));
+	if (m[pc[2]])
+		return;
+	if (get)
+		put(m, pc[3], (union iec_value){ .i = 0 });
+	if (m[pc[1]])
+		count_error(vm, pc, base);
+}
+#endif
+
 static void ask_to_stop(struct vm *vm, uint32_t text)
 {
 	if (!vm->stop)
@@ -947,23 +964,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				count_error(vm, pc, base);
 			pc += 9 + 4 * (n >> 1);
 			break;
-#ifndef RUNGBOARD_SMALL
-		case VM_PEEK:
-			m[pc[2]] = m[pc[1]] && peek(vm, pc + 1);
-			if (!m[pc[2]]) {
-				put(m, pc[3], (union iec_value){ .i = 0 });
-				if (m[pc[1]])
-					count_error(vm, pc, base);
-			}
+		WITH_POINTERS(case VM_PEEK: case VM_POKE:
+			run_pointer(vm, pc, base);
 			pc += 8;
-			break;
-		case VM_POKE:
-			m[pc[2]] = m[pc[1]] && poke(vm, pc + 1);
-			if (m[pc[1]] && !m[pc[2]])
-				count_error(vm, pc, base);
-			pc += 8;
-			break;
-#endif
+			break;)
 		case VM_ABLOCK:
 			if (!pay(&budget, pc[5] / 8))
 				goto out_of_budget;

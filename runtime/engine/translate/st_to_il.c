@@ -928,12 +928,18 @@ static void take_edges(struct st_il *s)
 	s->ld.mark |= IL_MADE;
 	for (int i = 0; i < vars->count; i++) {
 		const char *name = project_text(s->translation->project, vars->var[i].name);
-		char text[LIMIT_NAME + 4];
+		const size_t size = strlen(name) + sizeof(".M");
 		uint32_t before, edge;
+		char *text;
 
 		if (!vars->var[i].edge)
 			continue;
-		before = st_intern(s, text, (size_t)snprintf(text, sizeof(text), "%s.M", name));
+		text = arena_alloc(s->ld.scratch, size);
+		if (!text) {
+			s->ld.failed = true;
+			return;
+		}
+		before = st_intern(s, text, (size_t)snprintf(text, size, "%s.M", name));
 		ld_emit(&s->ld, OP_LD, vars->var[i].edge == 1 ? 0 : MOD_N, vars->var[i].name);
 		ld_emit(&s->ld, OP_AND, vars->var[i].edge == 1 ? MOD_N : 0, before);
 		edge = ld_store_new(&s->ld);

@@ -340,7 +340,7 @@ static void dates(void)
 	CHECK(becomes("TOD#24:00:00", LITERAL_RANGE) && becomes("TOD#12:60:00", LITERAL_RANGE));
 	CHECK(becomes("TOD#12:00:00.0000000001", LITERAL_RANGE));
 	CHECK(becomes("D#2024-01", LITERAL_BAD) && becomes("D#2024-01-01x", LITERAL_BAD));
-	CHECK(becomes("D#", LITERAL_BAD) && becomes("TOD#12:00", LITERAL_BAD));
+	CHECK(becomes("D#", LITERAL_BAD) && becomes("TOD#12", LITERAL_BAD));
 	CHECK(becomes("DT#2024-01-01", LITERAL_BAD) && becomes("DT#2024-01-01 12:00:00", LITERAL_BAD));
 	CHECK(becomes("D#2_024-01-01", LITERAL_BAD) && becomes("D#-2024-01-01", LITERAL_BAD));
 }

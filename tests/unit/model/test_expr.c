@@ -79,6 +79,8 @@ static void precedence(void)
 	CHECK_TEXT(tree("a + b * c MOD d / e"),
 		   "(ADD a (DIV (MOD (MUL b c) d) e))");
 	CHECK_TEXT(tree("-a * b"), "(MUL (- a) b)");
+	CHECK_TEXT(tree("+a + +b"), "(ADD a b)");
+	CHECK_TEXT(tree("-a ** b ** c * d"), "(MUL (EXPT (EXPT (- a) b) c) d)");
 	CHECK_TEXT(tree("a - -5"), "(SUB a (- #5))");
 	CHECK_TEXT(tree("NOT a = b"), "(EQ (! a) b)");
 	CHECK_TEXT(tree("not (Up and Down)"), "(! (& Up Down))");
@@ -190,8 +192,8 @@ static void targets(void)
 static void malformed(void)
 {
 	static const char *const bad[] = {
-		"", "(", ")", "()", "a +", "+ a", "a b", "(a", "a)",
-		"a ** b", "a AND", "AND a", "a OR OR b", "NOT", "-", "a $ b",
+		"", "(", ")", "()", "a +", "a b", "(a", "a)",
+		"a ** ", "a AND", "AND a", "a OR OR b", "NOT", "-", "a $ b",
 		"\"text\"", "a; b", "a\001", "(a,b)", "a = = b", "a := ", "MOD",
 		"(a + b", "a & & b", "(* open",
 	};
