@@ -719,7 +719,7 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 static struct value chain_place(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
-	struct value value;
+	struct value value = { .type = IEC_NONE };
 
 	value.operand = node->op == EXPR_INDEX ? compute_element(c, node) :
 			intern_name(c, node->text, node->len);
@@ -1247,7 +1247,7 @@ void ld_compare(struct ld *ld, int element)
 	const struct network_element *at = &ld->network.element[element];
 	struct element_state *state = &ld->element[element];
 	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
-	struct value value;
+	struct value value = { .type = IEC_NONE };
 
 	if (!parse(ld, element))
 		return;
@@ -1287,7 +1287,7 @@ void ld_assign(struct ld *ld, int element)
 	const struct network_element *at = &ld->network.element[element];
 	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
 	const struct value none = { .type = IEC_NONE };
-	struct value value;
+	struct value value = { .type = IEC_NONE };
 	uint32_t target;
 
 	if (!parse(ld, element))

@@ -6,6 +6,7 @@
  * translated program must be the same, instruction by instruction.
  */
 #include "editor-gtk/edit/grid_edit.h"
+#include "engine/base/name.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 
@@ -14,7 +15,7 @@
 
 static bool same_text(struct project *a, uint32_t i, struct project *b, uint32_t k)
 {
-	return !strcmp(project_text(a, i), project_text(b, k));
+	return name_equal(project_text(a, i), project_text(b, k)); /* a name such as By is written as a word: BY */
 }
 
 static bool same_lists(struct ladder *a, struct ladder *b, int pou)
@@ -71,7 +72,7 @@ static const char *compare(const char *path, int *rungs_changed, int *files)
 	int changed;
 
 	if (!ladder_load(before, path) || !ladder_build(before) ||
-	    !ladder_load(after, path) || !ladder_project(after))
+	    !ladder_load(after, path) || !ladder_project(after) || ladder_project(after)->words.as_numbers)
 		goto out;
 	changed = normalise_all(ladder_project(after));
 	if (changed < 0) {

@@ -816,8 +816,7 @@ def to_file(screen):
     editor.shot('tree-move-again')
     until(lambda: titles() == ['• drive.rung'] and row('Motor'), 'both drafts')
     editor.says('2 warnings')
-    editor.keys('ctrl+s')
-    until(lambda: os.path.exists(part) and open(path).read() == rest, 'both files')
+    until(lambda: not editor.keys('ctrl+s') and os.path.exists(part) and open(path).read() == rest, 'both files')
     check(path)
 
 
