@@ -145,8 +145,7 @@ def everywhere(screen):
     assert '  Span : STRUCT\n' in text and 'Limit : Span := (Top := 90);' in text, text
     check(path)
     editor.focus_on('Top, Name', 'text')
-    editor.keys('shift+F12')
-    until(lambda: editor.all('type', 'table row'), 'the uses')
+    until(lambda: not editor.keys('shift+F12') and editor.all('type', 'table row'), 'the uses')
     editor.click(editor.find('Delete the structure', 'push button'))
     label(editor, 'It is used in 1 place. Variables and members of this type are deleted, too.')
     editor.shot('types-delete')
