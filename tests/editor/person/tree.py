@@ -6,6 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from outcome import drafts  # noqa: E402
 
 TEXT = '''RUNGBOARD 1
 
@@ -808,9 +809,8 @@ def to_file(screen):
     editor.type('drive')
     editor.keys('Return')
     until(lambda: titles() == ['• drive.rung'], 'the page of the file')
-    drafts = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
-    until(lambda: os.path.isdir(drafts) and sum(motor in open(os.path.join(drafts, name)).read() for name in os.listdir(drafts)) == 1
-          and len(os.listdir(drafts)) == 2, 'drafts of both')
+    until(lambda: sorted((motor in text, 'INCLUDE "drive.rung"' in text) for text in (open(file).read() for file in drafts(screen))) ==
+          [(False, True), (True, False)], 'drafts of both')
     editor.kill()
     editor = Editor(screen)
     editor.shot('tree-move-again')
