@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 #
 # samples.t - every program in ladders/ has no error, is canonical and passes its scenarios. The
-# scenarios must notice nearly every contact that is inverted or bridged, and in a chart every
-# changed condition and every line, priority, supervision and control that is left out. Samples
-# are found by their names.
+# scenarios must notice nearly every contact that is inverted or bridged, in a chart every
+# changed condition and every line, priority, supervision and control that is left out, and in
+# Structured Text nearly every turned condition, changed operator and statement that is left
+# out. Samples are found by their names.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -19,6 +20,7 @@ my $build = abs_path($ENV{BUILD} // "$top/build");
 my $ladder = $ENV{LADDER} ? abs_path($ENV{LADDER}) : "$build/ladder";
 my $folder = tempdir(CLEANUP => 1);
 my $noticed_least = 0.9; # interlocks that are made twice cannot be noticed
+my $missed_most = 0.1;   # of the changed statements of a sample
 # Lines of a chart that are made twice, so that leaving out one is not noticed: how many,
 # and in which sample.
 my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5, as in the published chart
@@ -30,7 +32,7 @@ sub broken_line {
 
 	$lines[$i] =~ s/^(\s+)(LD|AND|OR|JMPC|RETC|CALC)(N?)(?= |$)/$1 . $2 . ($3 ? '' : 'N')/e
 		or return;
-	return { line => $i + 1, row => $was, text => join("\n", @lines) };
+	return { line => $i + 1, row => $was, kind => 'list', text => join("\n", @lines) };
 }
 
 # The alternatives of a line of a chart; empty: without it.
@@ -67,19 +69,66 @@ sub broken_chart {
 		for my $with (broken_chart_line($lines[$i])) {
 			my @copy = @lines;
 			$copy[$i] = $with;
-			push @all, { line => $i + 1, row => "$lines[$i] -> $with", chart => 1,
+			push @all, { line => $i + 1, row => "$lines[$i] -> $with", kind => 'chart',
 				     text => join("\n", @copy) };
 		}
 	}
 	return @all;
 }
 
+# The alternatives of a line of Structured Text; empty: without it.
+sub broken_statement {
+	my ($line) = @_;
+	my @all;
+
+	my $code = $line =~ s/ *\(\*.*?\*\) *$| *\/\/.*//r;
+	if (my ($before, $is, $after) = $code =~ /^(\s*(?:IF|ELSIF|WHILE|UNTIL) )(.+?)((?: THEN| DO|;)?)$/) {
+		push @all, map { "$before$_$after" } "NOT ($is)", 'TRUE', 'FALSE';
+	} elsif ($code =~ /^\s+[\w.,\[\]]+(?: :=.*|\(.*\));$/ || $code =~ /^\s+(?:EXIT|CONTINUE|RETURN);$/) {
+		push @all, '';
+	}
+	my %other = (AND => 'OR', OR => 'AND', AND_THEN => 'OR', '+' => '-', '-' => '+', '*' => '+', '/' => '*',
+		     '>' => '<=', '<' => '>=', '>=' => '<', '<=' => '>', '=' => '<>', '<>' => '=');
+	while ($code =~ / \K(?:AND|OR|AND_THEN|[-+*\/]|[<>]=?|=|<>)(?= )/g) {
+		my $with = $other{$&};
+		push @all, substr($code, 0, $-[0]) . $with . substr($code, $+[0]);
+	}
+	push @all, $code =~ s/\bTRUE\b/FALSE/r if $code =~ /:= TRUE\b/;
+	push @all, $code =~ s/\bFALSE\b/TRUE/r if $code =~ /:= FALSE\b/;
+	return @all;
+}
+
+# The bodies in Structured Text, changed once in each way.
+sub broken_statements {
+	my ($plain, @lines) = @_;
+	my (@all, $st, $in, $comment);
+
+	for my $i (0 .. $#lines) {
+		$st = 1 if $lines[$i] =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK) .* ST$/ || $plain;
+		$in = $st if $lines[$i] =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK) /;
+		$in = $st = 0 if $lines[$i] =~ /^END_(?:PROGRAM|FUNCTION)/;
+		$in = 0 if $lines[$i] =~ /^VAR/;
+		if ($lines[$i] =~ /^END_VAR/) {
+			$in = $st;
+			next;
+		}
+		$comment = 1 if $lines[$i] =~ /^\s*\(\*/;
+		for my $with ($in && !$comment ? broken_statement($lines[$i]) : ()) {
+			my @copy = @lines;
+			$copy[$i] = $with;
+			push @all, { line => $i + 1, row => "$lines[$i] -> $with", kind => 'st', text => join("\n", @copy) };
+		}
+		$comment = 0 if $lines[$i] =~ /\*\)/;
+	}
+	return @all;
+}
+
 # The program with each contact changed once in each way.
 sub broken {
-	my ($text) = @_;
+	my ($text, $file) = @_;
 	my @lines = split /\n/, $text, -1;
 	my %turned = (NO => 'NC', NC => 'NO');
-	my @all = broken_chart(@lines);
+	my @all = (broken_chart(@lines), broken_statements(scalar($file =~ /\.st$/), @lines));
 	for my $i (0 .. $#lines) {
 		push @all, broken_line($i, @lines);
 		next if $lines[$i] !~ /^\s*\|/;
@@ -90,7 +139,7 @@ sub broken {
 				      '---') {
 				my @copy = @lines;
 				substr($copy[$i], $at, $end - $at) = $with;
-				push @all, { line => $i + 1, row => $copy[$i],
+				push @all, { line => $i + 1, row => $copy[$i], kind => 'contact',
 					     text => join("\n", @copy) };
 			}
 		}
@@ -100,10 +149,14 @@ sub broken {
 
 my ($made, $noticed) = (0, 0);
 my @plants = glob("$top/ladders/*.plant.rung");
-my @programs = grep { !/\.plant\.rung$/ } glob("$top/ladders/*.rung");
+# A sample is a rung file, or a folder of plain IEC text. Names as arguments: only these.
+my %only = map { $_ => 1 } @ARGV;
+my @programs = grep { !/\.plant\.rung$/ } glob("$top/ladders/*.rung"), map { dirname($_) } glob("$top/ladders/*/main.st");
+@programs = grep { $only{basename($_, '.rung')} } @programs if %only;
 for my $program (@programs) {
 	my $name = basename($program, '.rung');
-	my $scenarios = $program =~ s/\.rung$/.scn/r;
+	my $scenarios = -d $program ? "$program.scn" : $program =~ s/\.rung$/.scn/r;
+	my @files = -d $program ? glob("$program/*") : ($program);
 	my ($status, $text) = answer('.', $ladder, 'check', $program);
 
 	ok($status == 0 && $text !~ /warning|error/, "$name: good, no warning")
@@ -111,32 +164,47 @@ for my $program (@programs) {
 	($status, $text) = answer('.', $ladder, 'fmt', '--check', $program);
 	is($status, 0, "$name: canonical") or diag($text);
 	# The welcome page shows its first sentence.
-	like(slurp($program) =~ s/\n\(\*.*//sr, qr/^[^;]*$/, "$name: a comment says what it is, before any declaration");
+	my ($head) = -d $program ? "$program/main.st" : $program;
+	like("\n" . slurp($head) =~ s/(?:^|\n)\(\*.*//sr, qr/^[^;]*$/, "$name: a comment says what it is, before any declaration");
 	($status, $text) = answer('.', $ladder, 'test', $scenarios);
 	is($status, 0, "$name: does what its scenarios say") or diag($text);
 	my $count = () = $text =~ /^ok /mg;
 	cmp_ok($count, '>=', 3, "$name: has scenarios");
 
 	my $plant = $program =~ s/\.rung$/.plant.rung/r;
-	spew("$folder/$name.plant.rung", slurp($plant)) if -e $plant;
+	spew("$folder/$name.plant.rung", slurp($plant)) if $plant ne $program && -e $plant;
 	spew("$folder/$name.scn", slurp($scenarios));
-	my (@missed, @missed_chart);
-	my $of = 0;
-	for my $broken (broken(slurp($program))) {
-		spew("$folder/$name.rung", $broken->{text});
-		($status, $text) = answer('.', $ladder, 'test', '--fail-fast', "$folder/$name.scn");
-		next if $text =~ /^not ok 1 - .*: its program is good$/m; # it is not a program any more
-		$of++;
-		next if $status;
-		push @missed, "$broken->{line}: $broken->{row}";
-		push @missed_chart, $missed[-1] if $broken->{chart};
+	if (-d $program) {
+		mkdir "$folder/$name" or die "$folder/$name: $!";
+		spew("$folder/$name/" . basename($_), slurp($_)) for @files;
 	}
-	is(scalar @missed_chart, $twice{$name} // 0, "$name: its scenarios notice every change of the chart")
-		or diag(join "\n", @missed_chart) if slurp($program) =~ /^PROGRAM \w+ SFC/m;
+	my (%missed, %of);
+	for my $file (@files) {
+		my $copy = "$folder/" . substr $file, length "$top/ladders/";
+		for my $broken (broken(slurp($file), $file)) {
+			spew($copy, $broken->{text});
+			($status, $text) = answer('.', $ladder, 'test', '--fail-fast', "$folder/$name.scn");
+			next if $text =~ /^not ok 1 - .*: its program is good$/m; # it is not a program any more
+			$of{$broken->{kind}}++;
+			push @{ $missed{$broken->{kind}} }, "$broken->{line}: $broken->{row}" if !$status;
+		}
+		spew($copy, slurp($file));
+	}
+	my @missed = map { @$_ } values %missed;
+	is(scalar @{ $missed{chart} // [] }, $twice{$name} // 0, "$name: its scenarios notice every change of the chart")
+		or diag(join "\n", @{ $missed{chart} }) if $of{chart};
+	cmp_ok(scalar @{ $missed{st} // [] }, '<=', $of{st} * $missed_most, "$name: its scenarios notice changed statements")
+		or diag(join "\n", @{ $missed{st} }) if $of{st};
+	my $of = 0;
+	$of += $_ for values %of;
 	$made += $of;
 	$noticed += $of - @missed;
 	cmp_ok(@missed, '<', $of / 2, "$name: its scenarios notice broken contacts")
 		or diag(join "\n", @missed);
+}
+if (%only) {
+	done_testing();
+	exit;
 }
 for my $plant (@plants) {
 	my $name = basename($plant, '.rung');
@@ -160,7 +228,7 @@ for my $plant (@plants) {
 	unlike($text, qr/ error LD\d/, "$name: and it is not the file") or diag($text);
 }
 cmp_ok(@plants, '>=', 3, 'samples with a plant');
-cmp_ok(@programs, '>=', 8, 'the samples were found');
+cmp_ok(@programs, '>=', 26, 'the samples were found');
 cmp_ok($noticed, '>=', $noticed_least * $made,
        "broken contacts are noticed: $noticed of $made");
 done_testing();
