@@ -146,7 +146,7 @@ static void keep_way(struct running *running, int index, struct scenario_result 
 		      plant ? running->plant->program : NULL, result->period_ns) &&
 	    scenario_read(running->file->file, running->text, running->len,
 			  &twin->resource.image, plant ? &twin->plant.image : NULL,
-			  &arena, &file, diags))
+			  ladder_project(running->program->ladder), &arena, &file, diags))
 		scenario_each_act(&file, index, twin, result->scan, keep_act,
 				  result->acts);
 	twin_free(twin);
@@ -228,8 +228,8 @@ static void run_all_of(struct running *running, struct resource *resource,
 	arena_init(&arena);
 	running->file = &file;
 	if (scenario_read(name, running->text, running->len, &resource->image,
-			  plant ? &plant->resource.image : NULL, &arena, &file,
-			  diags)) {
+			  plant ? &plant->resource.image : NULL,
+			  ladder_project(running->program->ladder), &arena, &file, diags)) {
 		file.stop = &running->job->stop;
 		for (int i = 0; i < file.count && !running->job->stop; i++)
 			run_one(running, i, resource, plant);

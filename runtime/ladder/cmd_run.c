@@ -90,7 +90,8 @@ static enum status run_plain(struct call *call, struct board *board,
 						 tell_fault(board, call->arg[0]);
 }
 
-static enum status apply_settings(struct call *call, struct board *board)
+static enum status apply_settings(struct call *call, const struct project *project,
+				  struct board *board)
 {
 	struct image *image = &board->resource->image;
 	struct diag place = { .file = "--set" };
@@ -104,8 +105,7 @@ static enum status apply_settings(struct call *call, struct board *board)
 
 		if (strcmp(call->given[i].row->name, "--set") != 0)
 			continue;
-		if (setting_parse(image, text, strlen(text), &setting, diags,
-				  place))
+		if (setting_parse(image, project, text, strlen(text), &setting, diags, place))
 			board_set(board, setting.at, setting.value);
 	}
 	return report_end(diags) ? STATUS_GOOD : STATUS_WRONG;
@@ -149,7 +149,7 @@ static enum status run(struct call *call, struct machine *machine,
 		return report_no_memory(call->arg[0]);
 	status = board_open(board, machine, call_option(call, "--io"));
 	if (status == STATUS_GOOD)
-		status = apply_settings(call, board);
+		status = apply_settings(call, ladder_project(machine->ladder), board);
 	if (status == STATUS_GOOD && tty_is() && !call_flag(call, "--plain")) {
 		status = live_run(call, board, pace, ladder_project(machine->ladder),
 				  call_option(call, "--rungs"));

@@ -94,7 +94,8 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	good = find_plant(machine, path, text, len, &arena) &&
 	       scenario_read(path, text, len, &machine->resource.image,
 			     machine_plant(machine) ?
-			     &machine->plant.resource.image : NULL, &arena,
+			     &machine->plant.resource.image : NULL,
+			     ladder_project(machine->ladder), &arena,
 			     &file, diags);
 	report_diags(diags);
 	for (int i = 0; good && i < file.count && !is_over(tap); i++)

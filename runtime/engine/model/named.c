@@ -7,6 +7,7 @@
 #include "engine/model/named.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/name.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -68,25 +69,85 @@ int named_print(const struct project *project, const struct var *var, char *out,
 	return used;
 }
 
-/* The types that have the value @name: "Color#Red or Signal#Red". */
-static void print_types(struct project *project, const char *name, char *out, size_t size)
+/* Is @len bytes of @text a spelling of the string @id? Interns nothing. */
+static bool is_spelling(const struct project *project, uint32_t id, const char *text, size_t len)
 {
-	const uint32_t fold = names_fold(&project->names, names_intern(&project->names, name,
-							     strlen(name)));
+	return name_is(project_text(project, id), text, len);
+}
+
+/* The named type that @len bytes of @name are; -1: none. */
+static int type_called(const struct project *project, const char *name, size_t len)
+{
+	for (int i = 0; i < project->named_count; i++)
+		if (is_spelling(project, project->named[i].name, name, len))
+			return i;
+	return -1;
+}
+
+/* `Color#Red`; @head: bytes before the sign. */
+static bool typed_number(const struct project *project, const char *text, size_t len, size_t head,
+			 int64_t *out, enum diag_id *why)
+{
+	const int type = type_called(project, text, head);
+	const struct var *like = type < 0 ? NULL : project->named[type].like.var;
+	const struct enumeration *list;
+
+	if (!like || !like->enumeration)
+		return false;
+	list = &project->enumeration[like->enumeration - 1];
+	for (int i = list->first; i < list->first + list->count; i++)
+		if (is_spelling(project, project->enum_value[i].name, text + head + 1, len - head - 1)) {
+			*out = project->enum_value[i].number;
+			return true;
+		}
+	*why = DIAG_NO_SUCH_VALUE;
+	return false;
+}
+
+bool named_number(const struct project *project, const char *text, size_t len, int64_t *out,
+		  enum diag_id *why)
+{
+	const struct enum_value *found = NULL;
+	size_t head = 0;
+
+	while (head < len && text[head] != '#' && text[head] != '.')
+		head++;
+	if (head < len)
+		return typed_number(project, text, len, head, out, why);
+	for (int i = 0; i < project->enum_value_count; i++) {
+		const struct enum_value *value = &project->enum_value[i];
+
+		if (!is_spelling(project, value->name, text, len))
+			continue;
+		if (found && found->number != value->number) {
+			*why = DIAG_AMBIGUOUS_VALUE;
+			return false;
+		}
+		found = value;
+	}
+	if (found)
+		*out = found->number;
+	return found != NULL;
+}
+
+/* The types that have the value @name: "Color#Red or Signal#Red". */
+static void print_types(const struct project *project, const char *name, char *out, size_t size)
+{
+	const size_t len = strlen(name);
 	size_t used = 0;
 
 	for (int i = 0; i < project->enum_value_count && used < size; i++) {
 		const struct enum_value *value = &project->enum_value[i];
 		const uint32_t type = project->enumeration[value->enumeration].name;
 
-		if (value->fold == fold && type)
+		if (type && is_spelling(project, value->name, name, len))
 			used += (size_t)snprintf(out + used, size - used, "%s%.40s#%.40s",
 						 used ? ", " : "", project_text(project, type),
 						 project_text(project, value->name));
 	}
 }
 
-void named_tell(struct project *project, enum diag_id why, const char *name, char *out,
+void named_tell(const struct project *project, enum diag_id why, const char *name, char *out,
 		size_t size)
 {
 	const size_t head = strcspn(name, "#.");
@@ -99,8 +160,7 @@ void named_tell(struct project *project, enum diag_id why, const char *name, cha
 		memcpy(out + used, DIAG_AND, 2);
 		print_types(project, name, out + used + 1, size - (size_t)used - 1);
 	} else if (why == DIAG_NO_SUCH_VALUE) {
-		type = named_find(project, names_fold(&project->names,
-				  names_intern(&project->names, name, head)));
+		type = type_called(project, name, head);
 		memcpy(out + used, DIAG_AND, 2);
 		if (type >= 0)
 			named_print(project, project->named[type].like.var, out + used + 1,

@@ -34,13 +34,23 @@ bool named_default(struct project *project, struct var *var);
 /** named_may_hold - whether a variable declared like @var may have the value @number. Scan-safe: yes. */
 bool named_may_hold(const struct project *project, const struct var *var, int64_t number);
 /**
+ * named_number - the number of a value of an enumeration: `Red`, `Color#Red`, `Color.Red`
+ *
+ * For texts that are no part of the project. Nothing is interned.
+ * Owns: nothing.   Scan-safe: no.
+ * Fails: false; if several enumerations have `Red` with other numbers, or Color has no such value, with
+ * DIAG_AMBIGUOUS_VALUE or DIAG_NO_SUCH_VALUE in @why, which is otherwise as it was.
+ */
+bool named_number(const struct project *project, const char *text, size_t len, int64_t *out,
+		  enum diag_id *why);
+/**
  * named_tell - the arguments of a message about a name that is no value: DIAG_AMBIGUOUS_VALUE,
  * DIAG_NO_SUCH_VALUE
  *
  * @out: gets @name, and how it must be written, or the values that there are; as it is for another @why
  * Owns: nothing.   Scan-safe: no.
  */
-void named_tell(struct project *project, enum diag_id why, const char *name, char *out,
+void named_tell(const struct project *project, enum diag_id why, const char *name, char *out,
 		size_t size);
 /** named_print - the values that it may have: "0..100", "Red, Green, …"; as snprintf. */
 int named_print(const struct project *project, const struct var *var, char *out, size_t size);

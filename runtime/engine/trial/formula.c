@@ -6,11 +6,13 @@
 #include "engine/trial/formula.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/named.h"
 #include "engine/trial/value.h"
 
 #include "engine/scan/value.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static enum formula_kind kind_of(enum iec_type type)
@@ -36,6 +38,23 @@ static enum formula_kind kind_of(enum iec_type type)
 		break;
 	}
 	return KIND_INT;
+}
+
+/* A name that is not known, or not clear. */
+static void complain_leaf(const struct formula *formula, struct diag_list *diags, struct diag place,
+			  enum diag_id why, const char *line_start, const struct expr_node *at)
+{
+	char name[64], told[192];
+
+	place.id = why;
+	if (at->text)
+		place.column = (int)(at->text - line_start) + 1;
+	snprintf(name, sizeof(name), "%.*s", at->len < 60 ? (int)at->len : 60,
+		 at->text ? at->text : "");
+	snprintf(told, sizeof(told), "%s", name);
+	if (formula->project)
+		named_tell(formula->project, why, name, told, sizeof(told));
+	diag_add(diags, place, "%s", told);
 }
 
 static bool complain(struct diag_list *diags, struct diag place,
@@ -165,13 +184,23 @@ static struct location find_name(const struct formula *formula,
 	return value_find(side, name, len, why);
 }
 
+/* `Red`, `Color#Red`. */
+static bool take_value(const struct formula *formula, const struct expr_node *from,
+		       struct formula_term *term, enum diag_id *why)
+{
+	term->kind = KIND_INT;
+	return formula->project && named_number(formula->project, from->text, from->len,
+						&term->value.i, why);
+}
+
 static bool take_leaf(const struct formula *formula, const struct image *image,
 		      const struct expr_node *from, struct formula_term *term,
 		      struct arena *arena, enum diag_id *why)
 {
 	term->op = EXPR_LITERAL;
 	if (from->op == EXPR_LITERAL)
-		return take_literal(term, from->text, from->len, arena, why);
+		return take_literal(term, from->text, from->len, arena, why) ||
+		       take_value(formula, from, term, why);
 	enum diag_id missing;
 
 	term->at = find_name(formula, image, term, from, &missing);
@@ -182,7 +211,7 @@ static bool take_leaf(const struct formula *formula, const struct image *image,
 		if (take_literal(term, from->text, from->len, arena, why))
 			return true;
 		*why = missing;
-		return false;
+		return take_value(formula, from, term, why);
 	}
 	term->op = EXPR_NAME;
 	term->kind = (uint8_t)kind_of(term->at.type);
@@ -304,7 +333,8 @@ static struct expr_node blame_leaf(const struct expr_node *from, const struct fo
 }
 
 struct formula *formula_new(const struct image *image, const struct image *plant,
-			    const struct expr *expr, struct arena *arena, const char *line_start,
+			    const struct project *project, const struct expr *expr,
+			    struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place)
 {
 	struct formula *formula = arena_alloc(arena, sizeof(*formula));
@@ -319,6 +349,7 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 	}
 	formula->constant = true;
 	formula->plant = plant;
+	formula->project = project;
 	formula->count = expr->count;
 	formula->root = expr->root;
 	for (int i = 0; i < expr->count; i++) {
@@ -354,10 +385,13 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 		}
 		if (leaf ? !take_leaf(formula, image, from, term, arena, &why) :
 			   !take_operation(formula, term, &why)) {
-			const struct expr_node at = leaf ? blame_leaf(from, term) :
-							   *blame(formula, expr, i, why);
+			const struct expr_node at = blame_leaf(from, term);
 
-			complain(diags, place, why, line_start, &at);
+			if (leaf)
+				complain_leaf(formula, diags, place, why, line_start, &at);
+			else
+				complain(diags, place, why, line_start,
+					 blame(formula, expr, i, why));
 			return NULL;
 		}
 		formula->constant &= term->op != EXPR_NAME &&

@@ -11,6 +11,7 @@
 
 #include "engine/base/arena.h"
 #include "engine/model/expr.h"
+#include "engine/model/project.h"
 #include "engine/scan/image.h"
 
 enum formula_kind {
@@ -39,11 +40,13 @@ struct formula {
 	int count, root;
 	bool constant;             /* contains no variable                   */
 	const struct image *plant; /* image for names with `plant.`; or NULL */
+	const struct project *project; /* names values of enumerations; or NULL */
 };
 
 /**
  * formula_new - resolves names and checks kinds
  * @plant:      of the program's plant, whose names begin with `plant.`; or NULL
+ * @project:    names values of enumerations; or NULL
  * @expr:       what expr_parse gave
  * @line_start: of the source line, for columns
  *
@@ -52,7 +55,8 @@ struct formula {
  * Owns: @arena. Scan-safe: no. Fails: NULL and a diagnostic.
  */
 struct formula *formula_new(const struct image *image, const struct image *plant,
-			    const struct expr *expr, struct arena *arena, const char *line_start,
+			    const struct project *project, const struct expr *expr,
+			    struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place);
 
 /**

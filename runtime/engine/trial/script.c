@@ -138,7 +138,7 @@ static bool take_setting(struct script *script, struct script_word word)
 		word.len -= (size_t)(name - word.text);
 		word.text = name;
 	}
-	if (!setting_parse(image, word.text, word.len, &setting, script->diags,
+	if (!setting_parse(image, script->trace->project, word.text, word.len, &setting, script->diags,
 			   place_of(script, word.text)))
 		return false;
 	if (!script->dry)

@@ -4,6 +4,7 @@
  */
 #include "engine/trial/value.h"
 #include "engine/base/name.h"
+#include "engine/model/named.h"
 
 #include "engine/trial/classic_name.h"
 
@@ -293,8 +294,26 @@ const struct image *value_side(const struct image *image, const struct image *pl
 	return plant;
 }
 
-bool setting_parse(const struct image *image, const char *text, size_t len,
-		   struct setting *out, struct diag_list *diags,
+static bool tell_value(const struct project *project, const char *text, size_t len,
+		       struct diag_list *diags, struct diag place)
+{
+	char name[64], told[192];
+
+	snprintf(name, sizeof(name), "%.*s", (int)(len < 60 ? len : 60), text);
+	snprintf(told, sizeof(told), "%s", name);
+	if (project)
+		named_tell(project, place.id, name, told, sizeof(told));
+	return diag_add(diags, place, "%s", told);
+}
+
+/* May it be of an enumeration? */
+static bool is_whole(enum iec_type type)
+{
+	return type != IEC_BOOL && iec_type_row(type)->class & (ANY_INT | ANY_BIT);
+}
+
+bool setting_parse(const struct image *image, const struct project *project, const char *text,
+		   size_t len, struct setting *out, struct diag_list *diags,
 		   struct diag place)
 {
 	const char *equals = memchr(text, '=', len);
@@ -314,7 +333,9 @@ bool setting_parse(const struct image *image, const char *text, size_t len,
 	}
 	len -= name + 1;
 	bool good = value_parse(out->at.type, equals + 1, len, &out->text,
-				&out->value, &why);
+				&out->value, &why) ||
+		    (project && is_whole(out->at.type) &&
+		     named_number(project, equals + 1, len, &out->value.i, &why));
 
 	if (good && !value_has_room(image, out->at, out->value)) {
 		good = false;
@@ -324,8 +345,7 @@ bool setting_parse(const struct image *image, const char *text, size_t len,
 		place.id = why;
 		if (place.column)
 			place.column += (int)name + 1;
-		return diag_add(diags, place, "%.*s",
-				(int)(len < 60 ? len : 60), equals + 1);
+		return tell_value(project, equals + 1, len, diags, place);
 	}
 	return true;
 }

@@ -10,6 +10,7 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/literal.h"
+#include "engine/model/project.h"
 #include "engine/scan/image.h"
 
 /* The longest time of a trial in ns (31 years): sums of four never overflow. */
@@ -72,12 +73,12 @@ struct setting {
 };
 /**
  * setting_parse - `NAME=VALUE`
+ * @project: its values of enumerations may be used; NULL: numbers only
  * @out: must not be copied
  * @place: of the text, for the diagnostic; its column is that of @text
  *
  * Owns: nothing. Scan-safe: no. Fails: false and one diagnostic.
  */
-bool setting_parse(const struct image *image, const char *text, size_t len,
-		   struct setting *out, struct diag_list *diags,
-		   struct diag place);
+bool setting_parse(const struct image *image, const struct project *project, const char *text,
+		   size_t len, struct setting *out, struct diag_list *diags, struct diag place);
 #endif
