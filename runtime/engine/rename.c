@@ -107,11 +107,16 @@ static bool is_local(const struct xref_target *target)
 	       target->what == XREF_ACTION;
 }
 
-/* Whether both are in a scope where names must differ. */
-static bool share_space(const struct xref_target *a, const struct xref_target *b)
+static bool is_type(const struct xref_target *target)
 {
-	bool a_type = a->what == XREF_POU || a->what == XREF_STRUCTURE;
-	bool b_type = b->what == XREF_POU || b->what == XREF_STRUCTURE;
+	return target->what == XREF_POU || target->what == XREF_STRUCTURE ||
+	       target->what == XREF_NAMED;
+}
+
+/* Whether both are in a scope where names must differ. */
+static bool share_space(const struct project *project, const struct xref_target *a, const struct xref_target *b)
+{
+	bool a_type = is_type(a), b_type = is_type(b);
 	bool a_global = a->what == XREF_VARIABLE && a->table == 0;
 	bool b_global = b->what == XREF_VARIABLE && b->table == 0;
 
@@ -119,6 +124,9 @@ static bool share_space(const struct xref_target *a, const struct xref_target *b
 		return true;
 	if (is_local(a) && is_local(b))
 		return a->table == b->table;
+	if (a->what == XREF_VALUE && b->what == XREF_VALUE)
+		return project->enum_value[a->index].enumeration ==
+		       project->enum_value[b->index].enumeration;
 	return a->what == b->what && !a_type && a->table == b->table;
 }
 
@@ -130,7 +138,7 @@ static bool is_free(struct rename *r)
 		const struct xref_use *use = &r->before.use[i];
 
 		if (use->kind == XREF_DECLARED && !xref_same(&use->target, &r->target) &&
-		    share_space(&use->target, &r->target) &&
+		    share_space(r->project, &use->target, &r->target) &&
 		    names_fold(&r->project->names, *use->slot) == fold)
 			return refuse(r, RENAME_TAKEN, use);
 	}
@@ -145,7 +153,7 @@ static bool is_word(const struct rename *r)
 	bool local = target->what == XREF_VARIABLE && target->table >= 1 &&
 		     target->table <= project->pou_count;
 
-	if (target->what == XREF_STRUCTURE ||
+	if (target->what == XREF_STRUCTURE || target->what == XREF_NAMED ||
 	    (target->what == XREF_POU && pou_has_frame(&project->pou[target->index])))
 		return words_is_taken(r->name);
 	if (is_local(target) && target->table <= project->pou_count &&
@@ -244,6 +252,9 @@ static void name_words(struct rename *r, const char *from, const char *to)
 	const struct word_table *table = &r->project->words;
 	bool structure = r->target.what == XREF_STRUCTURE;
 
+	if (r->target.what == XREF_NAMED)
+		r->project->named[r->target.index].name =
+			names_intern(&r->project->names, to, strlen(to));
 	if (r->target.what != XREF_POU && !structure)
 		return;
 	for (int i = 0; i < table->count; i++) {
@@ -257,12 +268,29 @@ static void name_words(struct rename *r, const char *from, const char *to)
 
 /* ---- does the program still mean the same? ---- */
 
+static int place_of_value(const struct project *project, int value)
+{
+	return value - project->enumeration[project->enum_value[value].enumeration].first;
+}
+
+/* `A, B : (Up, Down)` is written as two declarations, so values have other numbers. */
+static bool is_same(const struct rename *r, const struct xref_target *before,
+		    const struct xref *after, const struct xref_target *now)
+{
+	if (before->what != XREF_VALUE || now->what != XREF_VALUE)
+		return xref_same(before, now);
+	return place_of_value(r->project, before->index) ==
+		       place_of_value(after->project, now->index) &&
+	       r->project->enum_value[before->index].number ==
+		       after->project->enum_value[now->index].number;
+}
+
 static bool same_meaning(struct rename *r, const struct xref *after)
 {
 	for (int i = 0; i < after->count && i < r->before.count; i++) {
 		const struct xref_use *a = &r->before.use[i], *b = &after->use[i];
 
-		if (a->kind != b->kind || !xref_same(&a->target, &b->target))
+		if (a->kind != b->kind || !is_same(r, &a->target, after, &b->target))
 			return refuse(r, RENAME_MEANING, a);
 	}
 	return after->count == r->before.count ? true :

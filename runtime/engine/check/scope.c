@@ -344,26 +344,55 @@ static bool mean_plain_value(const struct scope *scope, uint32_t fold, struct me
 	return true;
 }
 
+/* The number of the enumeration of the type with this name; -1: it has none. */
+static int value_list(const struct scope *scope, const char *text, size_t len)
+{
+	struct names *names = &scope->project->names;
+	const int type = named_find(scope->project,
+				    names_fold(names, names_intern(names, text, len)));
+	const struct var *like = type < 0 ? NULL : scope->project->named[type].like.var;
+
+	return like ? like->enumeration - 1 : -1;
+}
+
 /* `Color#Red`, and `Color.Red` as others write it; @at: of the sign. */
 static bool mean_typed_value(const struct scope *scope, const char *text, size_t len, size_t at,
 			     struct meaning *out, enum diag_id *why)
 {
 	struct names *names = &scope->project->names;
-	const int type = named_find(scope->project,
-				    names_fold(names, names_intern(names, text, at)));
+	const int list = value_list(scope, text, at);
 	const struct enum_value *value;
-	int list;
 
-	if (type < 0 || !scope->project->named[type].like.var ||
-	    !scope->project->named[type].like.var->enumeration)
+	if (list < 0)
 		return false;
-	list = scope->project->named[type].like.var->enumeration - 1;
 	value = named_value(scope->project, list, names_fold(names,
 			    names_intern(names, text + at + 1, len - at - 1)));
 	*why = DIAG_NO_SUCH_VALUE;
 	if (value)
 		mean_value(scope, value, scope->project->enumeration[list].type, out);
 	return value != NULL;
+}
+
+int scope_value(const struct scope *scope, const char *text, size_t len, size_t *head)
+{
+	struct names *names = &scope->project->names;
+	struct meaning m = { .kind = MEANING_NONE };
+	const struct enum_value *value;
+	const char *sign = memchr(text, '#', len);
+	enum diag_id why;
+	uint32_t fold;
+	int list;
+
+	if (!sign)
+		sign = memchr(text, '.', len);
+	*head = sign ? (size_t)(sign - text) + 1 : 0;
+	fold = names_fold(names, names_intern(names, text + *head, len - *head));
+	if (sign) {
+		list = value_list(scope, text, *head - 1);
+		value = list < 0 ? NULL : named_value(scope->project, list, fold);
+		return value ? (int)(value - scope->project->enum_value) : -1;
+	}
+	return mean_plain_value(scope, fold, &m, &why) ? find_in(scope, VALUES, fold)->index : -1;
 }
 
 static bool mean_literal(const char *text, size_t len, struct meaning *out,

@@ -144,6 +144,10 @@ bool scope_is_condition(const struct meaning *meaning);
 /** scope_pou - the POU of this name, unless a variable of @pou has it too; NULL: none.
  * @text: string id. Scan-safe: no. */
 const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text);
+/** scope_value - the value of an enumeration that `Red`, `Color#Red` or `Color.Red` is, by its
+ * number in the project; -1: none, or several. A variable of the same name has priority: that is not
+ * looked at. @head: gets the bytes in front of the value, with the sign: of `Color#`. Scan-safe: no. */
+int scope_value(const struct scope *scope, const char *text, size_t len, size_t *head);
 /** scope_duplicate - an earlier declaration of the same name in the same table,
  * or -1. */
 int scope_duplicate(struct scope *scope, const struct pou *pou, int index);

@@ -256,7 +256,8 @@ enum text_part {
 	TEXT_VAR,   /* one declaration, its newline too; number in its table  */
 	TEXT_BODY,  /* of a POU: its rungs or its list; number of the POU     */
 	TEXT_RUNG,  /* number in its POU                                      */
-	TEXT_STRUCT, /* a structure; number in the project                    */
+	TEXT_STRUCT, /* a structure; number in the project. Behind them the other types
+			with names, each with one TEXT_VAR 0                  */
 	TEXT_TITLE, /* PROJECT "…" and the properties, or the place for them  */
 	TEXT_ENTRY, /* a line of the CONFIGURATION, its comments too; its number */
 	TEXT_RESOURCE, /* from RESOURCE to END_RESOURCE                       */

@@ -363,6 +363,19 @@ static void write_struct(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_STRUCT, number, false);
 }
 
+/* Marked like a structure with one member. */
+static void write_named_type(const struct sink *sink, const struct project *project, int index,
+			     const struct widths *widths)
+{
+	const int number = project->structure_count + index;
+
+	sink_mark(sink, TEXT_STRUCT, number, true);
+	sink_mark(sink, TEXT_VAR, 0, true);
+	write_var(sink, project, project->named[index].like.var, widths);
+	sink_mark(sink, TEXT_VAR, 0, false);
+	sink_mark(sink, TEXT_STRUCT, number, false);
+}
+
 /* The types of this part that are no structures and stand above structure @before. */
 static void write_named(const struct sink *sink, const struct project *project,
 			const struct part *part, int before)
@@ -378,7 +391,7 @@ static void write_named(const struct sink *sink, const struct project *project,
 			if (type->part != number || type->before != before || !type->like.var)
 				continue;
 			if (pass)
-				write_var(sink, project, type->like.var, &widths);
+				write_named_type(sink, project, i, &widths);
 			else
 				widths.name = width > widths.name ? width : widths.name;
 		}

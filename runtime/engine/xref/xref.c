@@ -7,12 +7,14 @@
 #include "engine/xref/xref.h"
 
 #include "engine/base/lex.h"
+#include "engine/base/literal.h"
 #include "engine/check/access.h"
 #include "engine/check/scope.h"
 #include "engine/model/st.h"
 #include "engine/model/args.h"
 #include "engine/model/init.h"
 #include "engine/model/loop.h"
+#include "engine/model/named.h"
 
 #include <string.h>
 
@@ -34,6 +36,7 @@ struct xref_walk {
 	uint32_t labels;
 	int body;                /* for labels: each POU has one, a chart many */
 	enum word call;          /* of the call in a list whose pins follow   */
+	int values;              /* of an initial value: enumeration of its variable + 1; 0: none */
 };
 
 /* ---- targets ---- */
@@ -46,8 +49,10 @@ struct var_table *xref_table(struct project *project, int table)
 		return &project->globals;
 	if (table > 0 && table <= project->pou_count)
 		return &project->pou[table - 1].vars;
-	return structure >= 0 && structure < project->structure_count ?
-	       &project->structure[structure].vars : NULL;
+	if (structure < 0 || structure >= project->structure_count + project->named_count)
+		return NULL;
+	return structure < project->structure_count ? &project->structure[structure].vars :
+	       &project->named[structure - project->structure_count].like;
 }
 
 struct var *xref_var(struct project *project, const struct xref_target *target)
@@ -57,6 +62,25 @@ struct var *xref_var(struct project *project, const struct xref_target *target)
 
 	return table && target->index >= 0 && target->index < table->count ?
 	       &table->var[target->index] : NULL;
+}
+
+bool xref_value_owner(const struct project *project, int value, int *table, int *index)
+{
+	struct project *of = (struct project *)(uintptr_t)project;
+	const int enumeration = project->enum_value[value].enumeration + 1;
+	const int types = project->pou_count + 1 + project->structure_count;
+
+	/* Types first: variables of a type have its enumeration, too. */
+	for (int i = 0, tables = types + project->named_count; i < tables; i++) {
+		const struct var_table *vars;
+
+		*table = i < project->named_count ? types + i : i - project->named_count;
+		vars = xref_table(of, *table);
+		for (*index = 0; vars->var && *index < vars->count; ++*index)
+			if (vars->var[*index].enumeration == enumeration && !vars->var[*index].named)
+				return true;
+	}
+	return false;
 }
 
 struct xref_target xref_variable(struct project *project, int table, int index)
@@ -226,14 +250,39 @@ static void add_address(struct scan *scan, const struct token *token,
 	    token->len);
 }
 
+/* A value of an enumeration, with its type or without. False: it is none. */
+static bool scan_value(struct scan *scan, const char *text, size_t len)
+{
+	struct project *project = scan->walk->project;
+	struct names *names = &project->names;
+	const struct enum_value *wanted = scan->walk->values && !memchr(text, '#', len) ?
+		named_value(project, scan->walk->values - 1,
+			    names_fold(names, names_intern(names, text, len))) : NULL;
+	size_t head = 0;
+	const int value = wanted ? (int)(wanted - project->enum_value) :
+			  scope_value(scan->walk->scope, text, len, &head);
+	const int type = value < 0 || !head ? -1 : named_find(project, names_fold(names,
+			 names_intern(names, text, head - 1)));
+
+	if (type >= 0)
+		add(scan, (struct xref_target){ .what = XREF_NAMED, .index = type }, text, head - 1);
+	if (value >= 0)
+		add(scan, (struct xref_target){ .what = XREF_VALUE, .index = value }, text + head,
+		    len - head);
+	scan->level[scan->depth].used = false;
+	return value >= 0;
+}
+
 /* A name without declaration: a constant, a system name, an address, or unknown. */
 static void scan_other(struct scan *scan, const struct token *token, size_t first)
 {
 	const struct meaning *m = mean(scan, token->text, token->len);
 	struct xref_target none = { .what = XREF_UNKNOWN, .index = -1 };
 
-	if (m && m->kind == MEANING_LITERAL)
+	if (m && m->kind == MEANING_LITERAL) {
+		scan_value(scan, token->text, token->len);
 		return;
+	}
 	if (m && m->addr.area != AREA_NONE)
 		add_address(scan, token, m->addr);
 	else
@@ -274,6 +323,8 @@ static void scan_head(struct scan *scan, const struct token *token)
 
 	level->word = WORD_COUNT;
 	if (scan_step(scan, token))
+		return;
+	if (scan->walk->values && !dot && scan_value(scan, token->text, len))
 		return;
 	m = mean(scan, token->text, len);
 	if (!m || !m->var) {
@@ -394,6 +445,8 @@ static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_k
 			scan_name(&scan, token);
 		else if (token->kind == TOKEN_ADDRESS)
 			scan_address(&scan, token);
+		else if (token->kind == TOKEN_NUMBER && literal_is_named(token->text, token->len))
+			scan_value(&scan, token->text, token->len);
 		else if (token->kind == TOKEN_SYMBOL)
 			good = scan_symbol(&scan);
 		if (token->kind != TOKEN_NAME)
@@ -437,6 +490,41 @@ static void add_word(struct xref_walk *walk, enum word word, enum xref_kind kind
 		use->unnamed = true;
 }
 
+/* The type of a declaration, as it is written there. */
+static void add_type(struct xref_walk *walk, const struct var *var)
+{
+	struct xref_use *use;
+
+	while (var->target && !var->named)
+		var = var->target->like;
+	if (!var->named) {
+		if (var->type == IEC_NONE)
+			add_word(walk, var->fb, XREF_TYPE);
+		return;
+	}
+	walk->slot = NULL;
+	use = xref_add(walk, (struct xref_target){ .what = XREF_NAMED, .index = var->named - 1 },
+		       XREF_TYPE, 0, 0);
+	if (use)
+		use->unnamed = true;
+}
+
+/* The values of an enumeration that a declaration lists. */
+static void walk_values(struct xref_walk *walk, const struct var_table *table, int index)
+{
+	const struct var *var = &table->var[index];
+	struct project *project = walk->project;
+	const struct enumeration *list;
+
+	if (!var->enumeration || var->named ||
+	    (index && !var[-1].named && var[-1].enumeration == var->enumeration))
+		return;
+	list = &project->enumeration[var->enumeration - 1];
+	for (int i = list->first; i < list->first + list->count; i++)
+		xref_whole(walk, &project->enum_value[i].name,
+			   (struct xref_target){ .what = XREF_VALUE, .index = i }, XREF_DECLARED);
+}
+
 /* ---- declarations ---- */
 
 #define INIT_LEVELS (2 * INIT_DEPTH) /* brackets inside one another, with those of n( … ) */
@@ -453,12 +541,15 @@ static bool is_function(const struct xref_walk *walk, const struct token *name)
 static void walk_initial(struct xref_walk *walk, struct var *var)
 {
 	uint16_t word[INIT_LEVELS + 1] = { 0 }, next = word_of(var);
+	uint16_t values[INIT_LEVELS + 1] = { 0 };
 	const char *text = project_text(walk->project, var->init_text);
 	int depth = 0;
 	struct lex lex;
 
 	walk->slot = &var->init_text;
 	word[0] = next;
+	values[0] = var->enumeration;
+	walk->values = var->enumeration;
 	lex_init(&lex, text, names_len(&walk->project->names, var->init_text));
 	lex_next(&lex);
 	while (lex.token.kind != TOKEN_END && depth < INIT_LEVELS) {
@@ -469,24 +560,32 @@ static void walk_initial(struct xref_walk *walk, struct var *var)
 		lex_next(&lex);
 		if (*token.text == '(' || *token.text == '[') {
 			word[++depth] = next;
+			values[depth] = (uint16_t)walk->values;
 		} else if (*token.text == ')' || *token.text == ']') {
 			depth -= depth > 0;
 		} else if (*token.text == ',') {
 			next = word[depth];
+			walk->values = values[depth];
 		} else if (token.kind == TOKEN_NAME && lex_is(&lex, ":=")) {
 			target = xref_pin(walk, (enum word)word[depth], token.text,
 					  token.len, &dir);
 			next = WORD_COUNT;
+			walk->values = 0;
 			if (target.what == XREF_UNKNOWN)
 				continue;
 			next = word_of(xref_var(walk->project, &target));
+			walk->values = xref_var(walk->project, &target)->enumeration;
 			xref_add(walk, target, XREF_INITIAL, (uint32_t)(token.text - text),
 				 (uint32_t)token.len);
 		} else if (token.kind == TOKEN_NAME && var->written &&
 			   !(lex_is(&lex, "(") && is_function(walk, &token))) {
 			xref_scan(walk, (size_t)(token.text - text), token.len, XREF_READ);
+		} else if (token.kind == TOKEN_NUMBER &&
+			   literal_is_named(token.text, token.len)) {
+			xref_scan(walk, (size_t)(token.text - text), token.len, XREF_READ);
 		}
 	}
+	walk->values = 0;
 }
 
 /* Adds the constants in the expressions of a declaration. */
@@ -503,8 +602,22 @@ static void walk_written(struct xref_walk *walk, struct var *var)
 	xref_all(walk, &var->written->capacity, XREF_READ);
 	xref_all(walk, &var->written->range[0], XREF_READ);
 	xref_all(walk, &var->written->range[1], XREF_READ);
-	if (var->written->initial && !init_has_parts(var) && !var->array.count)
+	walk->values = var->enumeration;
+	if (var->written->initial && !init_has_parts(var) && !var->array.count && !var->inherits)
 		xref_all(walk, &var->init_text, XREF_READ);
+	walk->values = 0;
+}
+
+/* What stands behind the name of declaration @index. */
+static void walk_declaration(struct xref_walk *walk, struct var_table *table, int index)
+{
+	struct var *var = &table->var[index];
+
+	add_type(walk, var);
+	walk_values(walk, table, index);
+	walk_written(walk, var);
+	if (!var->inherits && (init_has_parts(var) || (var->array.count && var->written)))
+		walk_initial(walk, var);
 }
 
 static void walk_table(struct xref_walk *walk, int number)
@@ -516,18 +629,13 @@ static void walk_table(struct xref_walk *walk, int number)
 
 		walk->place.line = var->line;
 		if (vars_flags(table, i) & VAR_RESULT) { /* from the heading */
-			if (var->type == IEC_NONE)
-				add_word(walk, var->fb, XREF_TYPE);
+			add_type(walk, var);
 			walk_written(walk, var);
 			continue;
 		}
 		xref_whole(walk, &var->name, xref_variable(walk->project, number, i),
 			  XREF_DECLARED);
-		if (var->type == IEC_NONE)
-			add_word(walk, var->fb, XREF_TYPE);
-		walk_written(walk, var);
-		if (init_has_parts(var) || (var->array.count && var->written))
-			walk_initial(walk, var);
+		walk_declaration(walk, table, i);
 	}
 }
 
@@ -573,6 +681,33 @@ static bool structure_included(const struct project *project, int number)
 	return false;
 }
 
+/* The types with names that are no structures. */
+static void walk_named(struct xref_walk *walk)
+{
+	struct project *project = walk->project;
+
+	for (int i = 0; i < project->named_count; i++) {
+		struct named_type *type = &project->named[i];
+		struct xref_target target = { .what = XREF_NAMED, .index = i };
+
+		if (!type->like.var || type->part < 0)
+			continue;
+		begin_place(walk, -1, type->file, type->line,
+			    type->part < project->part_count && project->part[type->part].included);
+		xref_whole(walk, &type->like.var->name, target, XREF_DECLARED);
+		walk_declaration(walk, &type->like, 0);
+	}
+}
+
+/* The types of VAR_EXTERNAL, whose names are those of globals. */
+static void walk_external(struct xref_walk *walk, const struct var_table *table)
+{
+	for (int i = 0; i < table->count; i++) {
+		walk->place.line = table->var[i].line;
+		add_type(walk, &table->var[i]);
+	}
+}
+
 static void walk_declarations(struct xref_walk *walk)
 {
 	struct project *project = walk->project;
@@ -589,6 +724,7 @@ static void walk_declarations(struct xref_walk *walk)
 		xref_whole(walk, &structure->name, target, XREF_DECLARED);
 		walk_table(walk, project->pou_count + 1 + i);
 	}
+	walk_named(walk);
 	for (int i = 0; i < project->pou_count; i++) {
 		struct pou *pou = &project->pou[i];
 		struct xref_target target = { .what = XREF_POU, .index = i };
@@ -597,6 +733,7 @@ static void walk_declarations(struct xref_walk *walk)
 		xref_whole(walk, &pou->name, target, XREF_DECLARED);
 		walk->pou = pou;
 		walk_table(walk, i + 1);
+		walk_external(walk, &pou->external);
 		walk->pou = NULL;
 	}
 }
@@ -661,8 +798,7 @@ static void walk_access(struct xref_walk *walk)
 		xref_scan(walk, path.at, names_len(&project->names, access->path) - path.at,
 			  access->writes ? XREF_CHANGED : XREF_READ);
 		walk->pou = NULL;
-		if (access->var.type == IEC_NONE)
-			add_word(walk, access->var.fb, XREF_TYPE);
+		add_type(walk, &access->var);
 	}
 }
 

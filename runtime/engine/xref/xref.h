@@ -21,16 +21,19 @@ enum xref_what {
 	XREF_STEP,       /* of a chart; also Fill in Fill.X                   */
 	XREF_TRANSITION,
 	XREF_ACTION,
+	XREF_NAMED,      /* a type with a name that is no structure           */
+	XREF_VALUE,      /* a value of an enumeration                          */
 };
 
 /* The thing that a name means. */
 struct xref_target {
 	enum xref_what what;
 	int table;       /* VARIABLE: 0 the globals, n + 1 those of POU n, behind
-			    them the structures: pou_count + 1 + n. LABEL, STEP,
-			    TRANSITION, ACTION: n + 1                         */
-	int index;       /* VARIABLE: in its table; POU, STRUCTURE, STEP …: its
-			    number; LABEL: its rung, or behind all rungs its line
+			    them the structures: pou_count + 1 + n, and the other
+			    types with names, with one declaration each. LABEL,
+			    STEP, TRANSITION, ACTION: n + 1                   */
+	int index;       /* VARIABLE: in its table; POU, STRUCTURE, STEP, NAMED, VALUE …:
+			    its number; LABEL: its rung, or behind all rungs its line
 			    of a list; -1: there is none                      */
 	struct iec_addr addr; /* of an ADDRESS, and of a variable with AT     */
 };
@@ -97,10 +100,14 @@ bool xref_touches(const struct xref_target *a, const struct xref_target *b);
 struct var_table *xref_table(struct project *project, int table);
 /** xref_var - the variable of a VARIABLE; otherwise NULL. */
 struct var *xref_var(struct project *project, const struct xref_target *target);
+/** xref_value_owner - the declaration with the enumeration of a VALUE: of its type, or the first
+ * variable of one without a name. @table, @index: get the place of it. False: there is none. */
+bool xref_value_owner(const struct project *project, int value, int *table, int *index);
 /** xref_variable - the target of variable @index of a table. */
 struct xref_target xref_variable(struct project *project, int table, int index);
 /**
- * xref_name - Motor, Main.Delay (of a POU), Recipe.Speed, %QX0.1, Main:Seal (a label)
+ * xref_name - Motor, Main.Delay (of a POU), Recipe.Speed, %QX0.1, Main:Seal (a label),
+ * Color#Red (a value; Main.Door#Open of an enumeration without a name)
  * @use: gives the name of an undeclared thing; may be NULL Returns as snprintf.
  */
 int xref_name(const struct project *project, const struct xref_target *target,

@@ -37,8 +37,25 @@ static const char *table_name(const struct project *project, int table)
 		return "";
 	if (table <= project->pou_count)
 		return project_text(project, project->pou[table - 1].name);
-	return project_text(project,
-		project->structure[table - project->pou_count - 1].name);
+	table -= project->pou_count + 1;
+	return project_text(project, table < project->structure_count ?
+		project->structure[table].name :
+		project->named[table - project->structure_count].name);
+}
+
+/* Color#Red, Main.Door#Open. */
+static int value_name(const struct project *project, int value, char *out, size_t size)
+{
+	const char *name = project_text(project, project->enum_value[value].name);
+	int table, index;
+
+	if (!xref_value_owner(project, value, &table, &index))
+		return snprintf(out, size, "%s", name);
+	if (table > project->pou_count + project->structure_count)
+		return snprintf(out, size, "%s#%s", table_name(project, table), name);
+	return snprintf(out, size, "%s%s%s#%s", table_name(project, table), table ? "." : "",
+			project_text(project, xref_table((struct project *)(uintptr_t)project,
+							 table)->var[index].name), name);
 }
 
 /* The name in the text of the use, for undeclared things. */
@@ -102,6 +119,11 @@ int xref_name(const struct project *project, const struct xref_target *target,
 	case XREF_STRUCTURE:
 		return snprintf(out, size, "%s", project_text(project,
 			project->structure[target->index].name));
+	case XREF_NAMED:
+		return snprintf(out, size, "%s", project_text(project,
+			project->named[target->index].name));
+	case XREF_VALUE:
+		return value_name(project, target->index, out, size);
 	case XREF_STEP:
 	case XREF_TRANSITION:
 	case XREF_ACTION:
@@ -135,7 +157,7 @@ static void want(struct wanted *wanted, const char *name)
 static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 		      const struct wanted *wanted)
 {
-	char name[2 * LIMIT_NAME + 8];
+	char name[3 * LIMIT_NAME + 8];
 	const char *last;
 
 	if (!wanted->name)
@@ -143,7 +165,7 @@ static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 	if (wanted->is_addr && xref_touches(&use->target, &wanted->addr))
 		return true;
 	xref_name(xref->project, &use->target, use, name, sizeof(name));
-	last = name + strcspn(name, ".:");
+	last = name + strcspn(name, use->target.what == XREF_VALUE ? "#" : ".:");
 	return name_is(wanted->name, name, strlen(name)) ||
 	       (*last && use->target.what != XREF_ADDRESS &&
 		name_is(wanted->name, last + 1, strlen(last + 1)));
@@ -155,7 +177,7 @@ int64_t xref_rank(const struct xref_target *target)
 {
 	/* In units of 1 << 58: numbers of tables need less than 18 bits. */
 	static const int64_t first[] = {
-		[XREF_POU] = 0, [XREF_STRUCTURE] = 4, [XREF_VARIABLE] = 8,
+		[XREF_POU] = 0, [XREF_STRUCTURE] = 4, [XREF_NAMED] = 5, [XREF_VALUE] = 6, [XREF_VARIABLE] = 8,
 		[XREF_STEP] = 9, [XREF_TRANSITION] = 10, [XREF_ACTION] = 11,
 		[XREF_LABEL] = 12, [XREF_ADDRESS] = 16, [XREF_UNKNOWN] = 20,
 	};
@@ -243,7 +265,7 @@ static void print_json(const struct project *project, const struct xref_use *use
 {
 	static const char *const what[] = { "unknown", "variable", "address", "label",
 					    "pou", "structure", "step",
-					    "transition", "action" };
+					    "transition", "action", "type", "value" };
 	const struct var *var = xref_var((struct project *)(uintptr_t)project,
 					 &use->target);
 
@@ -275,7 +297,7 @@ int xref_print(struct project *project, const char *name, bool json,
 	sink_text(sink, json && order ? "[" : "");
 	for (int i = 0; order && i < xref.count; i++) {
 		struct xref_use *use = &xref.use[order[i]];
-		char text[2 * LIMIT_NAME + 8];
+		char text[3 * LIMIT_NAME + 8];
 
 		if (!is_wanted(&xref, use, &wanted))
 			continue;

@@ -276,6 +276,57 @@ static void test_computed(void)
 	ladder_free(ladder);
 }
 
+/* ---- types and values ---- */
+
+static const char typed[] =
+	"RUNGBOARD 1\n\nTYPE\n  Color : (Red, Green := 5, Blue) := Green;\n"
+	"  Mode  : UINT (Idle := 1, Slow) := Slow;\n  Part  : INT (0..Limit) := 5;\n"
+	"  Row   : ARRAY[1..3] OF Color := [Color#Red, 2(Blue)];\n"
+	"  Line : STRUCT\n    C : Color := Red;\n    P : ARRAY[1..2] OF Part;\n"
+	"  END_STRUCT;\n  Far : Line := (C := Blue);\nEND_TYPE\n\n"
+	"VAR CONSTANT\n  Limit : INT := 9;\nEND_VAR\n\n"
+	"FUNCTION After : Color ST\nVAR_INPUT\n  C : Color;\nEND_VAR\n"
+	"  CASE C OF\n    Color#Red:\n      After := Green;\n    Green:\n      After := Color.Blue;\n"
+	"  END_CASE;\nEND_FUNCTION\n\n"
+	"PROGRAM Main LD\nVAR\n  A    : (Up, Down);\n  C    : Color;\n"
+	"  To   : POINTER TO Line;\n  F    : Far;\n  Rows : ARRAY[0..1] OF Row;\n"
+	"  L    : Line := (C := Green);\n  D    : Mode := Idle;\nEND_VAR\n"
+	"RUNG\n  | [ C = Blue ] | MOVE IN:=Green OUT=>C | [ A := Up ] | [ C := After(C) ] |\n"
+	"END_PROGRAM\n\nPROGRAM List IL\nVAR\n  C : Row;\nEND_VAR\n"
+	"  LD    Color#Green\n  ST    C[1]\nEND_PROGRAM\n";
+
+/* Every name is renamed and back; those of types and values too. */
+static void test_types(void)
+{
+	struct ladder *ladder = loaded(typed);
+	size_t len;
+	char *text = ladder_write(ladder, &len);
+	uint8_t identity[32];
+	struct xref xref;
+	int bad = 0, count = 0;
+
+	CHECK(text && identity_of("typed", text, identity));
+	xref_make(&xref, ladder_project(ladder));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		if (use->target.what == XREF_UNKNOWN)
+			printf("# unknown %s\n", xref_text(&xref, use));
+		bad += use->target.what == XREF_UNKNOWN;
+		if (use->kind != XREF_DECLARED)
+			continue;
+		count++;
+		bad += !renames(ladder, "typed", &use->target,
+				project_text(xref.project, *use->slot), text, identity);
+	}
+	CHECK_AS(bad == 0, "types and values are renamed and renamed back");
+	CHECK(count == 28);
+	printf("# %d names\n", count);
+	xref_free(&xref);
+	free(text);
+	ladder_free(ladder);
+}
+
 /* ---- refusals ---- */
 
 static void refused(struct ladder *ladder, const char *old, const char *name,
@@ -298,6 +349,28 @@ static void refused(struct ladder *ladder, const char *old, const char *name,
 	free(text);
 	free(before);
 	free(after);
+}
+
+static void test_refused_types(void)
+{
+	struct ladder *ladder = loaded(
+		"RUNGBOARD 1\n\nTYPE\n  Color : (Red, Green);\n  Signal : (Idle := 1, Low);\n"
+		"END_TYPE\n\nVAR\n  Level : INT;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nVAR\n  C : Color;\n  Up : BOOL;\n  A, B : (In, Out);\nEND_VAR\n"
+		"RUNG\n  | NO Up | [ C := Red ] | [ A := Out ] | [ Level := 1 ] |\nEND_PROGRAM\n");
+
+	refused(ladder, "Color", "main", RENAME_TAKEN, 0);
+	refused(ladder, "Color", "signal", RENAME_TAKEN, 0);
+	refused(ladder, "Color", "Level", RENAME_TAKEN, 0);
+	refused(ladder, "Color", "STRUCT", RENAME_RESERVED, 0);
+	refused(ladder, "Color", "TON", RENAME_RESERVED, 0);
+	refused(ladder, "Color#Red", "green", RENAME_TAKEN, 0);
+	refused(ladder, "Color#Red", "Up", RENAME_MEANING, 1);  /* the variable has priority */
+	refused(ladder, "Color#Red", "Idle", RENAME_MEANING, 1); /* two values have this name */
+	refused(ladder, "Signal#Low", "Red", RENAME_MEANING, 1);
+	refused(ladder, "Color#Red", "TRUE", RENAME_RESERVED, 0);
+	refused(ladder, "Color#Red", "1x", RENAME_FORM, 0);
+	ladder_free(ladder);
 }
 
 static void test_refusals(void)
@@ -367,6 +440,8 @@ int main(void)
 {
 	test_rich();
 	test_computed();
+	test_types();
+	test_refused_types();
 	test_refusals();
 	test_good();
 	test_samples();

@@ -313,6 +313,44 @@ static void test_counts(void)
 	ladder_free(ladder);
 }
 
+/* Types with a name and values of enumerations, wherever they stand. */
+static void test_types(void)
+{
+	static const char types[] =
+		"RUNGBOARD 1\n\nTYPE\n  Color : (Red, Green, Blue) := Green;\n"
+		"  Signal : (Off, Red);\n  Part : INT (0..Limit) := 5;\n"
+		"  Row : ARRAY[1..3] OF Color := [Color#Red, 2(Blue)];\n  Line : STRUCT\n"
+		"    C : Color := Red;\n    P : Part;\n  END_STRUCT;\n"
+		"  Far : Line := (C := Color#Red);\nEND_TYPE\n\nVAR CONSTANT\n  Limit : INT := 9;\n"
+		"END_VAR\n\nFUNCTION After : Color ST\nVAR_INPUT\n  C : Color;\nEND_VAR\n"
+		"  CASE C OF\n    Color#Red: After := Green;\n    Green: After := Color.Blue;\n"
+		"  END_CASE;\nEND_FUNCTION\n\nPROGRAM Main LD\nVAR\n  A, B : (Up, Down);\n"
+		"  C : Color;\n  S : Signal := Red;\n  To : POINTER TO Line;\n  F : Far;\n"
+		"END_VAR\nVAR_EXTERNAL\n  Limit : INT;\nEND_VAR\n"
+		"RUNG\n  | [ C = Blue ] | MOVE IN:=Green OUT=>C | [ A := Up ] | [ S := Off ] |\n"
+		"END_PROGRAM\n\nPROGRAM List IL\nVAR\n  C : ARRAY[0..1] OF Row;\n"
+		"  Up : INT;\nEND_VAR\n  LD Color#Green\n  ST C[0][1]\n  LD Up\n  ST Up\nEND_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+
+	CHECK(ladder_load_text(ladder, "types.rung", types, strlen(types)));
+	is_used(ladder, "Color", "- 0 (0,0) type\n- 0 (0,0) declared\n- 0 (0,0) type\n"
+		"- 0 (0,0) read\n- 0 (0,0) read\nAfter 0 (0,0) type\nAfter 0 (0,0) type\nMain 0 (0,0) type\n"
+		"After 0 (6,5) read\nAfter 0 (7,21) read\nList 0 (6,6) read\n");
+	is_used(ladder, "Color#Red", "- 0 (0,0) read\n- 0 (0,0) declared\n- 0 (0,0) read\n"
+		"- 0 (0,0) read\nAfter 0 (6,11) read\n");
+	is_used(ladder, "Signal#Red", "- 0 (0,0) declared\nMain 0 (0,0) read\n");
+	is_used(ladder, "Color#Blue", "- 0 (0,0) declared\n- 0 (0,0) read\n"
+		"After 0 (7,27) read\nMain 1 (1,1) read\n");
+	is_used(ladder, "Main.A#Up", "Main 0 (0,0) declared\nMain 1 (1,3) read\n");
+	is_used(ladder, "Part", "- 0 (0,0) type\n- 0 (0,0) declared\n");
+	is_used(ladder, "Limit", "- 0 (0,0) declared\n- 0 (0,0) read\n");
+	is_used(ladder, "Row", "- 0 (0,0) declared\nList 0 (0,0) type\n");
+	is_used(ladder, "Line", "- 0 (0,0) declared\n- 0 (0,0) type\nMain 0 (0,0) type\n");
+	is_used(ladder, "Far", "- 0 (0,0) declared\nMain 0 (0,0) type\n");
+	is_used(ladder, "Line.C", "- 0 (0,0) declared\n- 0 (0,0) initial\n");
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -328,6 +366,7 @@ int main(void)
 	test_things(ladder);
 	test_initial();
 	test_counts();
+	test_types();
 	ladder_free(ladder);
 	return tap_done();
 }
