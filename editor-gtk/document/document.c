@@ -149,9 +149,14 @@ static void tell_whole(LadderDocument *document)
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
 }
 
-static void changed(LadderDocument *document)
+/* Before anybody is told of the change. */
+static void count_version(LadderDocument *document)
 {
 	document->version++;
+}
+
+static void changed(LadderDocument *document)
+{
 	if (!document->fixed)
 		checker_later(document->checker);
 	g_signal_emit(document, signals[STATE_CHANGED], 0);
@@ -419,6 +424,7 @@ static void take_text(LadderDocument *document, const char *text, gsize len)
 
 static void take(LadderDocument *document, const char *text, gsize len)
 {
+	count_version(document);
 	g_hash_table_remove_all(document->list);
 	take_text(document, text, len);
 	history_restart(document->history);
@@ -447,12 +453,11 @@ static void place_free(gpointer pointer)
 	g_free(place);
 }
 
-static struct list_place *place_kept(LadderDocument *document, int pou)
+static struct list_place *place_kept(LadderDocument *document, int pou, guint64 version)
 {
 	struct list_place *place = g_object_get_data(G_OBJECT(document), "list-place");
 
-	return place && place->pou == pou && place->version == document->version ? place :
-	       NULL;
+	return place && place->pou == pou && place->version >= version ? place : NULL;
 }
 
 static void forget_place(LadderDocument *document)
@@ -460,10 +465,10 @@ static void forget_place(LadderDocument *document)
 	g_object_set_data(G_OBJECT(document), "list-place", NULL);
 }
 
-/* Borrowed until the document changes. */
+/* While a change is applied, which has been counted. Borrowed until the document changes. */
 static struct list_place *place_of(LadderDocument *document, int pou)
 {
-	struct list_place *place = place_kept(document, pou);
+	struct list_place *place = place_kept(document, pou, document->version - 1);
 	struct pou_spans spans;
 	char *plain;
 
@@ -472,7 +477,6 @@ static struct list_place *place_of(LadderDocument *document, int pou)
 	plain = outline(document->ladder, &spans);
 	place = g_new0(struct list_place, 1);
 	place->pou = pou;
-	place->version = document->version;
 	place->head = g_strndup(plain, spans.span[pou].at);
 	place->tail = g_strdup(plain + spans.span[pou].at + spans.span[pou].len);
 	g_object_set_data_full(G_OBJECT(document), "list-place", place, place_free);
@@ -587,7 +591,7 @@ static void apply_list(LadderDocument *document, int pou, const char *text)
 	struct ladder *ladder = read_text(document, whole, strlen(whole), NULL);
 
 	g_free(whole);
-	place->version = document->version + 1; /* changed() follows */
+	place->version = document->version;
 	g_free(place->typed);
 	place->typed = g_strdup(text);
 	if (ladder && ladder_project(ladder)->pou_count ==
@@ -688,6 +692,7 @@ static void read_again(LadderDocument *document, int number)
 	text = plain_text(document, &len);
 	ladder = read_text(document, text, len, NULL);
 	g_free(text);
+	count_version(document);
 	if (ladder) {
 		take_ladder(document, ladder);
 		tell_whole(document);
@@ -768,6 +773,7 @@ static void apply_change(LadderDocument *document, const struct change *change, 
 
 static void record(LadderDocument *document, struct change *change)
 {
+	count_version(document);
 	apply_change(document, change, false);
 	history_add(document->history, change);
 	changed(document);
@@ -812,6 +818,8 @@ static void apply_kind(LadderDocument *document, const struct step *step, bool b
 
 static void apply_all(LadderDocument *document, const struct step *step, bool back)
 {
+	if (!step_is_aside(step))
+		count_version(document);
 	apply_kind(document, step, back, true);
 	apply_kind(document, step, back, false);
 	if (step_is_aside(step))
@@ -1217,7 +1225,7 @@ char *ladder_document_replace_step(LadderDocument *document, gsize at, gsize rem
 /* The list as it was typed, if that is known, else as the file has it. */
 static char *list_before(LadderDocument *document, int pou)
 {
-	const struct list_place *place = place_kept(document, pou);
+	const struct list_place *place = place_kept(document, pou, document->version);
 
 	return place && place->typed ? g_strdup(place->typed) :
 	       ladder_document_list(document, pou);

@@ -46,6 +46,7 @@ struct _LadderSim {
 	struct sim_program *newest; /* the last one given to the thread        */
 	guint64 version;            /* of the document, when that was built     */
 	bool building;
+	guint soon;                 /* source that builds an edit; 0: none      */
 };
 
 enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
@@ -845,7 +846,7 @@ static void rebuild_run(GTask *task, gpointer source, gpointer data,
 	g_task_return_pointer(task, program, (GDestroyNotify)sim_program_unref);
 }
 
-static void checked(LadderSim *sim);
+static void build_edit(LadderSim *sim);
 
 /* Changes of the VIEW part, such as bookmarks, do not replace the program. */
 static void exchange(LadderSim *sim, struct sim_program *program)
@@ -869,10 +870,10 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 		exchange(sim, program);
 		sim->version = rebuild->version;
 	}
-	if (program && rebuild->version == ladder_document_version(sim->document))
+	if (rebuild->version != ladder_document_version(sim->document))
+		build_edit(sim);
+	else if (program)
 		number_rungs(sim);
-	else
-		checked(sim);
 	sim_program_unref(program);
 }
 
@@ -899,19 +900,14 @@ static void number_again(LadderSim *sim)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 }
 
-/* Builds the document in a thread, if it has changed and has no errors. */
-static void checked(LadderSim *sim)
+/* Builds the document in a thread, if it has changed. One with errors does not replace the
+ * program that runs. */
+static void build_edit(LadderSim *sim)
 {
-	const struct diag_list *diags = ladder_document_diags(sim->document);
 	struct rebuild *rebuild;
 	GTask *task;
 
-	if (sim->mirror) {
-		number_again(sim);
-		return;
-	}
-	if (!sim->thread || sim->building || diags->errors ||
-	    !ladder_document_is_whole(sim->document) ||
+	if (!sim->thread || sim->building || !ladder_document_is_whole(sim->document) ||
 	    sim->version == ladder_document_version(sim->document))
 		return;
 	rebuild = g_new0(struct rebuild, 1);
@@ -925,6 +921,40 @@ static void checked(LadderSim *sim)
 	g_task_set_task_data(task, rebuild, rebuild_free);
 	g_task_run_in_thread(task, rebuild_run);
 	g_object_unref(task);
+}
+
+static gboolean build_now(gpointer data)
+{
+	LadderSim *sim = data;
+
+	sim->soon = 0;
+	build_edit(sim);
+	return G_SOURCE_REMOVE;
+}
+
+/* A changed list is built before the views show the change. */
+static void read_anew(LadderSim *sim)
+{
+	forget_rungs(sim);
+	if (!sim->mirror)
+		build_edit(sim);
+}
+
+/* An edit is built as soon as all of its changes are done, not when the problems of the document
+ * are known, which waits until a person has stopped typing. */
+static void edited(LadderSim *sim)
+{
+	if (sim->thread && !sim->mirror && !sim->soon)
+		sim->soon = g_idle_add_full(G_PRIORITY_DEFAULT, build_now, sim, NULL);
+}
+
+/* Also files beside the document may have changed since. */
+static void checked(LadderSim *sim)
+{
+	if (sim->mirror)
+		number_again(sim);
+	else if (!ladder_document_diags(sim->document)->errors)
+		build_edit(sim);
 }
 
 /* ---- running ---- */
@@ -1121,6 +1151,7 @@ static void ladder_sim_dispose(GObject *object)
 {
 	LadderSim *sim = LADDER_SIM(object);
 
+	g_clear_handle_id(&sim->soon, g_source_remove);
 	drop_source(sim);
 	forget_replay(sim);
 	g_clear_pointer(&sim->plant, sim_program_unref);
@@ -1176,7 +1207,8 @@ LadderSim *ladder_sim_new(LadderDocument *document)
 
 	sim->document = g_object_ref(document);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(rungs_changed), sim);
-	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(forget_rungs), sim);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(read_anew), sim);
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(edited), sim);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), sim);
 	return sim;
 }

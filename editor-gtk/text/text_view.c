@@ -196,12 +196,30 @@ static gboolean take_now(gpointer view)
 	return G_SOURCE_REMOVE;
 }
 
+static void take_soon(LadderTextView *view, guint ms)
+{
+	g_clear_handle_id(&view->taking, g_source_remove);
+	view->taking = g_timeout_add(ms, take_now, view);
+}
+
+static void drawn(GdkFrameClock *clock, LadderTextView *view)
+{
+	g_signal_handlers_disconnect_by_func(clock, drawn, view);
+	if (view->taking)
+		take_soon(view, 0);
+}
+
 /* Delayed until the letter is drawn: reading a list beside thousands of rungs takes longer than
  * a frame. */
 static void typed(LadderTextView *view)
 {
-	if (!view->ours && !view->taking && !ladder_document_is_fixed(view->document))
-		view->taking = g_timeout_add(SEEN_MS, take_now, view);
+	GdkFrameClock *clock = gtk_widget_get_frame_clock(GTK_WIDGET(view->view));
+
+	if (view->ours || view->taking || ladder_document_is_fixed(view->document))
+		return;
+	take_soon(view, SEEN_MS);
+	if (clock)
+		g_signal_connect_object(clock, "after-paint", G_CALLBACK(drawn), view, 0);
 }
 
 gboolean ladder_text_view_is_st(LadderTextView *view)

@@ -9,6 +9,7 @@
 # empty:  one rung, as small as possible
 # chart:  a chart of N steps, 50 in each of its simultaneous sequences, so that N / 50 are
 #         active; 6 transitions for 5 steps, every fifth step has a choice
+# lines:  N lines of Structured Text: conditions, sums, calls of one function
 # others: N rungs of one family of words (%family)
 use strict;
 use warnings;
@@ -41,8 +42,8 @@ if (defined $kind && $kind eq 'families') {
 	print join(' ', sort keys %family), "\n";
 	exit;
 }
-die "usage: programs.pl seal|mixed|dense|empty|chart|FAMILY N, or programs.pl families\n"
-	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart)$/);
+die "usage: programs.pl seal|mixed|dense|empty|chart|lines|FAMILY N, or programs.pl families\n"
+	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart|lines)$/);
 if ($family{$kind}) {
 	my ($declared, $rung) = @{$family{$kind}};
 	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
@@ -50,6 +51,17 @@ if ($family{$kind}) {
 	print "END_VAR\n\nPROGRAM Main LD\n";
 	print "RUNG\n  ", $rung =~ s/(?<![0-9T])#|(?<=\bT)#(?=\[)/$_/gr, "\n" for 0 .. $n - 1;
 	print "END_PROGRAM\n";
+	exit;
+}
+
+if ($kind eq 'lines') {
+	my $parts = int($n / 10);
+	print "RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n";
+	print "  A$_, B$_ : INT;\n  On$_ : BOOL;\n" for 0 .. $parts - 1;
+	print "END_VAR\n";
+	print "  IF A$_ > B$_ AND NOT On$_ THEN\n    A$_ := A$_ + B$_ * 3;\n    On$_ := A$_ > 100;\n"
+		. "  ELSIF A$_ = 7 THEN\n    B$_ := Scaled(A$_);\n  ELSE\n    B$_ := B$_ + 1;\n  END_IF;\n" for 0 .. $parts - 1;
+	print "END_PROGRAM\n\nFUNCTION Scaled : INT ST\nVAR_INPUT\n  X : INT;\nEND_VAR\n  Scaled := X * 2 + 1;\nEND_FUNCTION\n";
 	exit;
 }
 

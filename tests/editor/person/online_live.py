@@ -161,6 +161,80 @@ def edits_elsewhere(screen):
     board.stop()
 
 
+SHOWER = """RUNGBOARD 1
+PROJECT "Shower"
+
+TYPE
+  Phase : (Idle, Hot, Cold);
+END_TYPE
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Level : INT := 30;
+  Now : Phase;
+END_VAR
+
+PROGRAM Main ST
+VAR
+  Soft : TON;
+END_VAR
+  Soft(IN := Start, PT := T#300ms);
+  IF Start AND Level > 20 THEN
+    Now := Hot;
+  ELSE
+    Now := Cold;
+  END_IF;
+  Motor := Soft.Q;
+END_PROGRAM
+"""
+
+
+def structured_text(screen):
+    """values, results and lines that did not run stand beside Structured Text; an edited line is marked until it is downloaded"""
+    board = board_of(screen, 'shower', program=SHOWER)
+    path = new_file(screen, SHOWER, 'shower.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(MAP)
+    editor = Editor(screen, path)
+    view = editor.find('Text of the program')
+    editor.into('Text of the program')
+    connect(editor, board.where)
+    editor.says('ONLINE')
+    until(lambda: view.has(12), 'the focus in the text again')
+
+    def on(line, wanted):
+        editor.keys('ctrl+Home', *['Down'] * (line - 1))
+        until(lambda: described(editor, view) == wanted, 'line %d to have %s' % (line, wanted))
+    on(5, 'value 0 ms / 300 ms')
+    on(6, 'value FALSE · 30, result FALSE')
+    on(7, 'value Cold, result not run')
+    on(9, 'value Cold, result Cold')
+    editor.shot('online-st')
+    board.ask('force', 'Start=1')
+    on(9, 'value Hot, result not run')
+    on(7, 'value Hot, result Hot')
+    on(11, 'value TRUE · TRUE, result TRUE')
+    board.ask('set', 'Level=7')
+    on(6, 'value TRUE · 7, result FALSE')
+    editor.keys('End', *['Left'] * len(' THEN'))
+    editor.type('0')  # 20 is 200 now
+    until(lambda: 'Level > 200 THEN' in view.text(), 'what was typed')
+    on(6, 'not downloaded')
+    on(9, 'value Cold, result Cold')
+    editor.shot('online-st-edited')
+    board.ask('set', 'Level=100')
+    on(7, 'value Hot, result Hot')
+    editor.keys('ctrl+shift+l')
+    editor.find('Download to “pump house”?', 'label')
+    editor.keys('Return')
+    says(editor, 'The board runs this program.')
+    until(lambda: view.has(12), 'the focus in the text again')
+    on(6, 'value TRUE · 100, result FALSE')
+    on(7, 'value Cold, result not run')
+    board.stop()
+
+
 def only_looks(screen):
     """a role that only looks: the entry says so, and nothing happens on the board"""
     board = board_of(screen, 'looked', role='view')
@@ -271,4 +345,4 @@ def chinese(screen):
 chinese.size = '1024x700x24'
 
 if __name__ == '__main__':
-    main([watches, edits, edits_elsewhere, only_looks, operates, late, recording, chinese])
+    main([watches, edits, edits_elsewhere, structured_text, only_looks, operates, late, recording, chinese])
