@@ -65,6 +65,11 @@ sub counting {
 	       "  END_ACTION\n\n";
 }
 
+sub statement {
+	my ($name, $counter) = @_;
+	return "  ACTION $name:\n    $counter := $counter + 1;\n  END_ACTION\n\n";
+}
+
 # ---- each qualifier: a BOOL, a body, a short and a long step, and an R ----
 for my $q (@qualifiers) {
 	my $chart = vars(['Go', 'End', 'Clear'], ['Out', 'Lamp'], 'Runs : INT');
@@ -82,7 +87,7 @@ for my $q (@qualifiers) {
 
 # ---- two qualifiers: two overlapping steps call the same action ----
 # A has the first qualifier, B each of the others; then one after the other, then an R.
-for my $kind ('bool', 'body') {
+for my $kind ('bool', 'body', 'st') {
 	for my $q (@qualifiers) {
 		my (@a, @b, @wipe, $bodies);
 		my @targets = map { $kind eq 'bool' ? "Out$_" : "Act$_" } @qualifiers;
@@ -92,6 +97,7 @@ for my $kind ('bool', 'body') {
 			push @b, call($target, $other, 'T#30ms');
 			push @wipe, call($target, 'R');
 			$bodies .= counting($target, "n$other") if $kind eq 'body';
+			$bodies .= statement($target, "n$other") if $kind eq 'st';
 		}
 		my $chart = $kind eq 'bool' ? vars(['Go', 'BGo', 'AEnd', 'BEnd', 'Done'], \@targets) :
 			vars(['Go', 'BGo', 'AEnd', 'BEnd', 'Done'], [], map { "n$_ : INT" } @qualifiers);
@@ -100,7 +106,7 @@ for my $kind ('bool', 'body') {
 		$chart .= arc('Idle', '(A, BNot)', 'Go') . arc('BNot', 'B', 'BGo');
 		$chart .= arc('A', 'ANot', 'AEnd') . arc('B', 'BOver', 'BEnd');
 		$chart .= arc('(ANot, BOver)', 'Wipe', 'Done') . arc('Wipe', 'Idle', 'NOT Done');
-		$chart .= $bodies if $kind eq 'body';
+		$chart .= $bodies if $kind ne 'bool';
 		my @shown = $kind eq 'bool' ? @targets : map { "n$_" } @qualifiers;
 		my $both = "Go=1\nGo=0\nBGo=1\nBGo=0\n.\nAEnd=1\nAEnd=0\n.\nBEnd=1\nBEnd=0\n.\nDone=1\nDone=0\n";
 		my $after = "Go=1\nGo=0\nAEnd=1\nAEnd=0\nBGo=1\nBGo=0\n.\n.\n.\nBEnd=1\nBEnd=0\nDone=1\nDone=0\n.\n";

@@ -5,6 +5,7 @@
 #include "editor-gtk/document/checker.h"
 
 #include "editor-gtk/kit/memory.h"
+#include "engine/model/st.h"
 
 #define DELAY_MS 120 /* after the last change                                 */
 
@@ -177,7 +178,7 @@ static bool is_same_chart(const struct pou *was, const struct pou *is)
 	       was->sfc->transition_count == is->sfc->transition_count &&
 	       was->sfc->action_count == is->sfc->action_count &&
 	       was->sfc->ref_count == is->sfc->ref_count &&
-	       was->il.count == is->il.count;
+	       was->il.count == is->il.count && (was->st ? was->st->count : 0) == (is->st ? is->st->count : 0);
 }
 
 /* An edited rung moves the lines below it, and a file may be written in another form: the
@@ -197,6 +198,9 @@ void checker_place(struct checker *checker, struct project *project)
 		take_chart_lines(was->sfc, is->sfc);
 		for (int k = 0; k < was->il.count; k++)
 			was->il.line[k].line = is->il.line[k].line;
+		for (int k = 0; was->st && k < was->st->count; k++)
+			copy_place(&was->st->item[k].line, &was->st->item[k].column,
+				   is->st->item[k].line, is->st->item[k].column);
 		was->line = is->line;
 	}
 }

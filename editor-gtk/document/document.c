@@ -550,7 +550,7 @@ static void shift_bodies(struct sfc *sfc, int at, int by)
 			&sfc->transition[i].condition :
 			&sfc->action[i - sfc->transition_count].body;
 
-		if (body->kind == BODY_LIST || body->kind == BODY_NONE)
+		if (!sfc_body_has_rungs(body))
 			continue;
 		if (body->first > at)
 			body->first += by;
@@ -1082,8 +1082,7 @@ static bool fits_body(const struct sfc *sfc, int at, int removed, int inserted)
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
 		const struct sfc_body *body = sfc_body(sfc, i);
 
-		if (body->kind == BODY_LIST || body->kind == BODY_NONE ||
-		    at < body->first || at + removed > body->first + body->count)
+		if (!sfc_body_has_rungs(body) || at < body->first || at + removed > body->first + body->count)
 			continue;
 		return removed > 0 && inserted > 0 &&
 		       (i >= sfc->transition_count || removed == inserted);
@@ -1098,7 +1097,7 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	GPtrArray *before = change_texts(), *after = change_texts();
 	struct pou *of = project && pou >= 0 && pou < project->pou_count ?
 		&project->pou[pou] : NULL;
-	bool good = of && !document->fixed && of->language != LANGUAGE_IL && !of->st && !of->included && at >= 0 &&
+	bool good = of && !document->fixed && of->language != LANGUAGE_IL && of->language != LANGUAGE_ST && !of->included && at >= 0 &&
 		(!of->sfc || fits_body(of->sfc, at, removed, inserted)) &&
 		removed >= 0 && at + removed <= of->rung_count &&
 		of->rung_count - removed + inserted <= LIMIT_RUNGS &&

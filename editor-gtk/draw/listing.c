@@ -19,14 +19,15 @@
 char **listing_il(const struct project *project, const struct pou *pou)
 {
 	struct sink_memory memory;
-	char **lines = NULL, *st = pou->st ? pou_print(project, pou) : NULL;
+	char **lines = NULL, *st = pou->language == LANGUAGE_ST ? pou_print(project, pou) : NULL;
+	const bool statements = st != NULL;
 
 	sink_memory_init(&memory);
 	struct sink sink = sink_to_memory(&memory);
-	if (st)
+	if (statements)
 		sink_text(&sink, st);
 	free(st);
-	if (pou->st || pou_print_il(project, pou, &pou->vars, NULL, 0, &pou->il, &sink)) {
+	if (statements || pou_print_il(project, pou, &pou->vars, NULL, 0, &pou->il, &sink)) {
 		GString *text = g_string_new(sink_memory_text(&memory));
 
 		while (text->len && text->str[text->len - 1] == '\n')

@@ -945,7 +945,7 @@ static void put_bodies(struct pages *pages, const struct pou *pou)
 	for (int i = 0; i < count; i++) {
 		const struct sfc_body *body = bodies[i].body;
 
-		if (body->kind == BODY_LIST)
+		if (body->kind == BODY_LIST || body->kind == BODY_ST)
 			put_list(pages, bodies[i].heading,
 				 sfc_body_lines(pages->project, pou, body));
 		else
@@ -1182,7 +1182,7 @@ static void put_pou(struct pages *pages, int index, int rung)
 	pages->pou = index;
 	pages->subject = name;
 	next_page(pages);
-	if (pou->language == LANGUAGE_IL || pou->st)
+	if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST)
 		put_list(pages, heading, listing_il(pages->project, pou));
 	else if (pou->sfc && !rung)
 		put_chart(pages, heading);

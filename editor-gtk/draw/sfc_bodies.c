@@ -73,7 +73,7 @@ char *sfc_body_heading(const struct project *project, const struct pou *pou, int
 	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
 		const struct sfc_body *body = sfc_body(sfc, i);
 
-		if (body->kind == BODY_LIST || body->count == 0 || body->first != first)
+		if (!sfc_body_has_rungs(body) || body->count == 0 || body->first != first)
 			continue;
 		*count = body->count;
 		return heading_of(project, sfc, i);

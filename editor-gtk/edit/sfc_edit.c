@@ -13,6 +13,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/sink.h"
 #include "engine/model/expr.h"
+#include "engine/model/st.h"
 #include "engine/base/name.h"
 
 #include <stdio.h>
@@ -785,6 +786,26 @@ static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *n
 	return true;
 }
 
+static bool rename_in_text(struct sfc_edit *edit, const char *old, const char *name)
+{
+	const struct st *st = edit->pou.st;
+	struct st *own = arena_alloc(&edit->arena, sizeof(*own));
+
+	if (!st)
+		return true;
+	if (own)
+		own->item = arena_alloc(&edit->arena, ((size_t)st->count + 1) * sizeof(*own->item));
+	if (!own || !own->item)
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	for (; own->count < st->count; own->count++) {
+		own->item[own->count] = st->item[own->count];
+		if (st->item[own->count].kind != ST_COMMENT)
+			own->item[own->count].text = with_name(edit, st->item[own->count].text, old, name);
+	}
+	edit->pou.st = own;
+	return true;
+}
+
 /* Renames in times of steps and in their actions. */
 static void rename_in_steps(struct sfc_edit *edit, const char *old, const char *name)
 {
@@ -819,6 +840,9 @@ bool sfc_edit_asks_for(const struct sfc_edit *edit, int step)
 	for (int i = 0; i < edit->pou.il.count && !found; i++)
 		found = has_member(project_text(edit->project,
 						 edit->pou.il.line[i].operand), name);
+	for (int i = 0; edit->pou.st && i < edit->pou.st->count && !found; i++)
+		found = edit->pou.st->item[i].kind != ST_COMMENT &&
+			has_member(project_text(edit->project, edit->pou.st->item[i].text), name);
 	for (int i = 0; i < sfc->use_count && !found; i++)
 		found = has_member(project_text(edit->project, sfc->use[i].time), name);
 	for (int i = 0; i < sfc->step_count && !found; i++)
@@ -842,7 +866,8 @@ bool sfc_edit_name_step(struct sfc_edit *edit, int step, const char *name)
 			sfc->ref[i].name = id;
 	rename_in_steps(edit, project_text(edit->project, old), name);
 	return rename_in_rungs(edit, project_text(edit->project, old), name) &&
-	       rename_in_list(edit, project_text(edit->project, old), name);
+	       rename_in_list(edit, project_text(edit->project, old), name) &&
+	       rename_in_text(edit, project_text(edit->project, old), name);
 }
 
 bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char *name)

@@ -192,7 +192,7 @@ static float put_chart(const struct project *project, const struct pou *pou,
 		const struct sfc_body *body = bodies[i].body;
 
 		y += render_heading(lettering, bodies[i].heading, y, picture);
-		if (body->kind == BODY_LIST)
+		if (body->kind == BODY_LIST || body->kind == BODY_ST)
 			y = put_lines(sfc_body_lines(project, pou, body), lettering, y,
 				      picture);
 		else
@@ -224,7 +224,7 @@ void render_sheets(const struct project *project, int pou,
 		if (several)
 			y += render_heading(lettering, heading, y, picture);
 		g_free(heading);
-		if (one->language == LANGUAGE_IL || one->st)
+		if (one->language == LANGUAGE_IL || one->language == LANGUAGE_ST)
 			y = put_lines(listing_il(project, one), lettering, y + 8,
 				      picture);
 		else if (one->sfc && !options->rung)

@@ -653,7 +653,7 @@ static bool show_body(LadderSfcView *view, int index, enum sfc_part part)
 		body = &sfc->action[sfc->use[view->cursor.use].action].body;
 	else
 		return false;
-	if (body->kind != BODY_RUNGS && body->kind != BODY_LIST)
+	if (body->kind != BODY_RUNGS && body->kind != BODY_LIST && body->kind != BODY_ST)
 		return false;
 	sfc_want_body(view, body);
 	return true;

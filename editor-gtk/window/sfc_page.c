@@ -174,7 +174,7 @@ static int find_shown(LadderSfcPage *page, int first)
 
 	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
 		const int at = sfc_body(sfc, i)->first;
-		char *heading = sfc_body(sfc, i)->kind == BODY_LIST ? NULL :
+		char *heading = !sfc_body_has_rungs(sfc_body(sfc, i)) ? NULL :
 				heading_of(page, at, &count);
 
 		if (g_strcmp0(heading, page->shown) == 0 &&

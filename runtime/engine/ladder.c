@@ -457,7 +457,7 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 		    !sfc_to_il(t, unit, bad, watch, &ladder->scratch))
 			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
-	} else if (unit->pou->st) {
+	} else if (unit->pou->language == LANGUAGE_ST) {
 		if (!bad[unit->pou->rung_count] && !st_to_il(t, unit, &ladder->scratch))
 			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
@@ -487,7 +487,7 @@ static bool make_units(struct ladder *ladder, uint8_t *const *bad)
 		if (!make_list(ladder, unit, false, bad[i]))
 			return false;
 		if (ladder->watch && ladder->diags.errors == 0 &&
-		    unit->pou->language != LANGUAGE_IL && !unit->pou->st &&
+		    unit->pou->language != LANGUAGE_IL && unit->pou->language != LANGUAGE_ST &&
 		    !make_list(ladder, unit, true, bad[i]))
 			return false;
 	}

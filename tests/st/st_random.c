@@ -771,9 +771,12 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 	say(&m, "END_FUNCTION_BLOCK\n\nSUBROUTINE Start ST\nVAR\n  Starts : INT;\nEND_VAR\n  Starts := Starts + 1;\n");
 	m.room = ROOM_ROUTINE;
 	statements(&m, 1, 3, 1);
-	say(&m, "END_SUBROUTINE\n\nPROGRAM Main ST\n");
+	const bool action = chance(&m, 25); /* of a chart whose step is always active */
+
+	say(&m, action ? "END_SUBROUTINE\n\nPROGRAM Main SFC\n  INITIAL_STEP Always:\n    Do(N);\n  END_STEP\n  ACTION Do:\n" :
+		"END_SUBROUTINE\n\nPROGRAM Main ST\n");
 	m.room = ROOM_MAIN;
 	statements(&m, 3, 7, 1);
-	say(&m, "  Start();\nEND_PROGRAM\n");
+	say(&m, "  Start();\n%sEND_PROGRAM\n", action ? "  END_ACTION\n" : "");
 	return m.used;
 }

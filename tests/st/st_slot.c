@@ -211,7 +211,7 @@ void slot_show(struct st_world *world, struct slot *slot, const char *before)
 	char name[128];
 
 	for (int i = 0; i < slot->count; i++) {
-		if (slot->part[i].flags & (VAR_TEMP | VAR_IN_OUT))
+		if (slot->part[i].flags & (VAR_TEMP | VAR_IN_OUT | VAR_SFC))
 			continue;
 		snprintf(name, sizeof(name), "%.60s%s%.60s", before, *before ? "." : "",
 			 slot->part[i].name);

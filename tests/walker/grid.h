@@ -47,6 +47,7 @@ struct walked_pou {
 	struct frame *frame;
 	struct walked_rung *rung;
 	struct played_sfc *sfc; /* of a chart                                    */
+	struct expression **statement; /* by item of pou->st; NULL: not yet    */
 };
 
 /** grid_make - the graph of a rung; false: out of memory or cannot walk. */

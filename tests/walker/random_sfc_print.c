@@ -436,6 +436,57 @@ static void put_list(struct page *page, struct random_source *source, int number
 	    (int)random_below(source, 8));
 }
 
+static void put_statement(struct page *page, struct random_source *source, int depth)
+{
+	static const char *const ends[] = { "RETURN", "n0 := 0", "Wait := T#30ms" };
+	const char *in = &"          "[10 - 2 * depth];
+	const uint32_t kind = depth < 4 ? random_below(source, 8) : 0;
+
+	if (kind >= 6) {
+		put(page, "%sIF ", in);
+		put_bool(page, source);
+		put(page, " AND n%d < %d THEN\n", (int)random_below(source, 6), (int)random_below(source, 30));
+		put_statement(page, source, depth + 1);
+		if (kind == 7) {
+			put(page, "%sELSIF NOT ", in);
+			put_bool(page, source);
+			put(page, " THEN\n");
+			put_statement(page, source, depth + 1);
+			put(page, "%sELSE\n", in);
+			put_statement(page, source, depth + 1);
+		}
+		put(page, "%sEND_IF;\n", in);
+	} else if (kind == 5) {
+		put(page, "%sWHILE n%d < %d DO\n", in, depth, (int)random_below(source, 20));
+		put(page, "%s  n%d := n%d + 1;\n", in, depth, depth);
+		put_statement(page, source, 4);
+		put(page, "%sEND_WHILE;\n", in);
+	} else if (kind == 4) {
+		put(page, "%s%s;\n", in, ends[random_below(source, 3)]);
+	} else {
+		put(page, "%s%s%d := ", in, random_chance(source, 50) ? "Lamp" : "Mark",
+		    (int)random_below(source, 8));
+		put_bool(page, source);
+		put(page, random_chance(source, 50) ? " AND NOT " : " OR ");
+		put_bool(page, source);
+		put(page, ";\n");
+	}
+}
+
+static void put_text(struct page *page, uint64_t key, struct random_source *source, int number)
+{
+	const int count = 1 + (int)random_below(source, 4);
+
+	put(page, "    c%d := c%d + 1;\n", number, number);
+	for (int i = 0; i < count; i++) {
+		const uint64_t at = sfc_key(key, 20u + (uint32_t)i);
+		struct random_source own = sfc_source(at);
+
+		if (sfc_has(page->sfc, at))
+			put_statement(page, &own, 2);
+	}
+}
+
 static void put_action(struct page *page, int number)
 {
 	uint64_t key = sfc_key(page->sfc->seed, 300u + (uint32_t)number);
@@ -449,6 +500,11 @@ static void put_action(struct page *page, int number)
 	put(page, "  ACTION A%d:\n", number);
 	if (random_chance(&source, 15)) {
 		put_list(page, &source, number);
+		put(page, "  END_ACTION\n");
+		return;
+	}
+	if (random_chance(&source, 25)) {
+		put_text(page, key, &source, number);
 		put(page, "  END_ACTION\n");
 		return;
 	}

@@ -25,4 +25,9 @@ bool walk_rungs(struct walker *walker, struct walked_pou *walked, int first, int
 /** walk_list - runs lines of the POU's list; gives its last result. False: a fault. */
 bool walk_list(struct walker *walker, struct walked_pou *walked,
 	       const struct sfc_body *body, struct value *result);
+
+/* statements.c */
+/** walk_statements - runs Structured Text. False: a fault, or not supported. */
+bool walk_statements(struct walker *walker, struct walked_pou *walked,
+		     const struct sfc_body *body);
 #endif

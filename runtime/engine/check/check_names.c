@@ -579,15 +579,17 @@ static void mark_bad(uint8_t *bad, int rung_number, bool good)
 		bad[rung_number - 1] = 1;
 }
 
-/* Rungs that stand together: @first is the number, 0-based, of the first in @pou. */
+/* Rungs that stand together: @first is the number, 0-based, of the first in @pou. @condition: they are
+ * that of a transition; or NULL. */
 static void check_ladder(struct names_check *c, const struct pou *pou, int first,
-			 int count, bool condition, uint8_t *bad)
+			 int count, const struct sfc_body *condition, uint8_t *bad)
 {
 	const int end = first + count;
 	struct operand_check operands = {
 		.scope = c->scope, .project = c->project, .uses = &c->uses,
 		.expr = c->expr, .diags = c->diags, .pou = pou,
-		.condition = condition,
+		.condition = condition != NULL,
+		.statement = condition && condition->kind == BODY_EXPRESSION,
 	};
 
 	c->body++;
@@ -609,6 +611,21 @@ static void check_ladder(struct names_check *c, const struct pou *pou, int first
 	c->good &= check_loops(c->project, pou, first, count, bad, c->diags);
 }
 
+/* One with errors is not translated. */
+static void check_text(struct names_check *c, const struct pou *pou, uint8_t *bad)
+{
+	struct operand_check operands = {
+		.scope = c->scope, .project = c->project, .uses = &c->uses,
+		.expr = c->expr, .diags = c->diags, .pou = pou, .statement = true,
+	};
+
+	if (check_st(&operands))
+		return;
+	c->good = false;
+	if (bad)
+		bad[pou->rung_count] = 1;
+}
+
 /* Nothing jumps from one condition or action into another. */
 static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_t *bad)
 {
@@ -618,29 +635,16 @@ static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
 		const struct sfc_body *body = sfc_body(sfc, i);
 
-		if (body->kind != BODY_LIST)
+		if (body->kind != BODY_LIST && body->kind != BODY_ST)
 			check_ladder(c, pou, body->first, body->count,
-				     i < sfc->transition_count, bad);
+				     i < sfc->transition_count ? body : NULL, bad);
 	}
+	if (pou->st)
+		check_text(c, pou, bad);
 	good = check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
 	good &= check_sfc(c->scope, pou, c->scratch, c->diags);
 	c->good &= good;
 	if (bad && !good)
-		bad[pou->rung_count] = 1;
-}
-
-/* One with errors is not translated. */
-static void check_text(struct names_check *c, const struct pou *pou, uint8_t *bad)
-{
-	struct operand_check operands = {
-		.scope = c->scope, .project = c->project, .uses = &c->uses,
-		.expr = c->expr, .diags = c->diags, .pou = pou,
-	};
-
-	if (check_st(&operands))
-		return;
-	c->good = false;
-	if (bad)
 		bad[pou->rung_count] = 1;
 }
 
@@ -769,10 +773,10 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		note_il(c, pou);
 		if (pou->sfc)
 			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
-		else if (pou->st)
+		else if (pou->language == LANGUAGE_ST && pou->st)
 			check_text(c, pou, bad ? bad[i] : NULL);
 		else
-			check_ladder(c, pou, 0, pou->rung_count, false,
+			check_ladder(c, pou, 0, pou->rung_count, NULL,
 				     bad ? bad[i] : NULL);
 	}
 }

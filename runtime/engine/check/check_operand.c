@@ -84,7 +84,7 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 {
 	const char *name = project_text(c->project, id);
 	char text[2 * LIMIT_ARG];
-	const enum diag_id foreign = c->rung ? DIAG_COUNT : foreign_constant(name, text, sizeof(text));
+	const enum diag_id foreign = !c->statement ? DIAG_COUNT : foreign_constant(name, text, sizeof(text));
 
 	if (foreign != DIAG_COUNT) {
 		operand_report(c, foreign, at, text);
@@ -726,11 +726,11 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	struct expr_args args = { .wrong = -1, .text = "" };
 	enum diag_id why;
 
-	if (word == WORD_COUNT && !c->rung && expr_is_clock(call))
+	if (word == WORD_COUNT && c->statement && expr_is_clock(call))
 		return;
-	if (word == WORD_COUNT && !c->rung && use_measured(c, at, expr, call))
+	if (word == WORD_COUNT && c->statement && use_measured(c, at, expr, call))
 		return;
-	if (word == WORD_COUNT && !c->rung && is_array_name(c, call)) {
+	if (word == WORD_COUNT && c->statement && is_array_name(c, call)) {
 		char text[2 * LIMIT_NAME + 8];
 		const int len = call->len < LIMIT_NAME ? call->len : LIMIT_NAME;
 

@@ -26,6 +26,7 @@ struct operand_check {
 	const char *spot;         /* the place in its text                    */
 	struct diag place;        /* file and POU of statements               */
 	bool condition;           /* of a transition: its coil is TRANSITION   */
+	bool statement;           /* expressions are those of Structured Text  */
 	bool good;                /* false after an error in this rung */
 };
 

@@ -37,7 +37,7 @@ bool il_report(struct fn_check *c, const struct il_line *line,
 
 bool il_is_made(const struct fn_check *c, const char *operand)
 {
-	return (c->pou->language == LANGUAGE_LD || c->pou->st) && operand[0] == '_' &&
+	return c->pou->language != LANGUAGE_IL && operand[0] == '_' &&
 	       (operand[1] == 'N' || operand[1] == 'T');
 }
 

@@ -887,7 +887,7 @@ static bool write_body(const struct project *project, const struct pou *pou,
 {
 	const struct var_table no_vars = { 0 };
 
-	if (pou->st) {
+	if (pou->language == LANGUAGE_ST) {
 		sink_text(sink, "PROGRAM\n");
 		text_write_st(project, pou->st, sink);
 		sink_text(sink, "END_PROGRAM\n");

@@ -75,7 +75,8 @@ struct pou {
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
-	struct st *st;          /* of ST (model/st.h); NULL: another language  */
+	struct st *st;          /* of ST (model/st.h); of SFC: all statements of its actions;
+				 * NULL: there are none                        */
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* file it is in; borrowed from the arena      */

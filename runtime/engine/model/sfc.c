@@ -87,6 +87,11 @@ const struct sfc_body *sfc_body(const struct sfc *sfc, int body)
 	       &sfc->action[body - sfc->transition_count].body;
 }
 
+bool sfc_body_has_rungs(const struct sfc_body *body)
+{
+	return body->kind == BODY_EXPRESSION || body->kind == BODY_RUNGS;
+}
+
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name)
 {
 	const uint32_t fold = names_fold(names, name);

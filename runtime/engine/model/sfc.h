@@ -28,10 +28,11 @@ enum body_kind {
 	BODY_EXPRESSION, /* := … ; one rung, [ … ] and the coil                */
 	BODY_RUNGS,      /* of a condition exactly one                         */
 	BODY_LIST,       /* instructions                                       */
+	BODY_ST,         /* Structured Text, of actions only                   */
 };
 struct sfc_body {
 	enum body_kind kind;
-	int first, count;   /* of pou->rung, or of pou->il.line                */
+	int first, count;   /* of pou->rung, pou->il.line or pou->st->item     */
 };
 
 enum step_kind { STEP_PLAIN, STEP_INITIAL, STEP_MACRO };
@@ -159,6 +160,8 @@ bool sfc_reserved(const char *name);
  * actions; @body: 0-based. Scan-safe: yes. */
 int sfc_bodies(const struct sfc *sfc);
 const struct sfc_body *sfc_body(const struct sfc *sfc, int body);
+/** sfc_body_has_rungs - is the body made of rungs of the POU, or an expression? Scan-safe: yes. */
+bool sfc_body_has_rungs(const struct sfc_body *body);
 /** sfc_find_step - by name, case does not count; -1: none. Linear. Scan-safe: yes. */
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name);
 

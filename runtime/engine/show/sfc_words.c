@@ -4,6 +4,7 @@
  */
 #include "engine/show/sfc_words.h"
 
+#include "engine/model/st.h"
 #include "engine/text/text.h"
 
 static void put_id(const struct project *project, const struct sink *sink, uint32_t id)
@@ -42,6 +43,8 @@ static void sfc_words_condition(const struct project *project, const struct pou 
 		put_id(project, sink, cell->operand);
 	else if (body->kind == BODY_LIST)
 		sink_text(sink, "list");
+	else if (body->kind == BODY_ST)
+		sink_text(sink, "ST");
 	else if (body->kind == BODY_NONE || body->count == 0)
 		sink_text(sink, "?");
 	else
@@ -163,8 +166,10 @@ void sfc_words_ways(const struct project *project, const struct sfc *sfc, int tr
 void sfc_words_list(const struct project *project, const struct pou *pou,
 		    const struct sfc_body *body, const struct sink *sink)
 {
-	const struct il list = { .line = pou->il.line + body->first,
-				 .count = body->count };
-
-	text_write_il(project, &list, sink);
+	if (body->kind == BODY_ST)
+		text_write_st(project, &(struct st){ .item = pou->st->item + body->first,
+						     .count = body->count }, sink);
+	else
+		text_write_il(project, &(struct il){ .line = pou->il.line + body->first,
+						     .count = body->count }, sink);
 }

@@ -26,7 +26,7 @@ void sfc_words_qualifier(const struct project *project, const struct sfc *sfc, i
 void sfc_words_ways(const struct project *project, const struct sfc *sfc, int transition,
 		    const struct sink *sink);
 
-/** sfc_words_list - the instructions of a list, a line each. */
+/** sfc_words_list - the instructions of a list, or the statements of Structured Text, a line each. */
 void sfc_words_list(const struct project *project, const struct pou *pou,
 		    const struct sfc_body *body, const struct sink *sink);
 

@@ -583,7 +583,7 @@ static int show_text(struct draw *draw, const struct pou *pou)
 
 static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
-	if (pou->st)
+	if (pou->language == LANGUAGE_ST)
 		return rung == 0 ? show_text(draw, pou) : 0;
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)

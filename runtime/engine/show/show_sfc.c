@@ -483,7 +483,7 @@ static void put_body(const struct sketch *sketch, struct draw *draw,
 {
 	const struct pou *pou = sketch->pou;
 
-	if (body->kind == BODY_LIST) {
+	if (body->kind == BODY_LIST || body->kind == BODY_ST) {
 		sfc_words_list(draw->project, pou, body, draw->sink);
 		return;
 	}

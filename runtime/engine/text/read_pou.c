@@ -196,8 +196,7 @@ static void read_evolution(struct reader *r, struct sfc *sfc, const char *word,
 	reader_next(r);
 }
 
-/* SFC, and perhaps UNTIL STABLE or IN ORDER; the cursor stands on SFC. */
-static void begin_sfc(struct reader *r, struct pou *pou)
+static void begin_chart(struct reader *r, struct pou *pou)
 {
 	if (pou->kind != POU_PROGRAM)
 		reader_fail_word(r, DIAG_SFC_KIND, pou_word(pou->kind));
@@ -208,7 +207,15 @@ static void begin_sfc(struct reader *r, struct pou *pou)
 		return;
 	}
 	pou->sfc->block = -1;
+}
+
+/* SFC, and perhaps UNTIL STABLE or IN ORDER; the cursor stands on SFC. */
+static void begin_sfc(struct reader *r, struct pou *pou)
+{
+	begin_chart(r, pou);
 	reader_next(r);
+	if (!pou->sfc)
+		return;
 	if (lex_is(&r->lex, "UNTIL"))
 		read_evolution(r, pou->sfc, "STABLE", EVOLVE_UNTIL_STABLE);
 	else if (lex_is(&r->lex, "IN"))
@@ -227,6 +234,20 @@ static void skip_vars(struct lex *lex)
 	}
 }
 
+/* Does a part of a chart begin here: `STEP Name`, `TRANSITION (`? */
+static bool begins_chart(struct lex lex)
+{
+	static const char *const words[] = { "INITIAL_STEP", "STEP", "MACRO_STEP", "TRANSITION", "ACTION" };
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++) {
+		if (!lex_is(&lex, words[i]))
+			continue;
+		lex_next(&lex);
+		return lex.token.kind == TOKEN_NAME || (i == 3 && lex_is(&lex, "("));
+	}
+	return false;
+}
+
 /* The language of a POU whose first line has none; the cursor stands behind that. */
 static enum pou_language language_of_body(const struct reader *r)
 {
@@ -238,6 +259,8 @@ static enum pou_language language_of_body(const struct reader *r)
 	skip_vars(&lex);
 	if (lex_is(&lex, "RUNG"))
 		return LANGUAGE_LD;
+	if (begins_chart(lex))
+		return LANGUAGE_SFC;
 	return st_begins(lex) ? LANGUAGE_ST : LANGUAGE_IL;
 }
 
@@ -265,6 +288,8 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 		pou->language = LANGUAGE_ST;
 	else if (r->plain && pou->unsaid)
 		pou->language = language_of_body(r);
+	if (pou->language == LANGUAGE_SFC)
+		begin_chart(r, pou);
 	if (lex_is(&r->lex, "SFC"))
 		begin_sfc(r, pou);
 	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "ST"))

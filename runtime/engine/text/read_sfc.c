@@ -18,21 +18,26 @@ struct sfc_reader {
 };
 
 /* The word of a chart in work; NULL: it is none. */
-static const struct sfc_word *chart_word(const struct reader *r)
+static const struct sfc_word *chart_word(const struct lex *lex)
 {
 	const struct sfc_word *word;
 
 	for (int i = 0; (word = sfc_word(i)); i++)
-		if (lex_is(&r->lex, word->word))
+		if (lex_is(lex, word->word))
 			return word;
 	return NULL;
 }
 
-bool reader_is_sfc_word(const struct reader *r)
+static bool is_chart_word(const struct lex *lex)
 {
-	const struct sfc_word *word = chart_word(r);
+	const struct sfc_word *word = chart_word(lex);
 
 	return word && word->kind != SFC_WORD_SETTING;
+}
+
+bool reader_is_sfc_word(const struct reader *r)
+{
+	return is_chart_word(&r->lex);
 }
 
 /* ---- parts of pieces ---- */
@@ -58,12 +63,16 @@ static void skip_odd(struct sfc_reader *in)
 	}
 }
 
-/* Steps over a symbol or word. Fails: false and a diagnostic. */
+/* Steps over a symbol or word; over : and ; to the end of the line at most, because comments below
+ * belong to what follows. Fails: false and a diagnostic. */
 static bool expect_word(struct sfc_reader *in, const char *symbol)
 {
 	if (!lex_is(&in->r->lex, symbol))
 		return reader_fail_word(in->r, DIAG_EXPECTED, symbol);
-	reader_step(in->r);
+	if (strcmp(symbol, ":") == 0 || strcmp(symbol, ";") == 0)
+		reader_next(in->r);
+	else
+		reader_step(in->r);
 	return true;
 }
 
@@ -84,11 +93,11 @@ static bool read_settings(struct sfc_reader *in,
 		if (more)
 			reader_step(r);
 	}
-	r->across_lines = false;
+	r->across_lines = r->plain;
 	if (good && !reader_is(r, ')'))
 		good = reader_fail_word(r, DIAG_EXPECTED, ", or )");
 	if (good)
-		reader_next(r);
+		reader_step(r);
 	return good;
 }
 
@@ -224,12 +233,39 @@ static void read_rungs(struct sfc_reader *in, struct sfc_body *body)
 	body->count = pou->rung_count - body->first;
 }
 
+/* Do statements of Structured Text follow the colon at @lex? */
+static bool is_st(struct lex lex)
+{
+	struct lex end;
+
+	lex.newlines = lex.comments = false;
+	lex_next(&lex);
+	end = lex;
+	while (end.token.kind != TOKEN_END && !is_chart_word(&end) && !lex_is(&end, "END_PROGRAM"))
+		lex_next(&end);
+	if (lex_is(&lex, "RUNG") || lex.token.text == end.token.text)
+		return false;
+	lex.end = end.token.text;
+	return st_begins(lex);
+}
+
+/* Statements, from behind the colon on. */
+static void read_text(struct sfc_reader *in, struct sfc_body *body)
+{
+	struct pou *pou = in->pou;
+	const int first = pou->st ? pou->st->count : 0;
+
+	read_st_behind(in->r, pou);
+	*body = (struct sfc_body){ BODY_ST, first, pou->st ? pou->st->count - first : 0 };
+}
+
 /* Rungs or a list, up to a word that ends them. */
 static void read_body(struct sfc_reader *in, struct sfc_body *body)
 {
 	struct reader *r = in->r;
 	struct pou *pou = in->pou;
 
+	r->across_lines = false;
 	reader_skip_newlines(r);
 	if (lex_is(&r->lex, "RUNG")) {
 		read_rungs(in, body);
@@ -238,6 +274,7 @@ static void read_body(struct sfc_reader *in, struct sfc_body *body)
 		read_il(r, pou);
 		body->count = pou->il.count - body->first;
 	}
+	r->across_lines = r->plain;
 }
 
 /* ---- pieces ---- */
@@ -251,21 +288,27 @@ static void read_action(struct sfc_reader *in)
 
 	if (in->macro >= 0)
 		reader_fail_token(r, DIAG_MISPLACED);
-	reader_next(r);
+	reader_step(r);
 	action.line = r->lex.token.line;
 	action.column = r->lex.token.column;
 	bool good = reader_name(r, "name of the action", &action.name);
 
-	if (good) {
-		reader_next(r);
-		good = expect_word(in, ":");
+	if (good)
+		reader_step(r);
+	good = good && (reader_is(r, ':') || reader_fail_word(r, DIAG_EXPECTED, ":"));
+	if (good && is_st(r->lex)) {
+		action.comment = buffer_take(r, &r->above);
+		read_text(in, &action.body);
+	} else {
+		if (good)
+			reader_next(r);
+		action.comment = buffer_take(r, &r->above);
+		if (!good) {
+			reader_skip_line(r);
+			reader_skip_newlines(r);
+		}
+		read_body(in, &action.body);
 	}
-	action.comment = buffer_take(r, &r->above);
-	if (!good) {
-		reader_skip_line(r);
-		reader_skip_newlines(r);
-	}
-	read_body(in, &action.body);
 	action.tail = buffer_take(r, &r->above);
 	close_head(in, "END_ACTION", &head);
 	slot = push_room(in, &sfc->action, &sfc->action_count, sizeof(*slot),
@@ -300,7 +343,7 @@ static void read_control(struct sfc_reader *in)
 	else if (in->macro >= 0)
 		reader_fail_token(r, DIAG_MISPLACED);
 	in->controlled = true;
-	reader_next(r);
+	reader_step(r);
 	bool good = reader_is(r, '(') ?
 		    read_settings(in, read_control_part, control) :
 		    reader_fail_word(r, DIAG_EXPECTED, "(");
@@ -324,7 +367,7 @@ static void read_block(struct sfc_reader *in)
 
 static bool is_step(const struct reader *r)
 {
-	const struct sfc_word *word = chart_word(r);
+	const struct sfc_word *word = chart_word(&r->lex);
 
 	return word && word->kind == SFC_WORD_STEP;
 }
@@ -397,7 +440,7 @@ static bool read_bits(struct sfc_reader *in, struct sfc_use use, const struct to
 			break;
 		reader_step(r);
 	}
-	r->across_lines = false;
+	r->across_lines = r->plain;
 	if (!expect_word(in, ";"))
 		return false;
 	if (in->sfc->use_count > first)
@@ -454,7 +497,7 @@ static bool read_use(struct sfc_reader *in)
 	if (is_call(r) || (!set && !lex_is(&r->lex, "RESET")))
 		return read_call(in, use);
 	use.kind = set ? USE_SET : USE_RESET;
-	reader_next(r);
+	reader_step(r);
 	return read_bits(in, use, &word);
 }
 
@@ -463,7 +506,7 @@ static void skip_use(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
 
-	r->across_lines = false;
+	r->across_lines = r->plain;
 	while (!reader_at_end(r) && !reader_is(r, ';') && !lex_is(&r->lex, "END_STEP"))
 		reader_next(r);
 	if (reader_is(r, ';'))
@@ -516,7 +559,7 @@ static bool read_step_head(struct sfc_reader *in, struct sfc_step *step)
 	step->column_at = r->lex.token.column;
 	if (!reader_name(r, "name of the step", &step->name))
 		return false;
-	reader_next(r);
+	reader_step(r);
 	if (reader_is(r, '(') && !read_settings(in, read_step_part, step))
 		return false;
 	return expect_word(in, ":");
@@ -557,7 +600,7 @@ static void read_step(struct sfc_reader *in)
 		.kind = lex_is(&r->lex, "STEP") ? STEP_PLAIN :
 			lex_is(&r->lex, "MACRO_STEP") ? STEP_MACRO : STEP_INITIAL };
 
-	reader_next(r);
+	reader_step(r);
 	bool good = read_step_head(in, &step);
 
 	if (!good)
@@ -657,9 +700,9 @@ static bool read_refs(struct sfc_reader *in, int *first, int *count)
 	if (reader_is(r, '(')) {
 		r->across_lines = true;
 		good = read_some(in, *first);
-		r->across_lines = false;
+		r->across_lines = r->plain;
 		if (good)
-			reader_next(r);
+			reader_step(r);
 	} else {
 		good = read_ref(in, 0);
 	}
@@ -692,7 +735,7 @@ static bool read_transition_head(struct sfc_reader *in, struct sfc_transition *t
 	    !(may_be_open(in) && lex_is(&r->lex, "TO"))) {
 		if (!reader_name(r, "name of the transition", &transition->name))
 			return false;
-		reader_next(r);
+		reader_step(r);
 	}
 	if (reader_is(r, '(') && !read_settings(in, read_transition_part, transition))
 		return false;
@@ -760,7 +803,7 @@ static uint32_t take_expression(struct reader *r)
 			buffer_add(r, &r->text, " ", 1);
 		note = r->above.len;
 	}
-	r->across_lines = false;
+	r->across_lines = r->plain;
 	reader_next(r);
 	return buffer_take(r, &r->text);
 }
@@ -826,7 +869,7 @@ static void skip_rest(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
 
-	r->across_lines = false;
+	r->across_lines = r->plain;
 	for (;;) {
 		while (!reader_at_end(r) && !lex_is(&r->lex, "END_TRANSITION"))
 			reader_next(r);
@@ -848,13 +891,18 @@ static void read_transition(struct sfc_reader *in)
 	struct sfc_transition transition = { .macro = in->macro, .line = head.line,
 					     .column = head.column };
 
-	reader_next(r);
+	reader_step(r);
 	bool good = read_transition_head(in, &transition);
 
 	if (good && lex_is(&r->lex, ":=")) {
 		good = read_expression(in, &transition.condition);
 		transition.comment = buffer_take(r, &r->above);
 		reader_skip_newlines(r);
+	} else if (good && reader_is(r, ':') && is_st(r->lex)) {
+		good = reader_fail_word(r, DIAG_SFC_STATEMENTS, "");
+		while (!lex_is(&r->lex, "END_TRANSITION") && !lex_is(&r->lex, "END_PROGRAM") &&
+		       r->lex.token.kind != TOKEN_END)
+			reader_next(r);
 	} else if (good && reader_is(r, ':')) {
 		reader_next(r);
 		transition.comment = buffer_take(r, &r->above);
@@ -915,12 +963,14 @@ void read_sfc(struct reader *r, struct pou *pou)
 	int errors;
 
 	do {
+		r->across_lines = r->plain;
 		reader_skip_newlines(r);
 		errors = r->diags->errors;
 	} while (read_piece(&in) && (errors == r->diags->errors || !is_full(sfc)));
 	if (is_full(sfc) && errors != r->diags->errors)
 		skip_sfc(&in);
 	close_macros(&in);
+	r->across_lines = false;
 	if (r->no_memory || !sfc_link(sfc, &project->names) ||
 	    !sfc_declare(sfc, &project->names, &pou->vars, &project->arena))
 		r->no_memory = true;

@@ -25,6 +25,7 @@ struct st_block {
 struct st_reader {
 	struct reader *r;
 	struct st *st;
+	int first;           /* of its items: those before belong to other actions */
 	struct st_block block[LIMIT_ST_DEPTH];
 	int depth;
 	int lines;           /* newlines since the last item                  */
@@ -77,7 +78,7 @@ static struct st_item *add_item(struct st_reader *s, enum st_kind kind, const st
 		return NULL;
 	}
 	*item = (struct st_item){
-		.kind = (uint8_t)kind, .gap = s->lines > 1 && st->count > 1,
+		.kind = (uint8_t)kind, .gap = s->lines > 1 && st->count > s->first + 1,
 		.depth = (uint8_t)s->depth, .text = reader_intern(s->r, first->text, len),
 		.line = first->line, .column = first->column,
 	};
@@ -736,7 +737,7 @@ static void read_statement(struct st_reader *s)
 /* A body of ; alone keeps one: without it, comments would stand behind no statement. */
 static void keep_empty(struct st_reader *s)
 {
-	for (int i = 0; i < s->st->count; i++)
+	for (int i = s->first; i < s->st->count; i++)
 		if (s->st->item[i].kind != ST_COMMENT)
 			return;
 	s->lines = 0;
@@ -744,29 +745,33 @@ static void keep_empty(struct st_reader *s)
 		add_item(s, ST_EMPTY, &s->r->lex.token, 0);
 }
 
-void read_st(struct reader *r, struct pou *pou)
+/* NULL: no memory. */
+static struct st_reader *new_st(struct reader *r, struct pou *pou)
 {
 	struct st_reader *s = arena_alloc(&r->project->arena, sizeof(*s));
 
-	pou->st = arena_alloc(&r->project->arena, sizeof(*pou->st));
+	if (!pou->st)
+		pou->st = arena_alloc(&r->project->arena, sizeof(*pou->st));
 	if (!s || !pou->st) {
 		r->no_memory = true;
-		return;
+		return NULL;
 	}
-	*s = (struct st_reader){ .r = r, .st = pou->st };
-	if (r->above.len > 0) {
-		struct st_item *item = add_item(s, ST_COMMENT, &r->lex.token, 0);
+	*s = (struct st_reader){ .r = r, .st = pou->st, .first = pou->st->count };
+	return s;
+}
 
-		if (item)
-			item->text = buffer_take(r, &r->above);
-	}
+static void read_statements(struct st_reader *s)
+{
+	struct reader *r = s->r;
+
 	while (r->lex.token.kind != TOKEN_END && !r->no_memory && (skip_declarations(s) || !read_ends_block(r))) {
 		if (r->lex.token.kind == TOKEN_NEWLINE) {
 			s->lines++;
 			st_step(s);
 		} else if (s->comment) {
-			add_comment(s, &r->lex.token, s->lines == 0 && s->st->count > 0);
-			s->st->item[s->st->count - 1].depth = (uint8_t)depth_of(s, ST_ASSIGN);
+			add_comment(s, &r->lex.token, s->lines == 0 && s->st->count > s->first);
+			if (!r->no_memory)
+				s->st->item[s->st->count - 1].depth = (uint8_t)depth_of(s, ST_ASSIGN);
 			st_step(s);
 		} else {
 			read_statement(s);
@@ -775,4 +780,29 @@ void read_st(struct reader *r, struct pou *pou)
 	while (s->depth > 0)
 		drop_block(s);
 	keep_empty(s);
+}
+
+void read_st_behind(struct reader *r, struct pou *pou)
+{
+	struct st_reader *s = new_st(r, pou);
+
+	if (!s)
+		return;
+	st_step(s);
+	read_statements(s);
+}
+
+void read_st(struct reader *r, struct pou *pou)
+{
+	struct st_reader *s = new_st(r, pou);
+
+	if (!s)
+		return;
+	if (r->above.len > 0) {
+		struct st_item *item = add_item(s, ST_COMMENT, &r->lex.token, 0);
+
+		if (item)
+			item->text = buffer_take(r, &r->above);
+	}
+	read_statements(s);
 }

@@ -252,6 +252,8 @@ void read_il(struct reader *r, struct pou *pou);
 /** read_st - Structured Text up to the end of the POU; the cursor is on its first token, comments
  * and newlines too. */
 void read_st(struct reader *r, struct pou *pou);
+/** read_st_behind - the same up to the end of an action; the cursor is on the token before it. */
+void read_st_behind(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);
 /** reader_is_sfc_word - does this word begin or end an item of a chart? */

@@ -289,7 +289,7 @@ static void write_body(const struct sink *sink, const struct project *project,
 	}
 	if (pou->language == LANGUAGE_IL)
 		text_write_il(project, &pou->il, sink);
-	if (pou->st)
+	if (pou->language == LANGUAGE_ST && pou->st)
 		text_write_st(project, pou->st, sink);
 	write_above(sink, project, pou->tail);
 	sink_mark(sink, TEXT_BODY, number, false);

@@ -8,6 +8,7 @@
  */
 #include "engine/text/writer.h"
 
+#include "engine/model/st.h"
 #include "engine/text/text.h"
 
 /* A sink that puts blanks before each line. Text that comes in one piece, such as a comment of
@@ -78,19 +79,19 @@ static void write_body(const struct page *page, const struct sfc_body *body)
 	const struct pou *pou = page->pou;
 
 	page->indent->depth++;
-	for (int i = body->first; body->kind != BODY_LIST && i < body->first + body->count;
+	for (int i = body->first; sfc_body_has_rungs(body) && i < body->first + body->count;
 	     i++) {
 		sink_mark(page->sink, TEXT_RUNG, i, true);
 		write_rung(page->sink, page->project, pou->rung[i]);
 		sink_mark(page->sink, TEXT_RUNG, i, false);
 	}
 	page->indent->depth--;
-	if (body->kind != BODY_LIST)
-		return;
-	const struct il list = { .line = pou->il.line + body->first,
-				 .count = body->count };
-
-	text_write_il(page->project, &list, page->sink);
+	if (body->kind == BODY_LIST)
+		text_write_il(page->project, &(struct il){ .line = pou->il.line + body->first,
+							   .count = body->count }, page->sink);
+	if (body->kind == BODY_ST)
+		text_write_st(page->project, &(struct st){ .item = pou->st->item + body->first,
+							   .count = body->count }, page->sink);
 }
 
 /* ---- steps ---- */

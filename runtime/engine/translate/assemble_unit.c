@@ -615,13 +615,13 @@ static void assemble_op(struct list *list, const struct il_line *line)
 
 /* ---- the current result after each line, while watched ---- */
 
-/* Of a written list, of the lists in a chart, and of Structured Text. */
+/* Of a written list, of Structured Text, and of both in a chart. */
 static bool keeps_results(const struct list *list)
 {
-	if (list->pou->st)
-		return list->as->watching && list->pou->st->count > 0;
-	return list->as->watching && list->pou->il.count > 0 &&
-	       (list->pou->language == LANGUAGE_IL || list->pou->language == LANGUAGE_SFC);
+	const bool lines = list->pou->il.count > 0 &&
+		(list->pou->language == LANGUAGE_IL || list->pou->language == LANGUAGE_SFC);
+
+	return list->as->watching && (lines || (list->pou->st && list->pou->st->count > 0));
 }
 
 static uint32_t bit_of(enum st_kind kind)
@@ -629,10 +629,10 @@ static uint32_t bit_of(enum st_kind kind)
 	return 1u << kind;
 }
 
-/* The kinds of the statements that begin in a line, as bits. */
+/* The kinds of the statements that begin in a line, as bits; 0: none does. */
 static uint32_t st_kinds_in(const struct st *st, uint32_t line)
 {
-	int low = 0, high = st->count;
+	int low = 0, high = st ? st->count : 0;
 	uint32_t kinds = 0;
 
 	while (low < high) {
@@ -643,7 +643,7 @@ static uint32_t st_kinds_in(const struct st *st, uint32_t line)
 		else
 			high = middle;
 	}
-	for (; low < st->count && (uint32_t)st->item[low].line == line; low++)
+	for (; st && low < st->count && (uint32_t)st->item[low].line == line; low++)
 		kinds |= bit_of((enum st_kind)st->item[low].kind);
 	return kinds;
 }
@@ -679,33 +679,19 @@ static struct frame *frame_of(const struct list *list)
 	return &list->as->frame[list->unit - list->as->translation->unit];
 }
 
-/* The same of Structured Text. */
-static bool make_st_slots(struct list *list, struct frame *frame)
-{
-	const struct st *st = list->pou->st;
-
-	frame->first_line = (uint32_t)st->item[0].line;
-	frame->lines = (uint32_t)st->item[st->count - 1].line - frame->first_line + 1;
-	frame->slot_of = arena_alloc(list->as->arena, ((size_t)frame->lines + 1) *
-				     sizeof(*frame->slot_of));
-	for (int i = 0; frame->slot_of && i < st->count; i++)
-		if (st_does(bit_of((enum st_kind)st->item[i].kind)))
-			frame->slot_of[(uint32_t)st->item[i].line - frame->first_line] = SLOT_FREE;
-	return frame->slot_of;
-}
 
 /* First pass: room for the number of the result of each line of the POU. */
 static bool make_slots(struct list *list)
 {
 	const struct il *il = &list->pou->il;
+	const struct st *st = list->pou->st;
+	const int statements = st ? st->count : 0;
 	struct frame *frame = frame_of(list);
-	uint32_t last = 0;
+	uint32_t last = statements ? (uint32_t)st->item[statements - 1].line : 0;
 
 	if (!keeps_results(list) || frame->slot_of)
 		return true;
-	if (list->pou->st)
-		return make_st_slots(list, frame);
-	frame->first_line = UINT32_MAX;
+	frame->first_line = statements ? (uint32_t)st->item[0].line : UINT32_MAX;
 	for (int i = 0; i < il->count; i++) {
 		frame->first_line = il->line[i].line < frame->first_line ? il->line[i].line :
 				    frame->first_line;
@@ -716,6 +702,9 @@ static bool make_slots(struct list *list)
 				     sizeof(*frame->slot_of));
 	for (int i = 0; frame->slot_of && i < il->count; i++)
 		frame->slot_of[il->line[i].line - frame->first_line] = SLOT_FREE;
+	for (int i = 0; frame->slot_of && i < statements; i++)
+		if (st_does(bit_of((enum st_kind)st->item[i].kind)))
+			frame->slot_of[(uint32_t)st->item[i].line - frame->first_line] = SLOT_FREE;
 	return frame->slot_of;
 }
 
@@ -730,9 +719,10 @@ static int *slot_of_line(const struct frame *frame, uint32_t line)
 }
 
 /* A chart copies a list to each place where it runs, among lines that translation makes. */
-static bool is_written(const struct il_line *line)
+static bool is_written(const struct list *list, const struct il_line *line)
 {
-	return line->line > 0 && !line->rung;
+	return line->line > 0 && !line->rung &&
+	       !(list->pou->language == LANGUAGE_SFC && line->mark & IL_MADE);
 }
 
 static bool is_instruction(const struct il_line *line)
@@ -777,6 +767,8 @@ static enum iec_type result_type(const struct il_result *now)
  * may share a line: the last one counts. */
 static void note_result(struct list *list, struct frame *frame, int *slot, uint32_t line)
 {
+	const uint32_t kinds = st_kinds_in(list->pou->st, line);
+
 	if (*slot == SLOT_FREE && !arena_push(list->as->arena, &frame->result,
 					      &frame->result_count, sizeof(*frame->result))) {
 		list->as->failed = true;
@@ -785,8 +777,7 @@ static void note_result(struct list *list, struct frame *frame, int *slot, uint3
 	if (*slot == SLOT_FREE)
 		*slot = frame->result_count;
 	frame->result[*slot - 1] = (struct result){ .line = line,
-		.type = list->pou->st && !st_has_value(st_kinds_in(list->pou->st, line)) ?
-			IEC_NONE : result_type(&list->now) };
+		.type = kinds && !st_has_value(kinds) ? IEC_NONE : result_type(&list->now) };
 }
 
 /* Second pass: into the places that they have got. */
@@ -809,10 +800,10 @@ static void store_result(struct list *list, const struct result *result, bool al
 static void keep_written(struct list *list, const struct il_line *line)
 {
 	struct frame *frame = frame_of(list);
-	int *slot = keeps_results(list) && is_written(line) ?
+	int *slot = keeps_results(list) && is_written(list, line) ?
 		    slot_of_line(frame, line->line) : NULL;
 
-	if (!slot || (list->pou->st && !st_runs(list, line)))
+	if (!slot || (st_kinds_in(list->pou->st, line->line) && !st_runs(list, line)))
 		return;
 	if (list->as->text != &list->as->watch)
 		note_result(list, frame, slot, line->line);

@@ -44,6 +44,7 @@ struct ld {
 	struct il *il;
 	bool watch, failed;
 	bool listing;      /* translation->listing, while watched             */
+	bool statement;    /* expressions are those of Structured Text (check/mixed.h) */
 	uint8_t mark;      /* of the next instructions: IL_WATCHING, or 0     */
 	const struct rung *rung;  /* NULL: a statement of the POU's text      */
 	const struct st_item *item; /* that statement                         */
@@ -72,6 +73,10 @@ struct ld {
 bool ld_begin(struct ld *ld);
 /** ld_rungs - adds the instructions of @count rungs from @first on; @skip: as ld_to_il(). */
 bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip);
+
+/* ---- st_to_il.c ---- */
+/** st_put - @count statements of the POU from item @first on. No rung is in work. */
+void st_put(struct ld *ld, int first, int count);
 
 /* ---- instructions, nets, leaves ---- */
 /** ld_emit - one operator; places it at the present cell. */

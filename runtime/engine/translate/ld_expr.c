@@ -115,7 +115,7 @@ static bool is_integer_power(struct chain *c, enum word word, const struct expr_
 /* A bit string and a number, or two bit strings, in arithmetic of Structured Text. */
 static bool mixes(const struct chain *c, enum iec_type left, enum iec_type right)
 {
-	if (c->ld->rung || (!mixed_is_bits(left) && !mixed_is_bits(right)))
+	if (!c->ld->statement || (!mixed_is_bits(left) && !mixed_is_bits(right)))
 		return false;
 	return mixed_join(left, right) != IEC_TYPE_COUNT;
 }
@@ -132,7 +132,7 @@ static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
 		type = types_join(type, right) == IEC_TYPE_COUNT && mixes(c, type, right) ?
 		       mixed_join(type, right) : types_join(type, right);
 	}
-	if (!c->ld->rung && type != IEC_TYPE_COUNT)
+	if (c->ld->statement && type != IEC_TYPE_COUNT)
 		type = mixed_pin(CLASS_BITS, type);
 	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
 }
@@ -187,7 +187,7 @@ static enum iec_type work_type(struct chain *c, const struct word_row *row,
 {
 	const enum iec_type type = shared_type(c, row, args);
 
-	for (int i = 0; i < args->count && !c->ld->rung; i++) {
+	for (int i = 0; i < args->count && c->ld->statement; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
 
 		if (pin->own || pin->type != IEC_NONE)
@@ -212,7 +212,7 @@ static enum iec_type roomy(const struct chain *c, enum iec_type type, int index)
 	struct literal literal;
 	union iec_value value;
 
-	if (c->ld->rung || node->op != EXPR_LITERAL || !(iec_type_row(type)->class & ANY_INT) ||
+	if (!c->ld->statement || node->op != EXPR_LITERAL || !(iec_type_row(type)->class & ANY_INT) ||
 	    literal_parse(node->text, node->len, &literal) != LITERAL_OK ||
 	    literal.type != IEC_NONE || literal.real || literal_fit(&literal, type, &value))
 		return type;
@@ -448,7 +448,7 @@ static struct value chain_convert(struct chain *c, struct value value, enum iec_
 /* The same, if that needs no conversion in the text. */
 static struct value chain_fit(struct chain *c, struct value value, enum iec_type type)
 {
-	if (c->ld->rung || value.type == type || !value.operand || !type || !value.type ||
+	if (!c->ld->statement || value.type == type || !value.operand || !type || !value.type ||
 	    iec_can_widen(value.type, type) || !mixed_converts(value.type, type))
 		return value;
 	return chain_convert(c, value, type, 0);
@@ -592,7 +592,7 @@ static struct value compute_compare(struct chain *c,
 		left = mixed_side(c, node->left, type);
 		right = mixed_side(c, node->right, type);
 	} else {
-		type = mixed_is_bits(type) && !c->ld->rung && type != IEC_LWORD ? IEC_DWORD : type;
+		type = mixed_is_bits(type) && c->ld->statement && type != IEC_LWORD ? IEC_DWORD : type;
 		left = chain_side(c, node->left, type);
 		right = chain_side(c, node->right, type);
 	}
@@ -962,7 +962,7 @@ static struct value argument(struct chain *c, int index, const struct word_pin *
 	enum iec_type type = pin->type ? pin->type : pin->own ?
 		mixed_pin(pin->classes, value.type) : given;
 
-	if (c->ld->rung || !value.type || !type || value.type == type)
+	if (!c->ld->statement || !value.type || !type || value.type == type)
 		return value;
 	if (iec_can_widen(value.type, type) && iec_type_row(value.type)->class & pin->classes)
 		return value;

@@ -87,7 +87,7 @@ void sfc_find_duties(struct sfc_il *s)
 static bool is_off(const struct sfc_il *s, const struct sfc_body *body)
 {
 	return body->kind == BODY_NONE ||
-	       (body->kind != BODY_LIST && s->ld.unit->pou->rung[body->first]->off);
+	       (sfc_body_has_rungs(body) && s->ld.unit->pou->rung[body->first]->off);
 }
 
 /* Is the last line the coil, and the only coil? Then its result need not be stored. */

@@ -213,10 +213,13 @@ void sfc_put_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end)
 {
 	const int first = s->ld.il->count;
 
-	if (s->ld.watch && body->kind != BODY_LIST && body->kind != BODY_NONE)
+	if (s->ld.watch && sfc_body_has_rungs(body))
 		s->note[body->first] = s->ld.unit->power_count;
+	s->ld.statement = body->kind == BODY_EXPRESSION;
 	if (body->kind == BODY_LIST)
 		copy_list(s, body);
+	else if (body->kind == BODY_ST)
+		st_put(&s->ld, body->first, body->count);
 	else if (body->kind != BODY_NONE &&
 		 !ld_rungs(&s->ld, body->first, body->count, s->skip))
 		s->ld.failed = true;
@@ -251,7 +254,7 @@ void sfc_darken(struct sfc_il *s, const struct sfc_body *body)
 	const uint32_t first = (uint32_t)body->first + 1;
 	bool any = false;
 
-	if (!s->ld.watch || body->kind == BODY_LIST || body->kind == BODY_NONE)
+	if (!s->ld.watch || !sfc_body_has_rungs(body))
 		return;
 	s->ld.mark = IL_WATCHING;
 	for (int i = s->note[body->first]; i < unit->power_count &&

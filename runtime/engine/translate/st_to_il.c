@@ -949,6 +949,37 @@ static void take_edges(struct st_il *s)
 	s->ld.mark = mark;
 }
 
+static void put_items(struct st_il *s, int first, int count)
+{
+	for (int i = first; i < first + count && !s->ld.failed; i++) {
+		const struct level level = level_of(s);
+		const enum st_kind kind = (enum st_kind)s->pou->st->item[i].kind;
+
+		st_item_to_il(s, i);
+		if (kind == ST_ASSIGN || kind == ST_CALL)
+			level_back(s, &level);
+	}
+}
+
+void st_put(struct ld *ld, int first, int count)
+{
+	struct st_il *s = arena_alloc(ld->scratch, sizeof(*s));
+	const struct ld before = *ld;
+
+	if (!s) {
+		ld->failed = true;
+		return;
+	}
+	*s = (struct st_il){ .ld = before, .translation = ld->translation, .pou = ld->unit->pou };
+	s->ld.rung = NULL;
+	s->ld.number = 0;
+	s->ld.statement = true;
+	s->ld.watch = false;
+	temps_rung(s->ld.temps);
+	put_items(s, first, count);
+	ld->failed |= s->ld.failed;
+}
+
 bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch)
 {
 	struct st_il *s = arena_alloc(scratch, sizeof(*s));
@@ -956,20 +987,14 @@ bool st_to_il(struct translation *translation, struct unit *unit, struct arena *
 	if (!s)
 		return false;
 	*s = (struct st_il){
-		.ld = { .translation = translation, .unit = unit, .scratch = scratch, .il = &unit->il },
+		.ld = { .translation = translation, .unit = unit, .scratch = scratch, .il = &unit->il,
+			.statement = true },
 		.translation = translation, .pou = unit->pou,
 	};
 	if (!ld_begin(&s->ld))
 		return false;
 	temps_rung(s->ld.temps);
 	take_edges(s);
-	for (int i = 0; i < unit->pou->st->count && !s->ld.failed; i++) {
-		const struct level level = level_of(s);
-		const enum st_kind kind = (enum st_kind)unit->pou->st->item[i].kind;
-
-		st_item_to_il(s, i);
-		if (kind == ST_ASSIGN || kind == ST_CALL)
-			level_back(s, &level);
-	}
+	put_items(s, 0, unit->pou->st->count);
 	return !s->ld.failed;
 }

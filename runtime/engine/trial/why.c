@@ -388,8 +388,7 @@ static enum why_kind whole_rung(const struct why_place *at, const struct pou *po
 
 static bool stands_in(const struct sfc_body *body, int rung)
 {
-	return body->kind != BODY_LIST && body->kind != BODY_NONE &&
-	       rung > body->first && rung <= body->first + body->count;
+	return sfc_body_has_rungs(body) && rung > body->first && rung <= body->first + body->count;
 }
 
 static bool is_active(const struct why_place *at, const struct pou *pou, int step)

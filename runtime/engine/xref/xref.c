@@ -1212,7 +1212,7 @@ static void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_
 {
 	if (body->kind == BODY_LIST)
 		walk_list(walk, pou, body->first, body->count);
-	else
+	else if (sfc_body_has_rungs(body))
 		walk_rungs(walk, pou, body->first, body->count);
 }
 
@@ -1349,12 +1349,12 @@ bool xref_make(struct xref *out, struct project *project)
 	walk_access(&walk);
 	for (int i = 0; i < project->pou_count; i++) {
 		walk.pou = &project->pou[i];
+		if (project->pou[i].st && !xref_st(&walk, &project->pou[i]))
+			return false;
 		if (project->pou[i].sfc) {
 			xref_sfc(&walk, &project->pou[i]);
 			continue;
 		}
-		if (project->pou[i].st && !xref_st(&walk, &project->pou[i]))
-			return false;
 		walk_rungs(&walk, &project->pou[i], 0, project->pou[i].rung_count);
 		walk_list(&walk, &project->pou[i], 0, project->pou[i].il.count);
 	}

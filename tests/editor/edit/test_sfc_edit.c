@@ -56,6 +56,16 @@ static void check_ways(void)
 	CHECK_TEXT(body(), "  STEP B:\n    Q0.0(N);\n  END_STEP\n");
 }
 
+static void check_statements(void)
+{
+	begin("  INITIAL_STEP A:\n    Do(N);\n  END_STEP\n\n  TRANSITION FROM A TO A := A.X; END_TRANSITION\n\n"
+	      "  ACTION Do:\n    IF A.T > T#1s AND NOT AA.X THEN\n      M0.1 := A.X;  // A.X\n    END_IF;\n"
+	      "  END_ACTION\n");
+	EDIT(sfc_edit_name_step(edit, 0, "Begin"));
+	CHECK(strstr(body(), "    IF Begin.T > T#1s AND NOT AA.X THEN\n      M0.1 := Begin.X;  // A.X\n"));
+	CHECK(strstr(body(), "TO Begin := Begin.X;"));
+}
+
 static void check_texts(void)
 {
 	struct sfc_doing doing;
@@ -405,6 +415,7 @@ int main(void)
 {
 	check_steps();
 	check_ways();
+	check_statements();
 	check_texts();
 	check_doings();
 	check_refusals();

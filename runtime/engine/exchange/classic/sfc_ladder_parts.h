@@ -58,6 +58,8 @@ struct lad {
 	const struct sfc *sfc;
 	struct sfc_net net;
 	struct xref *xref;
+	struct scope *scope; /* of the chart as it is; made when it is needed  */
+	struct expr *expr;   /* likewise: room for an expression               */
 	struct lad_var (*step)[LAD_STEP_VARS];
 	struct lad_var (*arc)[LAD_ARC_VARS];
 	struct lad_var (*line)[LAD_LINE_VARS]; /* by sfc.use                   */
@@ -128,6 +130,9 @@ void lad_write(struct lad *e, const struct lad_rung *r, const char *label,
 	       const char *title);
 /** lad_expression - an expression as contacts if that does the same, else as a cell. */
 void lad_expression(struct lad *e, struct lad_rung *r, const char *text);
+/** lad_needs_st - may only Structured Text know the expression @text of the chart, not a cell: a bit
+ * string as a number, TIME()? */
+bool lad_needs_st(struct lad *e, const char *text);
 
 bool lad_is_in_order(const struct lad *e);
 

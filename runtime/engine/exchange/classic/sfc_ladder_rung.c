@@ -5,6 +5,10 @@
 #include "engine/exchange/classic/sfc_ladder_parts.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/literal.h"
+#include "engine/check/mixed.h"
+#include "engine/check/scope.h"
+#include "engine/model/expr_args.h"
 
 #include <string.h>
 
@@ -213,4 +217,88 @@ void lad_expression(struct lad *e, struct lad_rung *r, const char *text)
 	}
 	lad_way(r);
 	lad_cell(r, lad_text(e, "[ %s ]", text));
+}
+
+/* ---- what only Structured Text knows ---- */
+
+static const struct meaning *meaning_of(struct lad *e, const struct expr_node *node)
+{
+	enum diag_id why;
+
+	return scope_find(e->scope, e->pou, names_intern(&e->project->names, node->text, node->len), &why);
+}
+
+static bool is_whole_number(enum iec_type type)
+{
+	return iec_type_row(type)->class & ANY_INT;
+}
+
+static bool is_wide_constant(const struct expr_node *node)
+{
+	struct literal literal;
+	union iec_value value;
+
+	return literal_parse(node->text, node->len, &literal) == LITERAL_OK && literal.type == IEC_NONE &&
+	       !literal.real && !literal_fit(&literal, IEC_INT, &value);
+}
+
+static bool is_comparison(enum word fn)
+{
+	return fn == FN_GT || fn == FN_GE || fn == FN_EQ || fn == FN_LE || fn == FN_LT || fn == FN_NE;
+}
+
+/* What is computed from @node is perhaps no BOOL and no operand. */
+static bool is_computed(struct lad *e, const struct expr_node *node)
+{
+	const struct meaning *m = node->op == EXPR_NAME ? meaning_of(e, node) : NULL;
+
+	return node->op == EXPR_NEG || node->op == EXPR_CALL || (node->op == EXPR_NAME && m && is_whole_number(m->type)) ||
+	       (node->op == EXPR_FN && !is_comparison(node->fn));
+}
+
+static bool node_needs_st(struct lad *e, const struct expr_node *node)
+{
+	const struct expr_node *left = node->left >= 0 ? &e->expr->node[node->left] : NULL;
+	const struct meaning *m;
+
+	switch (node->op) {
+	case EXPR_NAME:
+		m = meaning_of(e, node);
+		return m && mixed_is_bits(m->type);
+	case EXPR_INDEX:
+	case EXPR_BIT:
+		return true;
+	case EXPR_LITERAL:
+		return is_wide_constant(node);
+	case EXPR_CALL:
+		return !word_is_own(expr_function(&e->project->words, node));
+	case EXPR_NOT:
+	case EXPR_AND:
+	case EXPR_XOR:
+	case EXPR_OR:
+		return left && (is_computed(e, left) ||
+				(node->right >= 0 && is_computed(e, &e->expr->node[node->right])));
+	case EXPR_NEG:
+	case EXPR_FN:
+	case EXPR_ARG:
+		return false;
+	}
+	return false;
+}
+
+bool lad_needs_st(struct lad *e, const char *text)
+{
+	struct diag_list *ignored = arena_alloc(e->arena, sizeof(*ignored));
+
+	if (!e->expr)
+		e->expr = arena_alloc(e->arena, sizeof(*e->expr));
+	if (!e->scope)
+		e->scope = scope_new(e->project, e->arena);
+	e->good &= ignored && e->expr && e->scope;
+	if (!e->good || !expr_parse_text(text, strlen(text), e->expr, ignored, (struct diag){ .id = DIAG_COUNT }))
+		return false;
+	for (int i = 0; i < e->expr->count; i++)
+		if (node_needs_st(e, &e->expr->node[i]))
+			return true;
+	return false;
 }

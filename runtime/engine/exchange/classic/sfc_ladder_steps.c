@@ -7,6 +7,7 @@
  * fire, steps that begin and end, resets before sets, SET and RESET.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
+#include "engine/model/st.h"
 #include "engine/text/text.h"
 
 #include <stdlib.h>
@@ -219,6 +220,30 @@ static void write_list(struct lad *e, const struct sfc_body *body, const char *r
 	sink_text(&e->subs, "\n");
 }
 
+static void write_text(struct lad *e, const struct sfc_body *body)
+{
+	struct st st = { .item = e->pou->st->item + body->first, .count = body->count };
+	struct sink_memory memory;
+
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	text_write_st(e->project, &st, &sink);
+	e->good &= !memory.failed;
+	sink_text(&e->subs, lad_words(e, sink_memory_text(&memory)));
+	sink_memory_free(&memory);
+}
+
+/* An expression that no cell can hold. */
+static void write_assignment(struct lad *e, const struct sfc_body *body, const char *result)
+{
+	sink_text(&e->subs, "  ");
+	sink_text(&e->subs, result);
+	sink_text(&e->subs, " := ");
+	sink_text(&e->subs, lad_words(e, text_of(e, rung_at(e->pou->rung[body->first], 0, 0)->operand)));
+	sink_text(&e->subs, ";\n");
+}
+
 /* Writes a body as a subroutine. @result: variable that gets its last result; NULL: none. */
 static void lad_body(struct lad *e, int number, const char *result)
 {
@@ -227,9 +252,14 @@ static void lad_body(struct lad *e, int number, const char *result)
 	e->condition = result;
 	sink_text(&e->subs, "SUBROUTINE ");
 	sink_text(&e->subs, project_text(e->project, e->body[number]));
-	sink_text(&e->subs, body->kind == BODY_LIST ? " IL\n" : " LD\n");
+	sink_text(&e->subs, body->kind == BODY_LIST ? " IL\n" :
+		  body->kind == BODY_ST || body->kind == BODY_EXPRESSION ? " ST\n" : " LD\n");
 	if (body->kind == BODY_LIST)
 		write_list(e, body, result);
+	else if (body->kind == BODY_ST)
+		write_text(e, body);
+	else if (body->kind == BODY_EXPRESSION)
+		write_assignment(e, body, result);
 	else
 		write_rungs(e, body);
 	sink_text(&e->subs, "END_SUBROUTINE\n\n");
@@ -240,13 +270,12 @@ static void write_condition(struct lad *e, struct lad_rung *r, int arc)
 {
 	const int number = e->net.arc[arc].transition;
 	const struct sfc_body *body = &e->sfc->transition[number].condition;
-	const struct rung *rung = body->kind == BODY_LIST ? NULL :
-				  e->pou->rung[body->first];
+	const struct rung *rung = sfc_body_has_rungs(body) ? e->pou->rung[body->first] : NULL;
 	const char *result;
 
-	if (body->kind == BODY_EXPRESSION) {
+	if (body->kind == BODY_EXPRESSION && !lad_needs_st(e, text_of(e, rung_at(rung, 0, 0)->operand))) {
 		lad_expression(e, r, lad_words(e, text_of(e, rung_at(rung, 0, 0)->operand)));
-	} else if (rung && is_simple(rung)) {
+	} else if (body->kind != BODY_EXPRESSION && rung && is_simple(rung)) {
 		put_rung(e, r, rung);
 	} else {
 		result = lad_use(e, &e->arc[arc][LAD_RESULT]);
