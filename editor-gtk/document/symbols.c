@@ -12,6 +12,7 @@
 #include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
@@ -40,7 +41,7 @@ char *symbol_initial(const struct project *project, const struct var *var)
 {
 	char text[64];
 
-	if (!var->has_init)
+	if (!var->has_init || var->inherits)
 		return g_strdup("");
 	if (var->init_text)
 		return g_strdup(project_text(project, var->init_text));
@@ -50,12 +51,12 @@ char *symbol_initial(const struct project *project, const struct var *var)
 
 static char *scope_name(const struct project *project, int table)
 {
-	const int structure = table - project->pou_count - 1;
+	const int type = table - project->pou_count - 1;
 
 	if (table == 0)
 		return g_strdup("");
-	return g_strdup(project_text(project, structure < 0 ?
-		project->pou[table - 1].name : project->structure[structure].name));
+	return g_strdup(type < 0 ? project_text(project, project->pou[table - 1].name) :
+				   type_name(project, type));
 }
 
 /* Values of globals and programs; of an instance only the pins, which have no row. */
@@ -232,12 +233,12 @@ static bool has_name(struct project *project, int table, const char *name)
 
 static const char *table_name(const struct project *project, int table)
 {
-	const int structure = table - 1 - project->pou_count;
+	const int type = table - 1 - project->pou_count;
 
-	if (table < 1 || structure >= project->structure_count)
+	if (table < 1 || (type >= 0 && !type_is(project, type)))
 		return "";
-	return project_text(project, structure < 0 ? project->pou[table - 1].name :
-						     project->structure[structure].name);
+	return type < 0 ? project_text(project, project->pou[table - 1].name) :
+			  type_name(project, type);
 }
 
 char *symbol_table_name(LadderDocument *document, int table)
@@ -250,7 +251,7 @@ char *symbol_table_name(LadderDocument *document, int table)
 int symbol_table_find(LadderDocument *document, const char *name)
 {
 	const struct project *project = ladder_document_project(document);
-	const int count = project ? 1 + project->pou_count + project->structure_count : 0;
+	const int count = project ? 1 + project->pou_count + type_count(project) : 0;
 
 	for (int table = 0; table < count; table++)
 		if (name_equal(table_name(project, table), name))
@@ -411,9 +412,29 @@ static char *reason(const struct diag_list *diags)
 	return diag ? diag_said_whole(diag) : g_strdup(_("It cannot be read"));
 }
 
-/* Empty stand-ins for the words of the project, so that types are known. */
-static void add_words(GString *out, const struct project *project)
+static void add_text(void *out, const char *text, size_t len)
 {
+	g_string_append_len(out, text, (gssize)len);
+}
+
+/* The other types with names, without @table, which is tried. */
+static void add_named(GString *out, const struct project *project, int table)
+{
+	const struct sink sink = { add_text, out, NULL };
+
+	for (int i = project->structure_count; i < type_count(project); i++) {
+		if (!type_is(project, i) || i == table - project->pou_count - 1)
+			continue;
+		g_string_append_printf(out, "TYPE\n  %s : ", type_name(project, i));
+		project_write_type(project, type_like(project, i), &sink);
+		g_string_append(out, ";\nEND_TYPE\n");
+	}
+}
+
+/* Empty stand-ins for the words of the project, so that types are known. */
+static void add_words(GString *out, const struct project *project, int table)
+{
+	add_named(out, project, table);
 	for (int i = 0; i < project->structure_count; i++)
 		g_string_append_printf(out, "TYPE\n  %s : STRUCT\n    X : INT;\n"
 			"  END_STRUCT;\nEND_TYPE\n",
@@ -435,7 +456,9 @@ static void add_place(GString *out, const struct project *project, int table,
 	char *head = symbol_text_block(flags);
 	const char *word;
 
-	if (table > project->pou_count) {
+	if (table > project->pou_count + project->structure_count) {
+		g_string_append_printf(out, "TYPE\n%sEND_TYPE\n", line);
+	} else if (table > project->pou_count) {
 		g_string_append_printf(out, "TYPE\n  " HERE " : STRUCT\n%s  END_STRUCT;\n"
 				       "END_TYPE\n", line);
 	} else if (table == 0) {
@@ -447,6 +470,24 @@ static void add_place(GString *out, const struct project *project, int table,
 			line, word);
 	}
 	g_free(head);
+}
+
+static int named_in(const struct project *project)
+{
+	int count = 0;
+
+	for (int i = project->structure_count; i < type_count(project); i++)
+		count += type_is(project, i);
+	return count;
+}
+
+/* Does the made project have the type that is tried, as the last one, and no other new one? */
+static bool is_alone_type(const struct project *made, const struct project *project,
+			  const char *name)
+{
+	return named_in(made) == named_in(project) && made->pou_count <= project->pou_count &&
+	       made->structure_count == project->structure_count &&
+	       strcmp(type_name(made, type_count(made) - 1), name) == 0;
 }
 
 /* Does the made project have this declaration and no other? */
@@ -471,12 +512,14 @@ static bool reads(const struct project *project, int table, uint16_t flags,
 	if (!ladder)
 		g_error("out of memory");
 	ladder_leave_expressions(ladder, true);
-	add_words(text, project);
+	add_words(text, project, table);
 	add_place(text, project, table, flags, line);
 	good = ladder_load_text(ladder, "", text->str, text->len) && ladder_project(ladder);
 	if (!good)
 		refuse(why, reason(ladder_diags(ladder)));
-	else if (!is_alone(ladder_project(ladder), table, project->pou_count, name))
+	else if (table > project->pou_count + project->structure_count ?
+		 !is_alone_type(ladder_project(ladder), project, name) :
+		 !is_alone(ladder_project(ladder), table, project->pou_count, name))
 		good = refuse(why, g_strdup(_("It cannot be read")));
 	ladder_free(ladder);
 	g_string_free(text, TRUE);
@@ -498,6 +541,7 @@ struct symbol_batch {
 	LadderDocument *document;
 	struct project *project;
 	struct symbols *symbols;
+	struct symbol_row *type; /* a type that is no structure; NULL: none was asked for */
 	char *text;
 	gsize len;
 	GArray *span;        /* of struct text_span                           */
@@ -537,6 +581,8 @@ struct symbol_batch *symbol_batch_new(LadderDocument *document)
 void symbol_batch_free(struct symbol_batch *batch)
 {
 	symbols_free(batch->symbols);
+	if (batch->type)
+		symbol_row_free(batch->type);
 	g_array_unref(batch->span);
 	g_array_unref(batch->piece);
 	g_hash_table_unref(batch->turned);
@@ -570,6 +616,21 @@ static const struct text_span *find_span(const struct symbol_batch *batch,
 			return span;
 	}
 	return NULL;
+}
+
+/* The row of a declaration; NULL: there is none. */
+static const struct symbol_row *old_row(struct symbol_batch *batch, int table, int index)
+{
+	const struct project *project = batch->project;
+	const int type = project ? table - project->pou_count - 1 : -1;
+
+	if (type < 0 || type < project->structure_count)
+		return row_at(batch->symbols, table, index);
+	if (!batch->type && type_is(project, type)) {
+		batch->type = symbol_row_new(project, xref_table(batch->project, table), table, 0);
+		batch->type->included = type_is_included(batch->document, type);
+	}
+	return batch->type;
 }
 
 /* ---- names ---- */
@@ -785,8 +846,7 @@ static bool put_line(struct symbol_batch *batch, int table, const struct symbol_
 bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why)
 {
-	const struct symbol_row *old = index < 0 ? NULL :
-		row_at(batch->symbols, table, index);
+	const struct symbol_row *old = index < 0 ? NULL : old_row(batch, table, index);
 	const uint16_t wanted = wanted_flags(flags, text);
 	char *line;
 	bool good;
@@ -952,7 +1012,7 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		const char *text, char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
-	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
+	const struct symbol_row *symbol = old_row(batch, table, index);
 	char *clean = g_strstrip(g_strdup(text));
 	bool good;
 

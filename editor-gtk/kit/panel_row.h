@@ -10,7 +10,7 @@
 #include <gio/gio.h>
 #include <stdbool.h>
 
-#define PANEL_TEXTS 12
+#define PANEL_TEXTS 14
 
 enum panel_tone { PANEL_PLAIN, PANEL_WARNING, PANEL_ERROR };
 

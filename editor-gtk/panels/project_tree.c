@@ -406,7 +406,7 @@ static GMenu *menu_model(void)
 {
 	static const enum verb verbs[] = {
 		VERB_new_program, VERB_new_list, VERB_new_chart, VERB_new_block,
-		VERB_new_function, VERB_new_subroutine, VERB_new_structure, VERB_new_task,
+		VERB_new_function, VERB_new_subroutine, VERB_new_type, VERB_new_task,
 		VERB_import, VERB_new_iomap,
 	};
 	GMenu *menu = g_menu_new();

@@ -7,6 +7,7 @@
 #include "editor-gtk/panels/tree_rows.h"
 
 #include "editor-gtk/document/side_file.h"
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
@@ -110,21 +111,37 @@ static void add_files(GListStore *root, const struct project *project)
 	}
 }
 
-/* The page of data types, with the structures below it. */
-static void add_structures(GListStore *root, const struct project *project)
+/* Members or values of a type have rows below it. */
+static bool has_parts(enum type_kind kind)
 {
-	GListStore *rows = project->structure_count ?
-		g_list_store_new(LADDER_TYPE_TREE_ROW) : NULL;
+	return kind == TYPE_STRUCTURE || kind == TYPE_ENUMERATION;
+}
 
-	add(root, ROW_TYPES, _("Data types"), g_strdup_printf("%d", project->structure_count),
-	    rows);
-	for (int i = 0; i < project->structure_count; i++) {
-		LadderTreeRow *row = add_row(rows, ROW_STRUCTURE,
-			project_text(project, project->structure[i].name), NULL);
+/* What a type is, beside its name; NULL: a structure. Caller frees. */
+static char *type_note(const struct project *project, int type)
+{
+	const enum type_kind kind = type_kind_of(project, type);
 
-		row->pou = i;
-		row->parent = true;
+	return kind == TYPE_STRUCTURE ? NULL : has_parts(kind) ? g_strdup(type_kind_name(kind)) :
+	       listing_type(project, type_like(project, type));
+}
+
+/* The page of data types, with the types below it. */
+static void add_types(GListStore *root, const struct project *project)
+{
+	GArray *order = type_order(project);
+	GListStore *rows = order->len ? g_list_store_new(LADDER_TYPE_TREE_ROW) : NULL;
+
+	add(root, ROW_TYPES, _("Data types"), g_strdup_printf("%u", order->len), rows);
+	for (guint i = 0; i < order->len; i++) {
+		const int type = g_array_index(order, int, i);
+		LadderTreeRow *row = add_row(rows, ROW_STRUCTURE, type_name(project, type),
+					     type_note(project, type));
+
+		row->pou = type;
+		row->parent = has_parts(type_kind_of(project, type));
 	}
+	g_array_unref(order);
 }
 
 /* The period of a task, or "on" and its variable. */
@@ -176,13 +193,29 @@ static void add_texts(GListStore *root, LadderDocument *document, const char *ti
 	g_ptr_array_unref(files);
 }
 
-/* The variables of a POU or a structure. */
+/* The values of an enumeration. */
+static GListStore *values(const struct project *project, int type)
+{
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	int value;
+
+	for (int i = 0; (value = type_value(project, type, i)) >= 0; i++)
+		add_row(rows, ROW_VARIABLE, project_text(project, project->enum_value[value].name),
+			g_strdup_printf("%lld", (long long)project->enum_value[value].number));
+	return rows;
+}
+
+/* The variables of a POU or a structure, or the values of an enumeration. */
 static GListStore *variables(const struct project *project, const LadderTreeRow *row)
 {
-	const struct var_table *vars = row->kind == ROW_POU ? &project->pou[row->pou].vars :
-		&project->structure[row->pou].vars;
-	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	const struct var_table *vars;
+	GListStore *rows;
 
+	if (row->kind != ROW_POU && row->pou >= project->structure_count)
+		return values(project, row->pou);
+	vars = row->kind == ROW_POU ? &project->pou[row->pou].vars :
+	       &project->structure[row->pou].vars;
+	rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
 	for (int i = listing_first(vars); i < vars_declared(vars); i++)
 		add_row(rows, ROW_VARIABLE, project_text(project, vars->var[i].name),
 			listing_type(project, &vars->var[i]));
@@ -230,7 +263,7 @@ static void add_all(GListStore *root, LadderDocument *document)
 	add_row(root, ROW_SYMBOLS, _("Symbols"),
 		g_strdup_printf("%d", listing_symbol_count(project)));
 	add_tasks(root, project);
-	add_structures(root, project);
+	add_types(root, project);
 	add_row(root, ROW_ADDRESSES, _("Address map"), NULL);
 	add_bookmarks(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);
@@ -319,7 +352,7 @@ GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document)
 
 	/* Between a change and its signal, indices may be out of date. */
 	if (!row->parent || (!row->rows && (!project || row->pou >= (row->kind == ROW_POU ?
-			project->pou_count : project->structure_count))))
+			project->pou_count : type_count(project)))))
 		return NULL;
 	if (!row->rows)
 		row->rows = variables(project, row);

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/init_form.h"
 #include "editor-gtk/document/symbols.h"
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
@@ -47,9 +48,9 @@ GPtrArray *type_cells_choices(LadderDocument *document, bool member)
 
 	for (int i = IEC_NONE + 1; i < IEC_TYPE_COUNT; i++)
 		add(choices, iec_type_row((enum iec_type)i)->word, "");
-	for (int i = 0; project && i < project->structure_count; i++)
-		add(choices, project_text(project, project->structure[i].name),
-		    _("structure"));
+	for (int i = 0; project && i < type_count(project); i++)
+		if (type_is(project, i))
+			add(choices, type_name(project, i), type_kind_name(type_kind_of(project, i)));
 	if (project && !member)
 		add_blocks(choices, project);
 	return choices;

@@ -60,6 +60,18 @@ static char *cell_text(struct maker *maker, const struct xref_use *use)
 	return text;
 }
 
+/* Does it stand in a declaration of a global or a type? */
+static bool is_in_declaration(const struct project *project, const struct xref_use *use)
+{
+	for (int i = 0; project->config && i < project->config->count; i++)
+		if (use->slot == &project->config->entry[i].single)
+			return false;
+	for (int i = 0; i < project->access_count; i++)
+		if (use->slot == &project->access[i].path)
+			return false;
+	return true;
+}
+
 static char *place_text(struct maker *maker, const struct xref_use *use)
 {
 	const struct project *project = maker->xref.project;
@@ -72,7 +84,8 @@ static char *place_text(struct maker *maker, const struct xref_use *use)
 		return g_strdup_printf(_("%s, rung %d"), pou, use->rung);
 	if (use->row)
 		return place_line(project, use->pou, use->row - 1);
-	return g_strdup(*pou ? pou : use->kind == XREF_RUN || use->kind == XREF_READ ?
+	return g_strdup(*pou ? pou : use->kind == XREF_RUN ||
+			(use->kind == XREF_READ && !is_in_declaration(project, use)) ?
 			_("configuration") : _("declarations"));
 }
 
@@ -88,11 +101,29 @@ static char *address_text(struct project *project, const struct xref_target *tar
 	return g_strdup(text);
 }
 
+/* The table and number of a declaration that stands in one. */
+static void declaration_of(const struct project *project, const struct xref_target *target,
+			   int *table, int *index)
+{
+	const int types = project->pou_count + 1;
+
+	if (target->what == XREF_VARIABLE) {
+		*table = target->table;
+		*index = target->index;
+	} else if (target->what == XREF_STRUCTURE || target->what == XREF_NAMED) {
+		*table = types + target->index +
+			 (target->what == XREF_NAMED ? project->structure_count : 0);
+		*index = 0;
+	} else if (target->what == XREF_VALUE) {
+		xref_value_owner(project, target->index, table, index);
+	}
+}
+
 static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 {
 	struct project *project = maker->xref.project;
 	LadderPanelRow *row = ladder_panel_row_new();
-	char name[2 * LIMIT_NAME + 8];
+	char name[3 * LIMIT_NAME + 8];
 
 	xref_name(project, &use->target, use, name, sizeof(name));
 	row->text[USES_NAME] = g_utf8_make_valid(name, -1);
@@ -107,10 +138,8 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 	row->col = use->col - 1;
 	row->number = ((gint64)(row->pou + 1) << 40) + ((gint64)use->rung << 20) +
 		      ((gint64)use->row << 8) + use->col;
-	if (use->target.what == XREF_VARIABLE && use->kind == XREF_DECLARED) {
-		row->table = use->target.table;
-		row->index = use->target.index;
-	}
+	if (use->kind == XREF_DECLARED)
+		declaration_of(project, &use->target, &row->table, &row->index);
 	row->tone = use->target.what == XREF_UNKNOWN ? PANEL_ERROR : PANEL_PLAIN;
 	row->spoken = g_strdup_printf("%s %s %s, %s%s%s", row->text[USES_NAME],
 		row->text[USES_ADDRESS], row->text[USES_KIND], row->text[USES_PLACE],
@@ -124,7 +153,7 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 /* The use that declares "Main.Delay" or "Main:Seal"; NULL: none. */
 static const struct xref_use *find_whole(struct maker *maker, const char *symbol)
 {
-	char name[2 * LIMIT_NAME + 8];
+	char name[3 * LIMIT_NAME + 8];
 
 	for (int i = 0; i < maker->xref.count; i++) {
 		const struct xref_use *use = &maker->xref.use[i];
@@ -163,7 +192,7 @@ static const struct xref_use *find_symbol(struct maker *maker, int pou, const ch
 
 static void add_symbol(struct maker *maker, int pou, const char *symbol)
 {
-	const struct xref_use *of = strpbrk(symbol, ".:") ? find_whole(maker, symbol) : NULL;
+	const struct xref_use *of = strpbrk(symbol, ".:#") ? find_whole(maker, symbol) : NULL;
 	struct xref_target target = { .what = XREF_ADDRESS };
 
 	of = of ? of : find_symbol(maker, pou, symbol);
@@ -251,7 +280,7 @@ static void add_double(struct maker *maker)
 	for (int i = 0; i < MIN(count, CLASHES_MOST); i++) {
 		const struct xref_use *a = &maker->xref.use[clash[i].a];
 		const struct xref_use *b = &maker->xref.use[clash[i].b];
-		char other[2 * LIMIT_NAME + 8];
+		char other[3 * LIMIT_NAME + 8];
 		LadderPanelRow *row = add_row(maker, b);
 		char *address = address_text(maker->xref.project, &a->target);
 
@@ -433,6 +462,11 @@ void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symb
 	/* at once: the cursor may move on */
 	if (mode_of(view) == USES_SYMBOL)
 		panel_watch_later(view->watch);
+}
+
+const char *ladder_uses_view_symbol(LadderUsesView *view)
+{
+	return view->symbol;
 }
 
 void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *document)

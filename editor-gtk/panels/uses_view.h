@@ -23,6 +23,8 @@ void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *documen
 /** ladder_uses_view_set_symbol - the name as a cell has it; @pou: in which POU, -1: among
  * the globals. NULL: none. */
 void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symbol);
+/** ladder_uses_view_symbol - the last one that was set; NULL: none. Borrowed. */
+const char *ladder_uses_view_symbol(LadderUsesView *view);
 void ladder_uses_view_set_mode(LadderUsesView *view, enum uses_mode mode);
 /** ladder_uses_view_is_lost - are the uses of a symbol shown that does not exist? */
 bool ladder_uses_view_is_lost(LadderUsesView *view);

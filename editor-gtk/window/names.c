@@ -51,6 +51,18 @@ static bool is_at_cursor(struct core *core, const struct xref *xref, int here, i
 			       is_here(&xref->use[use], sheet, row, col));
 }
 
+/* Does a use in a text have this name? Of a type in a declaration, the name is not kept there. */
+static bool is_named(const struct xref *xref, const struct xref_use *use, const char *name)
+{
+	char text[3 * LIMIT_NAME + 8];
+
+	if (use->slot)
+		return name_is(name, xref_text(xref, use) + use->at, use->len);
+	if (use->unnamed)
+		xref_name(xref->project, &use->target, use, text, sizeof(text));
+	return use->unnamed && name_equal(name, text);
+}
+
 /* The use of the name at the cursor of a list: in that line, else anywhere in the list. */
 static int use_in_list(LadderTextView *list, const struct xref *xref)
 {
@@ -60,8 +72,8 @@ static int use_in_list(LadderTextView *list, const struct xref *xref)
 	for (int i = 0; name && i < xref->count; i++) {
 		const struct xref_use *use = &xref->use[i];
 
-		if (use->pou != ladder_text_view_pou(list) || use->rung > 0 || !use->slot ||
-		    !name_is(name, xref_text(xref, use) + use->at, use->len))
+		if (use->pou != ladder_text_view_pou(list) || use->rung > 0 ||
+		    !is_named(xref, use, name))
 			continue;
 		if (found < 0 || ladder_text_view_is_at(list, use->row))
 			found = i;
@@ -180,22 +192,28 @@ static void go_to_declaration(struct core *core, const struct xref_use *use)
 {
 	struct project *project = ladder_document_project(core->document);
 	const struct xref_target *target = &use->target;
-	const int structure = target->table - 1 - project->pou_count;
+	int table = -1, index = target->index;
 
-	if (target->what == XREF_STRUCTURE)
-		tabs_show_type(core->tabs, project_text(project,
-			project->structure[target->index].name));
-	else if (target->what == XREF_VARIABLE && structure >= 0)
-		tabs_show_type(core->tabs, project_text(project,
-			project->structure[structure].name));
-	else if (target->what == XREF_VARIABLE &&
-		 (use->pou < 0 || project->pou[use->pou].language == LANGUAGE_LD ||
-		  project->pou[use->pou].sfc))
-		tabs_go(core->tabs, -1, -1, target->table, target->index);
-	else if (target->what == XREF_VARIABLE) /* behind the blanks of its line */
-		tabs_go(core->tabs, use->pou, -1, use->line - project->pou[use->pou].line, 2);
-	else
+	if (target->what == XREF_VARIABLE)
+		table = target->table;
+	else if (target->what == XREF_STRUCTURE || target->what == XREF_NAMED)
+		tabs_show_type(core->tabs, project_text(project, *use->slot));
+	else if (target->what != XREF_VALUE ||
+		 !xref_value_owner(project, target->index, &table, &index))
 		go_to_use(core, use);
+	if (table > project->pou_count) {
+		const char *type = type_name(project, table - project->pou_count - 1);
+
+		if (target->what == XREF_VALUE)
+			tabs_show_value(core->tabs, type, project_text(project, *use->slot));
+		else
+			tabs_show_type(core->tabs, type);
+	} else if (table >= 0 && use->pou >= 0 && project->pou[use->pou].language != LANGUAGE_LD &&
+		   !project->pou[use->pou].sfc) { /* behind the blanks of its line */
+		tabs_go(core->tabs, use->pou, -1, use->line - project->pou[use->pou].line, 2);
+	} else if (table >= 0) {
+		tabs_go(core->tabs, -1, -1, table, index);
+	}
 }
 
 static const struct xref_use *declared(const struct xref *xref, const struct xref_use *of)
@@ -226,6 +244,15 @@ void names_go_definition(struct core *core)
 }
 
 /* ---- all uses ---- */
+
+/* Main.Delay. @use: of an undeclared name. Owns: the caller. */
+static char *whole_name(const struct xref *xref, const struct xref_use *use)
+{
+	char text[3 * LIMIT_NAME + 8];
+
+	xref_name(xref->project, &use->target, use, text, sizeof(text));
+	return g_strdup(text);
+}
 
 static char *name_by(struct core *core,
 		     bool (*find)(struct core *core, struct xref *xref, int *here))
@@ -283,17 +310,79 @@ static bool find_label(struct core *core, struct xref *xref, int *here)
 	return *here >= 0;
 }
 
+/* The names in the cell at the cursor of a ladder, as "Main.Delay", each once. */
+static GPtrArray *names_in_cell(struct core *core, const struct xref *xref, int here)
+{
+	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+
+	for (int i = here; i < xref->count; i++) {
+		char *name = xref->use[i].unnamed || !is_at_cursor(core, xref, here, i) ? NULL :
+			     whole_name(xref, &xref->use[i]);
+
+		if (name && !g_ptr_array_find_with_equal_func(names, name, g_str_equal, NULL))
+			g_ptr_array_add(names, name);
+		else
+			g_free(name);
+	}
+	return names;
+}
+
+/* Where the cursor is: of two presses at one place, the second one lists the next name. NULL: no
+ * cell. Caller: g_free(). */
+static char *place_here(struct core *core)
+{
+	LadderGridView *sheet = front_sheet(core->front);
+	int row, col;
+
+	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
+		return NULL;
+	return g_strdup_printf("%d %d %d %d", ladder_canvas_pou(LADDER_CANVAS(sheet)),
+			       ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung,
+			       row, col);
+}
+
+/* The name in the cell behind the one that the panel lists for this place; else the first one.
+ * NULL: there is none. Caller: g_free(). */
+static char *next_name(struct core *core, GtkWidget *uses, const char *place)
+{
+	struct xref xref = { 0 };
+	char *name = NULL;
+	int here;
+	guint at = 0;
+
+	if (place && find_here(core, &xref, &here)) {
+		GPtrArray *names = names_in_cell(core, &xref, here);
+
+		if (g_strcmp0(g_object_get_data(G_OBJECT(uses), "place"), place) == 0 &&
+		    g_ptr_array_find_with_equal_func(names, ladder_uses_view_symbol(
+			    LADDER_USES_VIEW(uses)), g_str_equal, &at))
+			at = (at + 1) % names->len;
+		name = names->len ? g_strdup(names->pdata[at]) : NULL;
+		g_ptr_array_unref(names);
+	}
+	xref_free(&xref);
+	return name;
+}
+
 void names_show_uses(struct core *core)
 {
-	char *name = name_by(core, find_label);
+	GtkWidget *uses = below_made(core->below, "uses");
+	char *place = place_here(core);
+	char *name = uses ? next_name(core, uses, place) : NULL;
 
+	if (!name)
+		name = name_by(core, find_label);
 	if (name) {
 		names_show_uses_of(core, name);
+		g_object_set_data_full(G_OBJECT(below_made(core->below, "uses")), "place", place,
+				       g_free);
+		place = NULL;
 	} else {
 		messages_tell(core->messages, _(no_name));
 		ladder_uses_view_set_mode(LADDER_USES_VIEW(below_show(core->below, "uses")),
 					  USES_ALL);
 	}
+	g_free(place);
 	g_free(name);
 }
 
@@ -380,15 +469,6 @@ static struct named *chosen_of(const struct renaming *renaming)
 	return &g_array_index(renaming->choice, struct named, renaming->chosen);
 }
 
-/* Main.Delay. Owns: the caller. */
-static char *whole_name(const struct xref *xref, const struct xref_target *target)
-{
-	char text[2 * LIMIT_NAME + 8];
-
-	xref_name(xref->project, target, NULL, text, sizeof(text));
-	return g_strdup(text);
-}
-
 /* The numbers of @named now; false: it is gone. */
 static bool find_named(const struct xref *xref, struct named *named)
 {
@@ -397,7 +477,7 @@ static bool find_named(const struct xref *xref, struct named *named)
 	for (int i = 0; i < xref->count && !found; i++) {
 		const struct xref_use *use = &xref->use[i];
 		char *whole = use->kind == XREF_DECLARED && use->target.what == named->target.what ?
-			whole_name(xref, &use->target) : NULL;
+			whole_name(xref, use) : NULL;
 
 		found = g_strcmp0(whole, named->whole) == 0;
 		if (found)
@@ -592,7 +672,7 @@ static void choice_add(GArray *choice, const struct xref *xref,
 	if (!name)
 		return;
 	named.name = g_strdup(name);
-	named.whole = whole_name(xref, target);
+	named.whole = whole_name(xref, &(struct xref_use){ .target = *target });
 	for (int i = 0; i < xref->count; i++)
 		named.uses += xref_same(&xref->use[i].target, target);
 	g_array_append_val(choice, named);
@@ -655,17 +735,21 @@ void names_rename_pou(struct core *core, int pou)
 	rename_declared(core, XREF_POU, pou);
 }
 
-void names_rename_type(struct core *core, int structure)
+void names_rename_type(struct core *core, int type)
 {
-	rename_declared(core, XREF_STRUCTURE, structure);
+	const struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = project ? type_target(project, type) :
+					  (struct xref_target){ .what = XREF_UNKNOWN };
+
+	rename_declared(core, target.what, target.index);
 }
 
-/* ---- deleting a POU or a structure ---- */
+/* ---- deleting a POU or a data type ---- */
 
 struct deleting {
 	struct core *core;
 	char *name;
-	bool type;           /* a structure                                    */
+	bool type;           /* a data type                                    */
 };
 
 static void deleting_free(gpointer data, GClosure *closure)
@@ -685,11 +769,11 @@ static void delete_pou(struct core *core, int pou)
 		messages_tell(core->messages, why);
 }
 
-static void delete_type(struct core *core, int structure)
+static void delete_type(struct core *core, int type)
 {
 	char *why;
 
-	if (!type_delete(core->document, structure, &why))
+	if (!type_delete(core->document, type, &why))
 		messages_tell(core->messages, why);
 	g_free(why);
 }
@@ -757,7 +841,7 @@ static void list_users(struct core *core, const struct xref_target *target, GStr
 static void ask_delete(struct core *core, const struct xref_target *target, const char *name,
 		       int uses)
 {
-	const bool type = target->what == XREF_STRUCTURE;
+	const bool type = target->what != XREF_POU;
 	struct deleting *deleting = g_new(struct deleting, 1);
 	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
 	GString *body = g_string_new(NULL);
@@ -796,17 +880,16 @@ void names_delete_pou(struct core *core, int pou)
 		delete_pou(core, pou);
 }
 
-void names_delete_type(struct core *core, int structure)
+void names_delete_type(struct core *core, int type)
 {
 	const struct project *project = ladder_document_project(core->document);
-	const struct xref_target target = { .what = XREF_STRUCTURE, .index = structure };
-	const int uses = type_uses(core->document, structure);
+	const struct xref_target target = type_target(project, type);
+	const int uses = type_uses(core->document, type);
 
-	if (uses > 0 && !type_is_included(core->document, structure))
-		ask_delete(core, &target,
-			   project_text(project, project->structure[structure].name), uses);
+	if (uses > 0 && !type_is_included(core->document, type))
+		ask_delete(core, &target, type_name(project, type), uses);
 	else
-		delete_type(core, structure);
+		delete_type(core, type);
 }
 
 /* ---- tasks ---- */

@@ -33,9 +33,10 @@ void names_rename(struct core *core);
 void names_delete_pou(struct core *core, int pou);
 /** names_rename_pou - the same for a POU. */
 void names_rename_pou(struct core *core, int pou);
-/** names_delete_type, names_rename_type - the same for a structure, by its number. */
-void names_delete_type(struct core *core, int structure);
-void names_rename_type(struct core *core, int structure);
+/** names_delete_type, names_rename_type - the same for a data type, by its number
+ * (type_edit.h). */
+void names_delete_type(struct core *core, int type);
+void names_rename_type(struct core *core, int type);
 /** names_delete_task, names_rename_task - the same for a task, by its name. */
 void names_delete_task(struct core *core, const char *name);
 void names_rename_task(struct core *core, const char *name);

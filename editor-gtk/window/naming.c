@@ -61,6 +61,19 @@ void naming_add(struct naming *naming, GtkWidget *widget, bool first)
 		gtk_box_append(GTK_BOX(naming->box), widget);
 }
 
+void naming_add_labelled(struct naming *naming, const char *text, GtkWidget *widget)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
+	GtkWidget *label = gtk_label_new(text);
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_widget_set_hexpand(label, TRUE);
+	spoken_name(widget, text);
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_box_append(GTK_BOX(box), widget);
+	naming_add(naming, box, false);
+}
+
 void naming_say(struct naming *naming, const char *body)
 {
 	adw_message_dialog_set_body(naming->dialog, body);

@@ -31,6 +31,8 @@ struct naming *naming_new(GtkWindow *window, const char *heading, const char *an
 			  const char *entry, const struct naming_how *how, gpointer data);
 /** naming_add - adds a widget behind the entry, or before it if @first. */
 void naming_add(struct naming *naming, GtkWidget *widget, bool first);
+/** naming_add_labelled - adds a widget behind the entry, with its name in front of it. @text: translated */
+void naming_add_labelled(struct naming *naming, const char *text, GtkWidget *widget);
 /** naming_say - the text below the heading. */
 void naming_say(struct naming *naming, const char *body);
 /** naming_other - adds another answer, which takes no name. @label: translated */

@@ -100,19 +100,6 @@ static const struct naming_how how = { refusal, take, fresh_free };
 
 /* ---- the dialog ---- */
 
-static GtkWidget *labelled(const char *text, GtkWidget *widget)
-{
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
-	GtkWidget *label = gtk_label_new(text);
-
-	gtk_label_set_xalign(GTK_LABEL(label), 0);
-	gtk_widget_set_hexpand(label, TRUE);
-	spoken_name(widget, text);
-	gtk_box_append(GTK_BOX(box), label);
-	gtk_box_append(GTK_BOX(box), widget);
-	return box;
-}
-
 static void fill_languages(struct fresh *fresh, enum pou_language chosen)
 {
 	const char *names[] = { _("Ladder (LD)"), _("Instruction list (IL)"),
@@ -157,8 +144,8 @@ static void add_choices(struct fresh *fresh, enum pou_language language)
 	fill_languages(fresh, language);
 	g_signal_connect_swapped(fresh->kind, "notify::selected", G_CALLBACK(kind_chosen),
 				 fresh);
-	naming_add(fresh->naming, labelled(_("Kind"), GTK_WIDGET(fresh->kind)), false);
-	naming_add(fresh->naming, labelled(_("Language"), GTK_WIDGET(fresh->language)), false);
+	naming_add_labelled(fresh->naming, _("Kind"), GTK_WIDGET(fresh->kind));
+	naming_add_labelled(fresh->naming, _("Language"), GTK_WIDGET(fresh->language));
 }
 
 /* @fresh, @name: taken over. */

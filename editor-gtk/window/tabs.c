@@ -414,6 +414,14 @@ void tabs_show_type(struct tabs *tabs, const char *name)
 	ladder_types_view_enter(LADDER_TYPES_VIEW(page));
 }
 
+void tabs_show_value(struct tabs *tabs, const char *type, const char *value)
+{
+	tabs_show_type(tabs, type);
+	if (ladder_document_project(tabs->core->document))
+		ladder_types_view_enter_value(LADDER_TYPES_VIEW(tabs_show_widget(tabs, "types")),
+					      value);
+}
+
 static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
 {
 	if (rung >= 0)
@@ -424,8 +432,17 @@ static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
 
 static void go_in_symbols(struct tabs *tabs, int table, int index)
 {
-	GtkWidget *place = tabs_show_widget(tabs, "symbols");
-	LadderSymbolsView *symbols =
+	const struct project *project = ladder_document_project(tabs->core->document);
+	const int type = table - project->pou_count - 1;
+	GtkWidget *place;
+	LadderSymbolsView *symbols;
+
+	if (type >= project->structure_count && type_is(project, type)) {
+		tabs_show_type(tabs, type_name(project, type));
+		return;
+	}
+	place = tabs_show_widget(tabs, "symbols");
+	symbols =
 		LADDER_SYMBOLS_VIEW(symbols_in(ADW_BIN(place), tabs));
 
 	if (ladder_symbols_view_show(symbols, table, index))

@@ -30,8 +30,10 @@ void tabs_new_task(struct tabs *tabs);
 GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name);
 /** tabs_find_widget - the same if it is open; NULL: it is not. */
 GtkWidget *tabs_find_widget(struct tabs *tabs, const char *name);
-/** tabs_show_type - the page of data types, with the structure of this name; NULL: any. */
+/** tabs_show_type - the page of data types, with the type of this name; NULL: any. */
 void tabs_show_type(struct tabs *tabs, const char *name);
+/** tabs_show_value - the same, with the cursor on a value of the enumeration. */
+void tabs_show_value(struct tabs *tabs, const char *type, const char *value);
 /** tabs_show_file - the page of a text file beside the project. */
 void tabs_show_file(struct tabs *tabs, const char *path);
 /** tabs_put_file - the page of a file that is not open yet. */

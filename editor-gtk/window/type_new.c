@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * type_new - asks for the name of a new structure; see type_new.h.
+ * type_new - asks for the name of a new data type; see type_new.h.
  */
 #include "editor-gtk/window/type_new.h"
 
@@ -10,9 +10,14 @@
 #include "editor-gtk/window/naming.h"
 #include "editor-gtk/window/tabs.h"
 
+#include <string.h>
+
 struct fresh {
 	struct core *core;
+	struct naming *naming;
+	GtkDropDown *kind;   /* NULL: a copy                                   */
 	char *original;      /* NULL: a new one                               */
+	char *proposed;
 };
 
 static void fresh_free(gpointer data)
@@ -20,6 +25,7 @@ static void fresh_free(gpointer data)
 	struct fresh *fresh = data;
 
 	g_free(fresh->original);
+	g_free(fresh->proposed);
 	g_free(fresh);
 }
 
@@ -30,13 +36,18 @@ static char *refusal(gpointer data, const char *name)
 	return type_name_refusal(fresh->core->document, name);
 }
 
+static enum type_kind kind_of(const struct fresh *fresh)
+{
+	return (enum type_kind)gtk_drop_down_get_selected(fresh->kind);
+}
+
 static bool make(const struct fresh *fresh, const char *name, char **why)
 {
 	LadderDocument *document = fresh->core->document;
 	int original;
 
 	if (!fresh->original)
-		return type_add(document, name, why);
+		return type_add(document, kind_of(fresh), name, why);
 	original = type_find(document, fresh->original);
 	if (original >= 0)
 		return type_duplicate(document, original, name, why);
@@ -58,23 +69,62 @@ static void take(gpointer data, const char *name)
 
 static const struct naming_how how = { refusal, take, fresh_free };
 
+/* The name is proposed. @name: taken over. */
+static void propose(struct fresh *fresh, char *name)
+{
+	g_free(fresh->proposed);
+	fresh->proposed = name;
+	naming_set(fresh->naming, name);
+}
+
+static char *free_name(const struct fresh *fresh)
+{
+	static const char *const like[TYPE_KINDS] = {
+		[TYPE_STRUCTURE] = "Structure1", [TYPE_ENUMERATION] = "Enumeration1",
+		[TYPE_SUBRANGE] = "Range1", [TYPE_ARRAY] = "Array1", [TYPE_ALIAS] = "Type1",
+	};
+
+	return type_free_name(fresh->core->document,
+			      fresh->original ? fresh->original : like[kind_of(fresh)]);
+}
+
+/* A name that was proposed becomes one of the other kind. */
+static void kind_chosen(struct fresh *fresh)
+{
+	char *name = naming_get(fresh->naming);
+
+	if (strcmp(name, fresh->proposed) == 0)
+		propose(fresh, free_name(fresh));
+	g_free(name);
+}
+
+static void add_kinds(struct fresh *fresh)
+{
+	const char *names[] = { _("Structure"), _("Enumeration"), _("Subrange"), _("Array"),
+				_("Other name of a type"), NULL };
+	GtkWidget *kind = gtk_drop_down_new_from_strings(names);
+
+	fresh->kind = GTK_DROP_DOWN(kind);
+	g_signal_connect_swapped(kind, "notify::selected", G_CALLBACK(kind_chosen), fresh);
+	naming_add_labelled(fresh->naming, _("Kind"), kind);
+}
+
 void type_new_ask(struct core *core, const char *original)
 {
-	struct naming *naming;
 	struct fresh *fresh;
-	char *heading, *name;
+	char *heading;
 
 	if (!messages_can_add(core->messages))
 		return;
-	fresh = g_new(struct fresh, 1);
-	*fresh = (struct fresh){ core, g_strdup(original) };
+	fresh = g_new0(struct fresh, 1);
+	*fresh = (struct fresh){ .core = core, .original = g_strdup(original) };
 	heading = original ? g_strdup_printf(_("Duplicate “%s”"), original) :
-		  g_strdup(_("New structure"));
-	name = type_free_name(core->document, original ? original : "Structure1");
-	naming = naming_new(core->window, heading, original ? _("Duplicate") : _("Create"),
-			    _("Name"), &how, fresh);
-	naming_set(naming, name);
-	naming_show(naming);
-	g_free(name);
+		  g_strdup(_("New data type"));
+	fresh->naming = naming_new(core->window, heading, original ? _("Duplicate") : _("Create"),
+				   _("Name"), &how, fresh);
+	if (!original)
+		add_kinds(fresh);
+	propose(fresh, free_name(fresh));
+	naming_show(fresh->naming);
 	g_free(heading);
 }

@@ -349,7 +349,7 @@ static bool do_project(LadderWindow *window, enum verb verb)
 	case VERB_tasks: tabs_show_task(&window->tabs, NULL); return true;
 	case VERB_new_task: tabs_new_task(&window->tabs); return true;
 	case VERB_types: tabs_show_type(&window->tabs, NULL); return true;
-	case VERB_new_structure: type_new_ask(core, NULL); return true;
+	case VERB_new_type: type_new_ask(core, NULL); return true;
 	case VERB_import_symbols: import_symbols(window); return true;
 	case VERB_export_symbols: export_symbols(&window->export); return true;
 	default: return false;
@@ -600,23 +600,23 @@ static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 		names_delete_pou(core, g_variant_get_int32(pou));
 }
 
-/* Actions "win.show-type" and the like, with the name of a structure. */
+/* Actions "win.show-type" and the like, with the name of a type. */
 static void act_on_type(GtkWidget *widget, const char *action, GVariant *parameter)
 {
 	struct core *core = &LADDER_WINDOW(widget)->core;
 	const char *name = g_variant_get_string(parameter, NULL);
-	const int structure = type_find(core->document, name);
+	const int type = type_find(core->document, name);
 
-	if (structure < 0)
+	if (type < 0)
 		return;
 	if (strcmp(action, "win.show-type") == 0)
 		tabs_show_type(core->tabs, name);
 	else if (strcmp(action, "win.rename-type") == 0)
-		names_rename_type(core, structure);
+		names_rename_type(core, type);
 	else if (strcmp(action, "win.duplicate-type") == 0)
 		type_new_ask(core, name);
 	else
-		names_delete_type(core, structure);
+		names_delete_type(core, type);
 }
 
 static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter)

@@ -241,6 +241,8 @@ static gboolean closed(GSignalInvocationHint *hint, guint count, const GValue *v
 
 /* ---- an open menu hides tooltips ---- */
 
+static void show_chosen(GtkWidget *popover);
+
 static int open_count;
 static void (*map_popover)(GtkWidget *popover), (*unmap_popover)(GtkWidget *popover);
 
@@ -248,6 +250,8 @@ static void mapped(GtkWidget *popover)
 {
 	open_count += gtk_popover_get_autohide(GTK_POPOVER(popover));
 	map_popover(popover);
+	if (GTK_IS_DROP_DOWN(gtk_widget_get_parent(popover)))
+		show_chosen(popover);
 }
 
 static void unmapped(GtkWidget *popover)
@@ -259,6 +263,35 @@ static void unmapped(GtkWidget *popover)
 bool popover_is_above(GtkWidget *widget)
 {
 	return open_count > 0 && (!widget || !gtk_widget_get_ancestor(widget, GTK_TYPE_POPOVER));
+}
+
+/* ---- the list of a drop-down ---- */
+
+static GtkWidget *list_in(GtkWidget *widget)
+{
+	GtkWidget *list = GTK_IS_LIST_VIEW(widget) ? widget : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !list;
+	     child = gtk_widget_get_next_sibling(child))
+		list = list_in(child);
+	return list;
+}
+
+static gboolean scroll_to_chosen(gpointer popover)
+{
+	GtkWidget *drop = gtk_widget_get_parent(popover), *list = list_in(popover);
+	const guint at = drop ? gtk_drop_down_get_selected(GTK_DROP_DOWN(drop)) :
+				GTK_INVALID_LIST_POSITION;
+
+	if (!list || at == GTK_INVALID_LIST_POSITION || !gtk_widget_get_mapped(popover))
+		return G_SOURCE_REMOVE;
+	gtk_widget_activate_action(list, "list.scroll-to-item", "u", at);
+	return G_SOURCE_REMOVE;
+}
+
+static void show_chosen(GtkWidget *popover)
+{
+	g_idle_add_full(G_PRIORITY_HIGH_IDLE, scroll_to_chosen, g_object_ref(popover), g_object_unref);
 }
 
 void popover_init(void)

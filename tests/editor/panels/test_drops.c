@@ -39,6 +39,20 @@ static GtkWidget *find(GtkWidget *from, GType type, const char *text)
 	return found;
 }
 
+/* The list of this type in which a row has the text. */
+static GtkWidget *list_with(GtkWidget *from, GType type, const char *text)
+{
+	GtkWidget *found = NULL;
+
+	if (g_type_is_a(G_OBJECT_TYPE(from), type))
+		return find(from, GTK_TYPE_LABEL, text) || find(from, GTK_TYPE_ENTRY, text) ?
+		       from : NULL;
+	for (GtkWidget *child = gtk_widget_get_first_child(from); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = list_with(child, type, text);
+	return found;
+}
+
 static void side_open(struct side *side, GtkWidget *(*new)(LadderDocument *), GType list,
 		      const char *last)
 {
@@ -49,8 +63,7 @@ static void side_open(struct side *side, GtkWidget *(*new)(LadderDocument *), GT
 	gtk_window_set_default_size(GTK_WINDOW(side->window), 900, 600);
 	gtk_window_set_child(GTK_WINDOW(side->window), side->panel);
 	screen_show(side->window);
-	WAIT((side->list = find(side->panel, list, NULL)) &&
-	     (find(side->list, GTK_TYPE_LABEL, last) || find(side->list, GTK_TYPE_ENTRY, last)));
+	WAIT((side->list = list_with(side->panel, list, last)));
 }
 
 static void side_close(struct side *side)

@@ -3,6 +3,7 @@
  * test_narrow - the lists in German, as wide as a window of 1024 px has room for: columns share
  * the width, so that no text is cut beside free room, and all headings are seen.
  */
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/problems.h"
@@ -22,7 +23,7 @@
 
 static const char sample[] =
 	"RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n    Steps : ARRAY[1..12] OF DINT; (* of a batch *)\n"
-	"  END_STRUCT;\nEND_TYPE\n\n"
+	"  END_STRUCT;\n  Percent : INT (-32768..32767) := 1000; (* of the belt *)\nEND_TYPE\n\n"
 	"CONFIGURATION Plant\nVAR_GLOBAL\n  StopButton AT %IX0.0 : BOOL;\n  Batches : ARRAY[1..12] OF DINT;\n"
 	"  Count : INT;\n  Mix : Recipe;\nEND_VAR\n  RESOURCE Cpu ON LINUX\n"
 	"    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n"
@@ -77,7 +78,7 @@ static GtkWidget *inside(GtkWidget *widget, GType type)
 
 	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
 	     child = gtk_widget_get_next_sibling(child))
-		found = inside(child, type);
+		found = gtk_widget_get_visible(child) ? inside(child, type) : NULL;
 	return found;
 }
 
@@ -122,6 +123,14 @@ static GtkWidget *symbols(LadderDocument *document)
 	ladder_symbols_view_set_document(view, document);
 	ladder_symbols_view_refresh(view);
 	return GTK_WIDGET(view);
+}
+
+static GtkWidget *subrange(LadderDocument *document)
+{
+	GtkWidget *view = ladder_types_view_new(document);
+
+	ladder_types_view_show(LADDER_TYPES_VIEW(view), type_find(document, "Percent"));
+	return view;
 }
 
 static GtkWidget *problems(LadderDocument *document)
@@ -210,6 +219,7 @@ int main(void)
 	check(problems(document), "Probleme", true);
 	check(ladder_tasks_view_new(document), "Tasks", false);
 	check(ladder_types_view_new(document), "Datentypen", true);
+	check(subrange(document), "Datentypen", true);
 	check(symbols(document), "Symbole", false);
 	check_log(document);
 	check_counts();

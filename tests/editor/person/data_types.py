@@ -48,7 +48,7 @@ def structure(screen):
     """a structure is made, its members typed, moved by keys and by pointer, renamed everywhere, duplicated; each undoes"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
-    editor.command('New structure')
+    editor.command('New data type')
     until(lambda: editor.all(role='dialog'), 'the question for a name')
     editor.keys('ctrl+a')
     editor.type('Bounds')
@@ -67,7 +67,7 @@ def structure(screen):
     editor.keys('Tab')
     editor.type('rpm')
     editor.keys('Return')
-    editor.click(editor.find('Add a member', 'push button'))
+    editor.click(editor.find('Add a member or value', 'push button'))
     editor.focus_on('Speed2, Name', 'text')
     editor.type('Limit')
     editor.keys('Tab', 'ctrl+a')
@@ -98,7 +98,7 @@ def structure(screen):
     assert editor.focus_on('Speed, Type', 'text').text() == 'Nothing'
     label(editor, 'Speed, Type: ')
     editor.keys('Escape')
-    editor.click(editor.find('Duplicate the structure', 'push button'))
+    editor.click(editor.find('Duplicate the type', 'push button'))
     until(lambda: editor.all(role='dialog'), 'the question for a name')
     editor.keys('Return')
     until(lambda: editor.all('Recipe2', 'label'), 'the copy')
@@ -111,7 +111,7 @@ def completed(screen):
     """the name of a type is completed in any spelling of its letters"""
     path = new_file(screen, PROGRAM.replace('Bounds', 'Öfen'))
     editor = Editor(screen, path)
-    editor.command('New structure')
+    editor.command('New data type')
     until(lambda: editor.all(role='dialog'), 'the question for a name')
     editor.keys('Return')
     editor.focus_on('Member1, Name', 'text')
@@ -146,7 +146,7 @@ def everywhere(screen):
     check(path)
     editor.focus_on('Top, Name', 'text')
     until(lambda: not editor.keys('shift+F12') and editor.all('type', 'table row'), 'the uses')
-    editor.click(editor.find('Delete the structure', 'push button'))
+    editor.click(editor.find('Delete the type', 'push button'))
     label(editor, 'It is used in 1 place. Variables and members of this type are deleted, too.')
     editor.shot('types-delete')
     editor.answer('Delete anyway')
@@ -276,6 +276,238 @@ def keys_alone(screen):
     assert '  Level : REAL;\n' in editor.save(path)
 
 
+LAMPS = '''RUNGBOARD 1
+
+TYPE
+  Color : (Red, Green := 5, Blue) := Green; (* of the lamp *)
+  Line : STRUCT
+    Front : Color;
+    Level : INT;
+  END_STRUCT;
+  Level : INT (0..Limit) := 50; (* in percent *)
+END_TYPE
+
+VAR CONSTANT
+  Limit : INT := 100;
+END_VAR
+
+VAR
+  Lamp : Color := Blue;
+  Tank : Level;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | [ Lamp = Green ] | [ Lamp := Color#Red ] | COIL %QX0.0 |
+END_PROGRAM
+'''
+
+
+def new_type(editor, kind, name):
+    editor.command('New data type')
+    until(lambda: editor.all(role='dialog'), 'the question for a name')
+    editor.focus_on('Name', 'text')
+    editor.keys('Tab')
+    editor.focus_on('Kind')
+    editor.keys('space')
+    editor.choose(kind)
+    editor.focus_on('Kind')
+    editor.keys('shift+Tab')
+    editor.focus_on('Name', 'text')
+    editor.keys('ctrl+a')
+    editor.type(name)
+    editor.keys('Return')
+
+
+def enumeration(screen):
+    """an enumeration is made, its values named, numbered, moved, renamed everywhere and deleted; base type and initial value; each undoes"""
+    path = new_file(screen, LAMPS)
+    editor = Editor(screen, path)
+    new_type(editor, 'Enumeration', 'Mode')
+    editor.focus_on('Value1, Name', 'text')
+    editor.keys('ctrl+a')
+    editor.type('Idle')
+    editor.keys('Tab')
+    editor.focus_on('Idle, Number', 'text')
+    editor.keys('ctrl+a')
+    editor.type('3')
+    editor.keys('Return')
+    editor.into('Value2, Name')
+    editor.keys('ctrl+a')
+    editor.type('Fast')
+    editor.keys('Return')
+    editor.click(editor.find('Add a member or value', 'push button'))
+    editor.focus_on('Value1, Name', 'text')
+    editor.keys('ctrl+a')
+    editor.type('fast')
+    editor.keys('Return')
+    label(editor, 'Value1, Name: ')
+    editor.keys('ctrl+a')
+    editor.type('Slow')
+    editor.keys('Return')
+    until(lambda: not editor.all('Value1, Name: ', 'label'), 'no refusal')
+    ordered(editor, 'Idle', 'Fast', 'Slow')
+    editor.keys('alt+Up')
+    ordered(editor, 'Idle', 'Slow', 'Fast')
+    assert seen(editor, 'Fast, Number').text() == '5'
+    editor.into('Mode, Base type')
+    editor.keys('ctrl+a')
+    editor.type('US')
+    until(lambda: seen(editor, 'Mode, Base type').text() == 'USINT', 'the rest of the word')
+    editor.keys('Tab')
+    editor.focus_on('Mode, Initial value', 'text')
+    editor.keys('ctrl+space')
+    until(lambda: editor.all('Slow ', 'list item'), 'the values')
+    editor.shot('types-enumeration')
+    editor.keys('Escape')
+    editor.focus_on('Mode, Initial value', 'text')
+    editor.type('Fast')
+    editor.keys('Tab')
+    editor.focus_on('Mode, Comment', 'text')
+    editor.type('of the belt')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert '  Mode  : USINT (Idle := 3, Slow, Fast) := Fast; (* of the belt *)\n' in text, text
+    assert '  Color : (Red, Green := 5, Blue) := Green; (* of the lamp *)\n' in text, text
+    check(path)
+    editor.into('Fast, Number')
+    editor.keys('ctrl+a')
+    editor.type('300')
+    editor.keys('Return')
+    label(editor, 'Fast, Number: ')
+    editor.shot('types-number')
+    editor.keys('Escape')
+    until(lambda: not editor.all('Fast, Number: ', 'label'), 'no refusal')
+    editor.click(editor.find('Data type', 'combo box'))
+    editor.keys('Home', 'Return')
+    editor.into('Green, Name')
+    editor.keys('ctrl+a')
+    editor.type('Olive')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert 'Color : (Red, Olive := 5, Blue) := Olive; (* of the lamp *)' in text and '[ Lamp = Olive ]' in text, text
+    until(lambda: [node for node in editor.all('Olive, Name', 'text') if node.has(12)], 'the keys in the value')
+    editor.keys('shift+F12')
+    until(lambda: editor.all('Color#Olive', 'table row'), 'the uses of the value')
+    assert len(editor.all('Color#Olive', 'table row')) == 3
+    for name, left in ('Blue', 'Red, Olive := 5, Blue'), ('Red', 'Olive := 5, Blue'):  # an initial value cannot do without Blue
+        editor.into(name + ', Name')
+        editor.click(editor.find('Delete the member or value', 'push button'))
+        label(editor, '“%s” is still used in 1 place' % name)
+        text = editor.save(path) if name == 'Red' else open(path).read()
+        assert '  Color : (%s) := Olive; (* of the lamp *)' % left in text, text
+    editor.keys('ctrl+z', 'ctrl+z')
+    until(lambda: editor.all('Green, Name', 'text') and editor.all('Red, Name', 'text'), 'the values before')
+    assert 'Color : (Red, Green := 5, Blue) := Green; (* of the lamp *)' in editor.save(path)
+
+
+def others(screen):
+    """subranges, arrays and other names of types are made and edited; what cannot be read is refused at the cell; a problem is told in place"""
+    path = new_file(screen, LAMPS)
+    editor = Editor(screen, path)
+    new_type(editor, 'Subrange', 'Percent')
+    editor.focus_on('Percent, Lowest value', 'text')
+    editor.keys('ctrl+a')
+    editor.type('200')
+    editor.keys('Return')
+    label(editor, 'Percent, Lowest value: ')
+    editor.keys('ctrl+a')
+    editor.type('-10')
+    editor.keys('Tab')
+    editor.focus_on('Percent, Highest value', 'text')
+    editor.keys('ctrl+a')
+    editor.type('2 * Limit')
+    editor.keys('Tab')
+    editor.focus_on('Percent, Initial value', 'text')
+    editor.type('500')
+    editor.keys('Tab')
+    editor.focus_on('Percent, Comment', 'text')
+    editor.type('of all')
+    editor.keys('Return')
+    until(lambda: editor.all('Percent', 'table row'), 'the row')
+    text = editor.save(path)
+    assert '  Percent : INT (-10..2 * Limit) := 500; (* of all *)\n' in text, text
+    editor.shot('types-subrange')
+    editor.into('Percent, Initial value')
+    editor.keys('ctrl+a')
+    editor.type('50')
+    editor.keys('Return')
+    editor.save(path)
+    check(path)
+    new_type(editor, 'Array', 'Row')
+    editor.focus_on('Row, Type', 'text')
+    editor.keys('ctrl+space')
+    until(lambda: editor.all('Array…', 'push button'), 'the button')[0].press()
+    until(lambda: editor.all('Last index', 'text'), 'the form of the array')
+    editor.keys('ctrl+a')
+    editor.type('1')
+    editor.keys('Return')
+    editor.into('Row, Initial value')
+    editor.type('[9(7)]')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert '  Row     : ARRAY[1..9] OF INT := [9(7)];\n' in text, text
+    editor.shot('types-arrays')
+    new_type(editor, 'Other name of a type', 'Hue')
+    editor.focus_on('Hue, Type', 'text')
+    editor.keys('ctrl+a')
+    editor.type('Col')
+    until(lambda: seen(editor, 'Hue, Type').text() == 'Color', 'the rest of the name')
+    editor.keys('Tab')
+    editor.type('Red')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert '  Hue     : Color := Red;\n' in text, text
+    check(path)
+    editor.into('Hue, Type')
+    editor.keys('ctrl+a')
+    editor.type('Hue')
+    editor.keys('Return')
+    label(editor, 'Hue, Type: ')
+    editor.keys('Escape')
+    editor.keys('ctrl+z', 'ctrl+z')
+    assert 'Hue' in editor.save(path)
+    editor.shot('types-alias')
+
+
+def of_all_kinds(screen):
+    """the tree lists types of all kinds in their order; by their menu there they are renamed, duplicated and deleted, a used one after a question"""
+    path = new_file(screen, LAMPS)
+    editor = Editor(screen, path)
+    row = until(lambda: editor.all('Level', 'label'), 'the subrange in the tree')[0]
+    label(editor, 'enumeration')
+    label(editor, 'INT (0..Limit)')
+    editor.shot('types-tree')
+    editor.click(editor.find('Color', 'label'), count=2)
+    editor.focus_on('Red, Name', 'text')
+    editor.brought('F2')
+    editor.keys('ctrl+a')
+    editor.type('Paint')
+    editor.keys('Return')
+    label(editor, '4 places changed')
+    text = editor.save(path)
+    assert '  Paint : (Red, ' in text and 'Front : Paint;' in text and 'Lamp : Paint := Blue;' in text and 'Paint#Red' in text, text
+    check(path)
+    editor.click(editor.find('Duplicate the type', 'push button'))
+    until(lambda: editor.all(role='dialog'), 'the question for a name')
+    editor.keys('Return')
+    until(lambda: editor.all('Paint2', 'label'), 'the copy')
+    assert '  Paint2 : (Red, Green := 5, Blue) := Green; (* of the lamp *)\n' in editor.save(path)
+    editor.click(editor.find('Delete the type', 'push button'))
+    until(lambda: not editor.all('Paint2', 'label'), 'the end of the copy')
+    assert 'Paint2' not in editor.save(path)
+    editor.click(editor.find('Level', 'label'), count=2)
+    editor.focus_on('Level, Lowest value', 'text')
+    editor.click(editor.find('Delete the type', 'push button'))
+    label(editor, 'It is used in 1 place. Variables and members of this type are deleted, too.')
+    editor.answer('Delete anyway')
+    text = until(lambda: 'Tank' not in editor.save(path) and open(path).read(), 'the end of the type')
+    assert 'INT (0..Limit)' not in text and 'Lamp' in text, text
+    editor.keys('ctrl+z')
+    until(lambda: editor.all('INT (0..Limit)', 'label'), 'the type in the tree')
+    assert 'Tank : Level;' in editor.save(path)
+
+
 MEMORY = '''RUNGBOARD 1
 
 VAR
@@ -332,4 +564,4 @@ def addresses(screen):
     check(path)
 
 
-main([structure, completed, everywhere, array, keys_alone, addresses])
+main([structure, completed, everywhere, array, keys_alone, enumeration, others, of_all_kinds, addresses])

@@ -37,7 +37,7 @@ static const struct { enum verb verb; const char *states; } works[] = {
 	{ VERB_new_program, READ }, { VERB_new_list, READ }, { VERB_new_chart, READ }, { VERB_new_statements, READ },
 	{ VERB_format, "i" }, { VERB_mend, "i" },
 	{ VERB_new_block, READ }, { VERB_new_function, READ }, { VERB_new_subroutine, READ },
-	{ VERB_import, READ }, { VERB_new_task, READ }, { VERB_new_structure, READ },
+	{ VERB_import, READ }, { VERB_new_task, READ }, { VERB_new_type, READ },
 	{ VERB_import_symbols, READ }, { VERB_export_symbols, READ },
 	{ VERB_cut, "lcsor" }, { VERB_copy, "lcsfor" }, { VERB_copy_picture, "lsfor" },
 	{ VERB_paste, "lcsor" }, { VERB_paste_parallel, "lsor" }, { VERB_delete, "lcsor" },
