@@ -102,12 +102,17 @@ static bool order(LadderGridView *view, enum act_kind kind, struct location at,
 	return true;
 }
 
+static struct live_named names_of(const LadderGridView *view, const char *name)
+{
+	return live_map_named(view->live.map, name, strlen(name));
+}
+
 static void tell_value(LadderGridView *view, const char *name, struct location at,
 		       union iec_value value, bool held)
 {
 	char shown[48], *keys, *text;
 
-	live_value_print(at.type, value, shown, sizeof(shown));
+	live_named_print(names_of(view, name), at.type, value, shown, sizeof(shown));
 	if (!held) {
 		text = g_strdup_printf("%s = %s", name, shown);
 	} else {
@@ -202,6 +207,8 @@ static char *read_value(const struct asked *asked, const char *line, struct iec_
 
 	if (refused) {
 		why = g_strdup(refused);
+	} else if (live_named_parse(names_of(asked->view, asked->name), plain, value)) {
+		why = NULL;
 	} else if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &fault)) {
 		char *said = diag_said_of(fault, plain);
 
@@ -263,7 +270,7 @@ static bool set_taken(void *context, const char *line)
 static void ask(LadderGridView *view, const char *name, struct location at)
 {
 	struct asked *asked = g_new0(struct asked, 1);
-	char *now = live_value_literal(at.type, image_get(image_of(view), at));
+	char *now = live_named_literal(names_of(view, name), at.type, image_get(image_of(view), at));
 	char *prompt = g_strdup_printf(_("value of %s"), name);
 	const struct canvas_question question = {
 		.prompt = prompt, .text = now, .drops = true, .changed = set_changed,
@@ -545,8 +552,8 @@ void act_tip(LadderGridView *view, int rung, int row, int col, GString *text)
 	} else if (cell->parts) {
 		add_filled(view, shown->operand, text);
 	} else if (cell->at.type != IEC_NONE) {
-		live_value_print(cell->at.type, image_get(image_of(view), cell->at), value,
-				 sizeof(value));
+		live_named_print(cell->named, cell->at.type, image_get(image_of(view), cell->at),
+				 value, sizeof(value));
 		g_string_append_printf(text, "\n= %s", value);
 	}
 	if (live->bits[row * live->cols + col] & LIVE_FORCED)

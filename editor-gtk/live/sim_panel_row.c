@@ -94,6 +94,7 @@ bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other)
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from)
 {
 	row->at = from->at;
+	row->named = from->named;
 	row->preset = from->preset;
 	row->given = from->given;
 	row->done = from->done;

@@ -7,7 +7,7 @@
 #ifndef EDITOR_SIM_PANEL_ROW_H
 #define EDITOR_SIM_PANEL_ROW_H
 
-#include "editor-gtk/sim/sim.h"
+#include "editor-gtk/sim/live_named.h"
 
 enum sim_group {
 	SIM_INPUTS, SIM_OUTPUTS, SIM_MEMORY, SIM_TIMERS, SIM_COUNTERS, SIM_BLOCKS, SIM_CHARTS,
@@ -51,6 +51,7 @@ struct _LadderSimRow {
 	bool folded;            /* of a SIM_HEADING, and of a line with parts   */
 	struct location at;     /* the value; of a SIM_PRESET its ET or CV, of a SIM_STEP its
 				   T, of a SIM_WHOLE its first output           */
+	struct live_named named; /* of the values of `at`                        */
 	/* Of SIM_PRESET, SIM_STEP, SIM_WHOLE; type IEC_NONE: there is none. */
 	struct location preset;
 	struct location given;  /* the variable or pin to set the preset with  */

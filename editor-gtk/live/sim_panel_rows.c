@@ -24,6 +24,7 @@
 #include <string.h>
 
 struct maker {
+	LadderSim *sim;
 	const struct twin *twin;
 	const struct image *image;  /* of the program or its plant             */
 	struct project *project;
@@ -199,6 +200,7 @@ static LadderSimRow *new_row(struct maker *maker, const char *name, gsize len,
 	row->name = g_strndup(name, len);
 	row->at = at;
 	row->plant = maker->plant;
+	row->named = live_named_find(maker->sim, maker->plant, "", row->name);
 	row->comment = comment_of(maker, row->name);
 	g_ptr_array_add(maker->rows, row);
 	return row;
@@ -759,7 +761,7 @@ GPtrArray *sim_rows_new(LadderSim *sim)
 {
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	const struct twin *twin = ladder_sim_twin(sim);
-	struct maker maker = { .twin = twin, .rows = rows };
+	struct maker maker = { .sim = sim, .twin = twin, .rows = rows };
 
 	if (!twin)
 		return rows;

@@ -162,7 +162,8 @@ static void show_value(LadderSimRowView *view)
 
 	text[0] = '\0';
 	if (row->at.type != IEC_NONE)
-		live_value_print(row->at.type, view->value_seen.value, text, sizeof(text));
+		live_named_print(row->named, row->at.type, view->value_seen.value, text,
+				 sizeof(text));
 	gtk_label_set_text(GTK_LABEL(view->value), text);
 	show_lamp(view, view->done_seen.value.i);
 	if (row->kind == SIM_STEP)
@@ -281,9 +282,16 @@ static void mark(LadderSimRowView *view, const char *why)
 					  GTK_ACCESSIBLE_INVALID_FALSE, -1);
 }
 
+/* Of what is edited: a preset is of no enumeration. */
+static struct live_named names_here(const LadderSimRowView *view)
+{
+	return live_value_is_same(place_of(view), view->row->at) ? view->row->named :
+								   (struct live_named){ NULL, false, 0 };
+}
+
 static void mark_bad(LadderSimRowView *view, bool bad)
 {
-	const char *type = iec_type_row(place_of(view).type)->word;
+	const char *type = live_named_type(names_here(view), place_of(view).type);
 	char *why = bad ? g_strdup_printf(_("Not a value of type %s"), type) : NULL;
 
 	mark(view, why);
@@ -324,7 +332,8 @@ static void entered(GtkEntry *entry, LadderSimRowView *view)
 	struct iec_text room;
 	union iec_value value;
 
-	if (!parse(at.type, gtk_editable_get_text(GTK_EDITABLE(entry)), &room, &value)) {
+	if (!live_named_parse(names_here(view), gtk_editable_get_text(GTK_EDITABLE(entry)), &value) &&
+	    !parse(at.type, gtk_editable_get_text(GTK_EDITABLE(entry)), &room, &value)) {
 		mark_bad(view, true);
 		return;
 	}
@@ -399,7 +408,8 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 		return;
 	if (!view->entry)
 		add_entry(view);
-	text = live_value_literal(at.type, live_value_get(view->sim, view->row->plant, at));
+	text = live_named_literal(names_here(view), at.type,
+				  live_value_get(view->sim, view->row->plant, at));
 	name = field_name(view);
 	gtk_editable_set_text(GTK_EDITABLE(view->entry), text);
 	set_name(view->entry, name);
@@ -460,7 +470,7 @@ static char *tooltip_of(const LadderSimRow *row)
 		g_string_append_printf(out, "  %s", row->address);
 	if (row->block || row->at.type != IEC_NONE)
 		g_string_append_printf(out, "  %s", row->block ? row->block :
-				       iec_type_row(row->at.type)->word);
+				       live_named_type(row->named, row->at.type));
 	if (row->pin_told)
 		g_string_append_printf(out, "\n%s", row->pin_told);
 	if (row->comment)

@@ -33,13 +33,16 @@ static void ladder_watch_row_init(LadderWatchRow *row)
 	row->sent = g_strdup("");
 }
 
-LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image *image)
+LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image *image,
+			      LadderSim *sim)
 {
 	LadderWatchRow *row = g_object_new(LADDER_TYPE_WATCH_ROW, NULL);
 
 	row->line = watch_line_new(line->format, line->name, line->comment);
 	row->asked = image != NULL;
 	row->at = live_value_find(image, line->name);
+	if (row->at.type != IEC_NONE)
+		row->named = live_named_find(sim, false, "", line->name);
 	return row;
 }
 
@@ -48,6 +51,7 @@ bool watch_row_equal(const LadderWatchRow *a, const LadderWatchRow *b)
 {
 	return a->asked == b->asked && a->at.constant == b->at.constant && a->at.type == b->at.type &&
 	       (a->at.type == IEC_NONE || live_value_is_same(a->at, b->at)) &&
+	       a->named.sim == b->named.sim && a->named.enumeration == b->named.enumeration &&
 	       a->line->format == b->line->format &&
 	       strcmp(a->line->name, b->line->name) == 0 &&
 	       strcmp(a->line->comment, b->line->comment) == 0;
@@ -60,10 +64,12 @@ bool watch_row_is_unknown(const LadderWatchRow *row)
 
 char *watch_row_value(const LadderWatchRow *row)
 {
+	const char *word = row->line->format != FORMAT_AUTO || !row->seen.known ? NULL :
+			   live_named_word(row->named, row->seen.value);
 	char text[IEC_VALUE_TEXT];
 
-	if (!row->seen.known)
-		return g_strdup("");
+	if (!row->seen.known || word)
+		return g_strdup(word ? word : "");
 	live_value_format(row->line->format, row->at.type, row->seen.value, text,
 			  sizeof(text));
 	return g_strdup(text);
@@ -78,6 +84,8 @@ bool watch_row_parse(const LadderWatchRow *row, const struct image *image,
 		fault = DIAG_UNKNOWN_NAME;
 	else if (row->at.constant)
 		fault = DIAG_WRITE_CONSTANT;
+	else if (live_named_parse(row->named, row->typed, out))
+		return true;
 	else if (live_value_parse(row->line->format, row->at.type, row->typed, room, out,
 			     &fault))
 		fault = value_has_room(image, row->at, *out) ? DIAG_COUNT :

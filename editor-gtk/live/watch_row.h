@@ -7,6 +7,7 @@
 #define EDITOR_WATCH_ROW_H
 
 #include "editor-gtk/live/watch.h"
+#include "editor-gtk/sim/live_named.h"
 
 #include <gtk/gtk.h>
 
@@ -19,6 +20,7 @@ struct _LadderWatchRow {
 	struct watch_line *line;
 	bool asked;             /* there was a program in which to find it     */
 	struct location at;     /* type IEC_NONE: not found                    */
+	struct live_named named; /* of its values                               */
 	struct live_seen seen;  /* as it is shown                             */
 	char *typed;            /* the new value; "": none                     */
 	bool acted, forcing;    /* a value was written, or it was forced or released: the board
@@ -28,8 +30,10 @@ struct _LadderWatchRow {
 	GtkWidget *value, *fresh, *force;
 };
 
-/** watch_row_new - @image: of the program that may have the name; NULL: none. */
-LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image *image);
+/** watch_row_new - @image: of the program that may have the name; NULL: none. @sim: that runs it;
+ * NULL: none. */
+LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image *image,
+			      LadderSim *sim);
 /** watch_row_equal - the same variable at the same place, with the same format and comment? */
 bool watch_row_equal(const LadderWatchRow *a, const LadderWatchRow *b);
 /** watch_row_is_unknown - the program does not have the name. */

@@ -304,8 +304,8 @@ static void refresh(LadderWatchView *view)
 	view->dirty = false;
 	fill_charts(view, charts);
 	for (guint i = 0; chart && i < chart->lines->len; i++)
-		g_ptr_array_add(rows, watch_row_new(chart->lines->pdata[i],
-							   image_of(view)));
+		g_ptr_array_add(rows, watch_row_new(chart->lines->pdata[i], image_of(view),
+						    view->sim));
 	exchange(view, rows);
 	look(view);
 	gtk_stack_set_visible_child_name(GTK_STACK(view->stack), rows->len ? "list" : "none");
@@ -963,7 +963,7 @@ static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 static void bind_type(GtkWidget *cell, LadderWatchRow *row)
 {
 	gtk_label_set_text(GTK_LABEL(cell), row->at.type != IEC_NONE ?
-			   iec_type_row(row->at.type)->word :
+			   live_named_type(row->named, row->at.type) :
 			   watch_row_is_unknown(row) ? _("unknown") : "");
 }
 

@@ -120,6 +120,15 @@ struct location live_map_find(const struct live_map *map, const char *name, size
 	       (struct location){ .type = IEC_NONE } : at;
 }
 
+struct live_named live_map_named(const struct live_map *map, const char *name, size_t len)
+{
+	char *own = g_strndup(name, len);
+	const struct live_named named = live_named_find(map->sim, false, map->pou, own);
+
+	g_free(own);
+	return named;
+}
+
 struct location live_map_find_pin(const struct live_map *map, const char *instance,
 				  const char *pin)
 {

@@ -9,6 +9,7 @@
 #define EDITOR_LIVE_MAP_H
 
 #include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/sim/live_named.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include "engine/scan/resource.h"
@@ -26,8 +27,8 @@ struct live_map;
 struct live_map *live_map_new(const struct resource *resource, const char *pou,
 			      const char *instance);
 void live_map_free(struct live_map *map);
-/** live_map_set_sim - finds only values and power that @sim has (ladder_sim_knows()). @sim:
- * borrowed; NULL, as at first: all. */
+/** live_map_set_sim - finds only values and power that @sim has (ladder_sim_knows()), and knows
+ * the names of values. @sim: borrowed; NULL, as at first: all, without names. */
 void live_map_set_sim(struct live_map *map, LadderSim *sim);
 /** live_map_instances - names of those of the POU, of const char *, of the program.
  * Caller: g_ptr_array_unref. */
@@ -38,6 +39,8 @@ const char *live_map_instance(const struct live_map *map);
 /** live_map_find - where an operand's value is: "Start", "T1.Q", "Table[3]", "%IX0.0";
  * type IEC_NONE: it has no place that is always the same, or there is none. */
 struct location live_map_find(const struct live_map *map, const char *name, size_t len);
+/** live_map_named - names of the values of the same operand; none before live_map_set_sim(). */
+struct live_named live_map_named(const struct live_map *map, const char *name, size_t len);
 /** live_map_find_pin - where the value of a pin of an instance is. */
 struct location live_map_find_pin(const struct live_map *map, const char *instance,
 				  const char *pin);
@@ -58,6 +61,7 @@ struct live_result live_map_always(const struct live_map *map);
 /* A piece of a text: a variable, or the text between two of them. */
 struct live_part {
 	struct location at;    /* type IEC_NONE: no variable that has a place     */
+	struct live_named named; /* of its values                                 */
 	char *text;            /* as it is written                              */
 };
 /** live_parts - of struct live_part; NULL: no variable with a place is in @text. Caller:
@@ -80,6 +84,7 @@ struct live_cell {
 	struct location at;    /* of its operand, of the first variable of an
 				  expression, of what counts in a box           */
 	const char *name;      /* of that variable; else ""                     */
+	struct live_named named; /* of its values                                 */
 	struct location goal;  /* the preset up to which it counts              */
 	GArray *parts;         /* of LIVE_TEXT: of struct live_part; NULL: none    */
 	union iec_value value, aim; /* value and goal, as last looked at         */

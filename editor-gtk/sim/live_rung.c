@@ -72,6 +72,7 @@ GArray *live_parts(const struct live_map *map, const char *text)
 		if (*text == '%' || g_ascii_isalpha(*text) || *text == '_' || *text & 0x80)
 			part.at = live_map_find(map, text, len);
 		if (part.at.type != IEC_NONE && !part.at.constant) {
+			part.named = live_map_named(map, text, len);
 			part.text = g_strndup(text, len);
 			g_array_append_val(parts, part);
 			any = true;
@@ -94,8 +95,8 @@ char *live_parts_print(GArray *parts, const struct image *image)
 		const struct live_part *part = &g_array_index(parts, struct live_part, i);
 
 		if (part->at.type != IEC_NONE)
-			live_value_print(part->at.type, image_get(image, part->at), value,
-					 sizeof(value));
+			live_named_print(part->named, part->at.type,
+					 image_get(image, part->at), value, sizeof(value));
 		g_string_append(text, part->at.type != IEC_NONE ? value : part->text);
 	}
 	return g_string_free(text, FALSE);
@@ -110,6 +111,7 @@ static void take_first(struct live_cell *cell)
 		if (part->at.type == IEC_NONE)
 			continue;
 		cell->at = part->at;
+		cell->named = part->named;
 		cell->name = part->text;
 		return;
 	}
@@ -165,6 +167,7 @@ static void find_text(const struct live_map *map, const struct word_row *word,
 	if (word->operand == OPND_ASSIGN) {
 		target = g_strchomp(g_strndup(text, sign ? (gsize)(sign - text) : 0));
 		cell->at = live_map_find(map, target, strlen(target));
+		cell->named = live_map_named(map, target, strlen(target));
 		g_free(target);
 	} else {
 		cell->parts = live_parts(map, text);
@@ -340,8 +343,8 @@ static bool look_at_value(struct live_cell *cell, const struct image *image, boo
 	} else if (cell->goal.type != IEC_NONE) {
 		live_count_print(cell->at.type, cell->value, cell->aim, text, sizeof(text));
 	} else {
-		live_value_print(cell->at.type, image_get(image, cell->at), text,
-				 sizeof(text));
+		live_named_print(cell->named, cell->at.type, image_get(image, cell->at),
+				 text, sizeof(text));
 	}
 	cell->part = part_of(cell);
 	other = strcmp(text, cell->text) != 0 || cell->part != part;

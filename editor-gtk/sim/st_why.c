@@ -5,6 +5,7 @@
 #include "editor-gtk/sim/st_why.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_named.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include "engine/base/lex.h"
@@ -103,8 +104,6 @@ static void take_token(const struct asked *asked, const struct token *token, GSt
 {
 	struct location at = { .type = IEC_NONE };
 	char *number, *name, *word, value[48];
-	const struct var *like;
-	const char *named;
 
 	if (token->kind != TOKEN_NAME && !memchr(token->text, '#', token->len)) {
 		g_string_append_printf(formula, " %.*s", (int)token->len, token->text);
@@ -115,13 +114,8 @@ static void take_token(const struct asked *asked, const struct token *token, GSt
 	g_string_append_printf(formula, " %s", name);
 	word = g_strndup(token->text, token->len);
 	if (at.type != IEC_NONE && at.type != IEC_BOOL) {
-		like = named_of_path(asked->project, name, strlen(name));
-		named = like && like->enumeration ?
-			named_word(asked->project, like, image_get(asked->image, at).i) : NULL;
-		if (named)
-			g_strlcpy(value, named, sizeof(value));
-		else
-			live_value_print(at.type, image_get(asked->image, at), value, sizeof(value));
+		live_named_print(live_named_find(asked->sim, false, "", name), at.type,
+				 image_get(asked->image, at), value, sizeof(value));
 		g_string_append_printf(values, "%s%s = %s", values->len ? ", " : "", word, value);
 	}
 	g_free(word);

@@ -9,7 +9,6 @@
 #include "editor-gtk/kit/theme.h"
 
 #include "engine/base/name.h"
-#include "engine/model/named.h"
 #include "engine/ladder.h"
 
 #include <adwaita.h>
@@ -28,7 +27,6 @@
 /* A line of the list: where its operand and the value that it counts are, and its result. */
 struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
-	const struct var **like;  /* by part: declares an enumeration; NULL: no part is of one */
 	struct location now, goal; /* of a call: what counts in the instance      */
 	bool instruction;         /* the program that runs has one here          */
 	bool missing;             /* the board runs without this line            */
@@ -65,8 +63,6 @@ static void seen_free(gpointer data)
 
 	if (seen && seen->parts)
 		g_array_unref(seen->parts);
-	if (seen)
-		g_free(seen->like);
 	g_free(seen);
 }
 
@@ -178,33 +174,6 @@ static void blank_words(char *code)
 	}
 }
 
-static const struct var *enumeration_of(LadderLineValues *values, const char *name)
-{
-	struct ladder *ladder = ladder_sim_ladder(values->sim);
-	struct project *project = ladder ? ladder_project(ladder) : NULL;
-	char *local = g_strdup_printf("%s.%s", values->pou, name);
-	const struct var *var = project ? named_of_path(project, local, strlen(local)) : NULL;
-
-	if (project && !var)
-		var = named_of_path(project, name, strlen(name));
-	g_free(local);
-	return var && var->enumeration ? var : NULL;
-}
-
-static void find_enumerations(LadderLineValues *values, struct seen *seen)
-{
-	for (guint i = 0; seen->parts && i < seen->parts->len; i++) {
-		const struct live_part *part = &g_array_index(seen->parts, struct live_part, i);
-		const struct var *var = part->at.type == IEC_NONE ? NULL :
-					enumeration_of(values, part->text);
-
-		if (var && !seen->like)
-			seen->like = g_new0(const struct var *, seen->parts->len);
-		if (var)
-			seen->like[i] = var;
-	}
-}
-
 static struct seen *look_up_st(LadderLineValues *values, int line, const char *text)
 {
 	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
@@ -218,7 +187,6 @@ static struct seen *look_up_st(LadderLineValues *values, int line, const char *t
 	blank_words(code);
 	if (seen->now.type == IEC_NONE)
 		seen->parts = live_parts(values->map, code);
-	find_enumerations(values, seen);
 	g_free(code);
 	return seen;
 }
@@ -254,11 +222,8 @@ static bool was_before(GArray *parts, guint index)
 	return false;
 }
 
-static void print_parts(LadderLineValues *values, struct seen *seen, const struct image *image)
+static void print_parts(struct seen *seen, const struct image *image)
 {
-	struct ladder *ladder = ladder_sim_ladder(values->sim);
-	const struct project *project = ladder ? ladder_project(ladder) : NULL;
-	const char *word;
 	char value[48];
 
 	for (guint i = 0; i < seen->parts->len; i++) {
@@ -266,13 +231,8 @@ static void print_parts(LadderLineValues *values, struct seen *seen, const struc
 
 		if (part->at.type == IEC_NONE || was_before(seen->parts, i))
 			continue;
-		word = seen->like && seen->like[i] && project ?
-			named_word(project, seen->like[i], image_get(image, part->at).i) : NULL;
-		if (word)
-			g_strlcpy(value, word, sizeof(value));
-		else
-			live_value_print(part->at.type, image_get(image, part->at), value,
-					 sizeof(value));
+		live_named_print(part->named, part->at.type, image_get(image, part->at), value,
+				 sizeof(value));
 		if (seen->text[0])
 			g_strlcat(seen->text, " · ", sizeof(seen->text));
 		g_strlcat(seen->text, value, sizeof(seen->text));
@@ -282,7 +242,7 @@ static void print_parts(LadderLineValues *values, struct seen *seen, const struc
 		seen->text[strlen(seen->text) - 1] = '\0';
 }
 
-static void print_value(LadderLineValues *values, struct seen *seen, const struct image *image)
+static void print_value(struct seen *seen, const struct image *image)
 {
 	seen->text[0] = '\0';
 	if (seen->now.type != IEC_NONE && seen->goal.type == seen->now.type)
@@ -292,28 +252,23 @@ static void print_value(LadderLineValues *values, struct seen *seen, const struc
 		live_value_print(seen->now.type, image_get(image, seen->now), seen->text,
 				 sizeof(seen->text));
 	else if (seen->parts)
-		print_parts(values, seen, image);
+		print_parts(seen, image);
 }
 
-/* The name of what was stored, if the line begins with a variable of an enumeration. */
-static const char *stored_name(LadderLineValues *values, const struct seen *seen,
-			       const struct image *image)
+/* Of what was stored, if the line begins with a variable of an enumeration. */
+static struct live_named stored_names(const struct seen *seen)
 {
-	struct ladder *ladder = ladder_sim_ladder(values->sim);
-	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+	for (guint i = 0; seen->parts && seen->result.at.type != IEC_BOOL && i < seen->parts->len; i++) {
+		const struct live_part *part = &g_array_index(seen->parts, struct live_part, i);
 
-	for (guint i = 0; project && seen->like && i < seen->parts->len; i++)
-		if (g_array_index(seen->parts, struct live_part, i).at.type != IEC_NONE)
-			return seen->result.at.type == IEC_BOOL || !seen->like[i] ? NULL :
-			       named_word(project, seen->like[i],
-					  image_get(image, seen->result.at).i);
-	return NULL;
+		if (part->at.type != IEC_NONE)
+			return part->named;
+	}
+	return (struct live_named){ NULL, false, 0 };
 }
 
-static void print_result(LadderLineValues *values, struct seen *seen, const struct image *image)
+static void print_result(struct seen *seen, const struct image *image)
 {
-	const char *name;
-
 	seen->after[0] = '\0';
 	if (seen->missing)
 		g_strlcpy(seen->after, _("not downloaded"), sizeof(seen->after));
@@ -322,11 +277,10 @@ static void print_result(LadderLineValues *values, struct seen *seen, const stru
 	seen->ran = image->memory[seen->result.ran];
 	if (!seen->ran)
 		g_strlcpy(seen->after, _("not run"), sizeof(seen->after));
-	else if (seen->result.at.type != IEC_NONE && (name = stored_name(values, seen, image)))
-		g_strlcpy(seen->after, name, sizeof(seen->after));
 	else if (seen->result.at.type != IEC_NONE)
-		live_value_print(seen->result.at.type, image_get(image, seen->result.at),
-				 seen->after, sizeof(seen->after));
+		live_named_print(stored_names(seen), seen->result.at.type,
+				 image_get(image, seen->result.at), seen->after,
+				 sizeof(seen->after));
 }
 
 /* ---- which line of the program that runs a line is ---- */
@@ -429,8 +383,8 @@ static struct seen *seen_of(LadderLineValues *values, int line)
 		find_result(values, line, seen);
 		g_free(text);
 	}
-	print_value(values, seen, &twin->resource.image);
-	print_result(values, seen, &twin->resource.image);
+	print_value(seen, &twin->resource.image);
+	print_result(seen, &twin->resource.image);
 	return seen;
 }
 

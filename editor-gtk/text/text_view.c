@@ -466,8 +466,8 @@ static char *values_of_parts(GArray *parts, const struct image *image)
 
 		if (part->at.type == IEC_NONE || was_before(parts, i))
 			continue;
-		live_value_print(part->at.type, image_get(image, part->at), value,
-				 sizeof(value));
+		live_named_print(part->named, part->at.type, image_get(image, part->at),
+				 value, sizeof(value));
 		g_string_append_printf(text, "%s%s = %s", text->len ? " · " : "",
 				       part->text, value);
 	}

@@ -109,6 +109,56 @@ def values(screen):
     assert '    watch auto Nobody\n' in text, text
 
 
+PHASES = '''RUNGBOARD 1
+
+TYPE
+  Phase : (Idle, Hot := 5, Cold);
+END_TYPE
+
+VAR
+  Now : Phase;
+  Lamp AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | [ Now = Hot ] | COIL Lamp |
+RUNG
+  | NO Lamp | [ Now := Phase#Hot ] |
+END_PROGRAM
+'''
+
+
+def named(screen):
+    """values of enumerations have their names in the chart, the panel and the sheet, where they are typed, too"""
+    editor = Editor(screen, new_file(screen, PHASES))
+    chart(editor)
+    add(editor, 'Now')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.element('Rung 1, [ ]', 'Idle = Hot, open')
+    until(lambda: len([node for node in editor.all(role='label') if node.name == 'Idle' and node.box()[2] > 0]) == 2,
+          'the name in the chart and in the panel')
+    editor.into('Now, New value')
+    editor.type('hot')
+    editor.keys('Return')
+    editor.element('Rung 1, [ ]', 'Hot = Hot, closed')
+    until(lambda: len([node for node in editor.all(role='label') if node.name == 'Hot' and node.box()[2] > 0]) == 2, 'the other name')
+    editor.shot('watch-named')
+    editor.into('Now, New value')
+    editor.type('Warm')
+    editor.keys('Return')
+    editor.find('"Warm" is not a valid constant')
+    editor.keys('ctrl+a', 'BackSpace')
+    editor.click(editor.middle(editor.element('Rung 1, [ ]', 'Hot = Hot')), count=2)
+    until(lambda: [node for node in editor.asked() if node.text() == 'Hot'], 'the entry with the name')
+    editor.keys('ctrl+a')
+    editor.type('Phase#Cold')
+    editor.keys('Return')
+    editor.element('Rung 1, [ ]', 'Cold = Hot, open')
+    editor.says('Now = Cold')
+
+
 def dragged(screen):
     """elements of the sheet are dragged onto both charts: their variables are in them and in the file"""
     path = new_file(screen, PROGRAM)
@@ -205,4 +255,4 @@ def block(screen):
     assert '    watch auto Main.First.In\n    watch auto Second.In\n' in editor.save(path), open(path).read()
 
 
-main([values, dragged, forces, chinese, last_letter, block])
+main([values, named, dragged, forces, chinese, last_letter, block])
