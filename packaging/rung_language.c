@@ -106,6 +106,16 @@ static void words_of_charts(void)
 		also(&first, sfc_word(i)->word, "");
 }
 
+/* The same in Structured Text, where a name may stand: not SET or CONTROL. */
+static void heads_of_charts(void)
+{
+	bool first = true;
+
+	for (int i = 0; sfc_word(i); i++)
+		if (sfc_word(i)->kind != SFC_WORD_SETTING && sfc_word(i)->kind != SFC_WORD_CONTROL)
+			also(&first, sfc_word(i)->word, "");
+}
+
 static void ends_of_charts(void)
 {
 	bool first = true;
@@ -277,12 +287,14 @@ static void structured_text(void)
 {
 	static const char *const order[] = {
 		"block-comment", "pragma", "line-comment", "string", "text", "address", "literal",
-		"block", "keyword", "type", "constant", "function", "number", NULL,
+		"block", "chart", "chart-end", "keyword", "type", "constant", "function", "number", NULL,
 	};
 
 	head("rung-st", "Structured Text", "text/x-iec-st", "*.st;*.iec");
 	st_literals();
 	match("block", "type", "(?::|\\bOF\\b)\\s*", blocks, "\\b");
+	match("chart", "keyword", "^\\s*", heads_of_charts, "\\b(?!\\s*[:(.\\[])");
+	match("chart-end", "keyword", "\\b", ends_of_charts, "\\b");
 	st_keywords();
 	match("function", "function", "\\b", functions, "\\b(?=\\s*\\()");
 	foot("rung-st", order);

@@ -786,22 +786,31 @@ static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *n
 	return true;
 }
 
-static bool rename_in_text(struct sfc_edit *edit, const char *old, const char *name)
+/* A copy of the statements that may be changed, with room for one more. NULL: no memory. */
+static struct st *own_text(struct sfc_edit *edit)
 {
-	const struct st *st = edit->pou.st;
+	const struct st none = { .item = NULL };
+	const struct st *st = edit->pou.st ? edit->pou.st : &none;
 	struct st *own = arena_alloc(&edit->arena, sizeof(*own));
 
-	if (!st)
-		return true;
 	if (own)
 		own->item = arena_alloc(&edit->arena, ((size_t)st->count + 1) * sizeof(*own->item));
 	if (!own || !own->item)
-		return sfc_edit_refuse(edit, NO_MEMORY);
-	for (; own->count < st->count; own->count++) {
+		return NULL;
+	for (; own->count < st->count; own->count++)
 		own->item[own->count] = st->item[own->count];
-		if (st->item[own->count].kind != ST_COMMENT)
-			own->item[own->count].text = with_name(edit, st->item[own->count].text, old, name);
-	}
+	return own;
+}
+
+static bool rename_in_text(struct sfc_edit *edit, const char *old, const char *name)
+{
+	struct st *own = edit->pou.st ? own_text(edit) : NULL;
+
+	if (!own)
+		return !edit->pou.st || sfc_edit_refuse(edit, NO_MEMORY);
+	for (int i = 0; i < own->count; i++)
+		if (own->item[i].kind != ST_COMMENT)
+			own->item[i].text = with_name(edit, own->item[i].text, old, name);
 	edit->pou.st = own;
 	return true;
 }
@@ -1057,6 +1066,10 @@ static bool take_operand(const char *at, bool qualified, struct sfc_doing *out)
 	}
 	if (!next_word(&at, word, sizeof(word)))
 		return false;
+	if (out->action && strcasecmp(skip(at), "ST") == 0) {
+		out->statements = true;
+		at += strlen(at);
+	}
 	if (!is_word(word) || *skip(at)) {
 		out->why = qualified ? N_("there are too many words: write a qualifier and a name") :
 				       N_("the first word is not a qualifier");
@@ -1100,19 +1113,12 @@ void sfc_doing_print(const struct project *project, const struct sfc *sfc, int u
 			 project_text(project, u->time), u->time ? " " : "", name);
 }
 
-/* Adds an action without rungs. */
-static bool new_action(struct sfc_edit *edit, const char *name)
+/* A body of one empty rung. */
+static bool empty_rung(struct sfc_edit *edit, struct sfc_body *body)
 {
-	struct sfc *sfc = &edit->sfc;
-	struct sfc_action *action;
-	struct rung **to;
+	struct rung **to = arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,
+				      sizeof(*to));
 
-	if (!can_be_called(edit, name))
-		return false;
-	action = arena_push(&edit->arena, &sfc->action, &sfc->action_count,
-			    sizeof(*action));
-	to = action ? arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,
-				 sizeof(*to)) : NULL;
 	if (!to)
 		return sfc_edit_refuse(edit, NO_MEMORY);
 	*to = rung_new(1, 1);
@@ -1120,8 +1126,38 @@ static bool new_action(struct sfc_edit *edit, const char *name)
 		edit->pou.rung_count--;
 		return sfc_edit_refuse(edit, NO_MEMORY);
 	}
-	*action = (struct sfc_action){ .name = sfc_edit_id(edit, name),
-		.body = { BODY_RUNGS, edit->pou.rung_count - 1, 1 } };
+	*body = (struct sfc_body){ BODY_RUNGS, edit->pou.rung_count - 1, 1 };
+	return true;
+}
+
+/* A body of one empty statement. */
+static bool empty_statement(struct sfc_edit *edit, struct sfc_body *body)
+{
+	struct st *st = own_text(edit);
+
+	if (!st)
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	st->item[st->count] = (struct st_item){ .kind = ST_EMPTY, .text = sfc_edit_id(edit, "") };
+	*body = (struct sfc_body){ BODY_ST, st->count++, 1 };
+	edit->pou.st = st;
+	return true;
+}
+
+/* Adds an action that does nothing yet. */
+static bool new_action(struct sfc_edit *edit, const struct sfc_doing *doing)
+{
+	struct sfc *sfc = &edit->sfc;
+	struct sfc_action *action;
+	struct sfc_body body;
+
+	if (!can_be_called(edit, doing->name) ||
+	    !(doing->statements ? empty_statement(edit, &body) : empty_rung(edit, &body)))
+		return false;
+	action = arena_push(&edit->arena, &sfc->action, &sfc->action_count,
+			    sizeof(*action));
+	if (!action)
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	*action = (struct sfc_action){ .name = sfc_edit_id(edit, doing->name), .body = body };
 	return sfc_edit_put_piece(edit, sfc->piece_count - 1, PIECE_ACTION,
 				 sfc->action_count - 1);
 }
@@ -1157,7 +1193,7 @@ bool sfc_edit_set_use(struct sfc_edit *edit, int step, int use,
 
 	if (use < 0 && s->use_count >= LIMIT_STEP_USES)
 		return sfc_edit_refuse(edit, N_("the step has too many actions"));
-	if ((doing->action && !new_action(edit, doing->name)) ||
+	if ((doing->action && !new_action(edit, doing)) ||
 	    !copy_uses(edit, step, -1, use < 0))
 		return false;
 	to = &edit->sfc.use[edit->sfc.step[step].first_use + line];

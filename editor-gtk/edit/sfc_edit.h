@@ -90,10 +90,11 @@ struct sfc_doing {
 				    AT %QX0.5` */
 	bool says;               /* @operand has a declaration                 */
 	bool action;             /* it begins with ACTION: makes a new one     */
+	bool statements;         /* and ends with ST: in Structured Text       */
 	const char *why;         /* N_(): what is missing; NULL: nothing       */
 };
 /** sfc_doing_read - "Valve", "N Valve", "L T#3s Horn", "SET Lamp", "ACTION Count",
- * "N Horn AT %QX0.5 : BOOL". False: @out->why says what is missing. */
+ * "ACTION Count ST", "N Horn AT %QX0.5 : BOOL". False: @out->why says what is missing. */
 bool sfc_doing_read(const char *line, struct sfc_doing *out);
 /** sfc_doing_print - the line for an action that the step has. */
 void sfc_doing_print(const struct project *project, const struct sfc *sfc, int use,

@@ -7,7 +7,7 @@
  *
  * Signals, besides those of the canvas:
  *   body-wanted (int first, int count)  show these rungs of the POU for editing; count 0: a
- *                                       list, or no rungs
+ *                                       body without rungs, which begins in line first of the file
  */
 #ifndef EDITOR_SFC_VIEW_H
 #define EDITOR_SFC_VIEW_H

@@ -20,11 +20,26 @@ struct pou *sfc_pou(LadderSfcView *view)
 	       &project->pou[pou] : NULL;
 }
 
+/* Where the body begins in the file, 1-based. */
+static int line_of(LadderSfcView *view, const struct sfc_body *body)
+{
+	const struct sfc *sfc = sfc_pou(view)->sfc;
+
+	for (int i = 0; i < sfc->action_count; i++)
+		if (&sfc->action[i].body == body)
+			return sfc->action[i].line + 1;
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (&sfc->transition[i].condition == body)
+			return sfc->transition[i].line + 1;
+	return 1;
+}
+
 void sfc_want_body(LadderSfcView *view, const struct sfc_body *body)
 {
-	const bool rungs = body->kind == BODY_RUNGS || body->kind == BODY_EXPRESSION;
+	const bool rungs = sfc_body_has_rungs(body);
 
-	g_signal_emit_by_name(view, "body-wanted", body->first, rungs ? body->count : 0);
+	g_signal_emit_by_name(view, "body-wanted", rungs ? body->first : line_of(view, body),
+			      rungs ? body->count : 0);
 }
 
 /* ---- the sheet ---- */

@@ -581,7 +581,7 @@ static char *text_now(const struct asked *asked)
 	}
 }
 
-#define DOES N_("What the step does: N Valve, L T#3s Horn, SET Lamp, ACTION Count")
+#define DOES N_("What the step does: N Valve, L T#3s Horn, SET Lamp, ACTION Count, ACTION Count ST")
 
 /* @part: where the question makes sense; SFC_NOTHING: at a step or a transition. */
 static const struct { const char *prompt; enum sfc_part part; } questions[] = {

@@ -144,7 +144,7 @@ static bool in_name(char c)
 	return g_ascii_isalnum(c) || c == '_' || (guchar)c >= 0x80;
 }
 
-/* Blanks in place of what looks like a variable and is none: `PT :=` in a call, `Phase#Idle`. */
+/* Blanks in place of what looks like a variable and is none: `PT :=` in a call, `Phase#Idle`, TRANSITION. */
 static void blank_words(char *code)
 {
 	int open = 0;
@@ -159,7 +159,9 @@ static void blank_words(char *code)
 		}
 		while (in_name(*end))
 			end++;
-		if (*end == '#')
+		if (end - at == 10 && memcmp(at, "TRANSITION", 10) == 0)
+			; /* the word of a chart, and the variable that its conditions write */
+		else if (*end == '#')
 			while (in_name(*end) || *end == '#' || *end == '.' || *end == ':')
 				end++;
 		else if (!(open > 0 && (g_str_has_prefix(end + strspn(end, " "), ":=") ||

@@ -32,15 +32,25 @@ GtkSourceLanguage *text_language(void)
 	return language("rung");
 }
 
+GtkSourceLanguage *text_language_st(bool st)
+{
+	return language(st ? "rung-st" : "rung");
+}
+
+bool text_is_st(const struct pou *pou)
+{
+	return pou->language == LANGUAGE_ST || (pou->sfc && pou->st);
+}
+
 GtkSourceLanguage *text_language_of(LadderDocument *document, int pou)
 {
 	const struct project *project = ladder_document_project(document);
 	const char *path = ladder_document_path(document);
 	const bool st = pou < 0 ? path && plain_file_is(path) :
 		project && pou < project->pou_count &&
-		project->pou[pou].language == LANGUAGE_ST;
+		text_is_st(&project->pou[pou]);
 
-	return language(st ? "rung-st" : "rung");
+	return text_language_st(st);
 }
 
 /* ---- a candidate ---- */

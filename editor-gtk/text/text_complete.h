@@ -14,6 +14,10 @@
 
 /** text_language - the language of rung files; NULL: not installed. Borrowed. */
 GtkSourceLanguage *text_language(void);
+/** text_is_st - is the text of the POU Structured Text, or a chart that has some? */
+bool text_is_st(const struct pou *pou);
+/** text_language_st - that of Structured Text, or of rung files. Borrowed. */
+GtkSourceLanguage *text_language_st(bool st);
 /** text_language_of - of the text of POU @pou of @document, -1: of the whole file: that of rung
  * files, or that of Structured Text. Borrowed. */
 GtkSourceLanguage *text_language_of(LadderDocument *document, int pou);

@@ -50,6 +50,7 @@ struct _LadderTextView {
 	guint typed_step;
 	guint taking;            /* timer: puts the text into the document      */
 	guint looking;           /* timer: looks for a call at the cursor       */
+	int st_chart;            /* POU: a chart that has had statements; -1: none. While one is typed it may have none */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
@@ -226,8 +227,12 @@ gboolean ladder_text_view_is_st(LadderTextView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 
-	return project && view->pou >= 0 && view->pou < project->pou_count &&
-	       project->pou[view->pou].language == LANGUAGE_ST;
+	const struct pou *pou = project && view->pou >= 0 && view->pou < project->pou_count ?
+				&project->pou[view->pou] : NULL;
+
+	if (pou && pou->sfc && text_is_st(pou))
+		view->st_chart = view->pou;
+	return pou && (text_is_st(pou) || (pou->sfc && view->st_chart == view->pou));
 }
 
 /* The POU may have got another name or language. */
@@ -235,7 +240,8 @@ static void name_pou(LadderTextView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 
-	gtk_source_buffer_set_language(view->buffer,
+	gtk_source_buffer_set_language(view->buffer, view->pou >= 0 ?
+				       text_language_st(ladder_text_view_is_st(view)) :
 				       text_language_of(view->document, view->pou));
 	st_typing_set(view->view, ladder_text_view_is_st(view));
 	line_values_set_st(view->values, ladder_text_view_is_st(view));
@@ -772,6 +778,7 @@ static void clear_fault(gpointer fault)
 
 static void ladder_text_view_init(LadderTextView *view)
 {
+	view->st_chart = -1;
 	view->faults = g_array_new(FALSE, FALSE, sizeof(struct flaw));
 	g_array_set_clear_func(view->faults, clear_fault);
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);

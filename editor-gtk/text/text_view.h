@@ -38,7 +38,7 @@ GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
 /** ladder_text_view_name - the name or address at the cursor; NULL: none. Owns: the
  * caller, g_free(). */
 char *ladder_text_view_name(LadderTextView *view);
-/** ladder_text_view_is_st - is it a POU in Structured Text? */
+/** ladder_text_view_is_st - is it a POU in Structured Text, or a chart with such actions? */
 gboolean ladder_text_view_is_st(LadderTextView *view);
 /** ladder_text_view_format - writes it in its canonical form, as `ladder fmt` does. Fails: FALSE: it
  * has errors that hide its form. */

@@ -89,6 +89,8 @@ LadderTextView *front_list(struct front *front)
 {
 	GtkWidget *content = page_content(front_tab(front));
 
+	if (LADDER_IS_SFC_PAGE(content))
+		return ladder_sfc_page_text(LADDER_SFC_PAGE(content));
 	return LADDER_IS_TEXT_VIEW(content) &&
 	       ladder_text_view_pou(LADDER_TEXT_VIEW(content)) >= 0 ?
 	       LADDER_TEXT_VIEW(content) : NULL;

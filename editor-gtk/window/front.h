@@ -45,7 +45,7 @@ LadderGridView *front_sheet(struct front *front);
 LadderSfcView *front_chart(struct front *front);
 /** front_rungs - the sheet, else the rungs below a chart, with or without the focus. */
 LadderGridView *front_rungs(struct front *front);
-/** front_list - the text of a POU. front_file - a file beside the project. */
+/** front_list - the text of a POU, also below a chart while it is used. front_file - a file beside the project. */
 LadderTextView *front_list(struct front *front);
 LadderSideFile *front_file(struct front *front);
 /** front_enter_program - focuses the visible sheet, chart or text. False: none is visible. */

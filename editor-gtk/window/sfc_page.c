@@ -7,7 +7,6 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/text/text_view.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -21,7 +20,7 @@ struct _LadderSfcPage {
 	GtkLabel *heading;
 	char *shown;                 /* heading of the body shown in @rungs */
 	GtkWidget *rungs, *text;     /* at most one of them                    */
-	bool below_active;           /* @rungs has the focus, or had it last */
+	bool below_active;           /* @rungs or @text has the focus, or had it last */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, GTK_TYPE_BOX)
@@ -39,6 +38,11 @@ LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page)
 LadderGridView *ladder_sfc_page_sheet(LadderSfcPage *page)
 {
 	return page->below_active ? ladder_sfc_page_rungs(page) : NULL;
+}
+
+LadderTextView *ladder_sfc_page_text(LadderSfcPage *page)
+{
+	return page->below_active && page->text ? LADDER_TEXT_VIEW(page->text) : NULL;
 }
 
 /* ---- what stands below ---- */
@@ -61,7 +65,7 @@ static void chart_entered(LadderSfcPage *page)
 	set_active(page, false);
 }
 
-static void rungs_entered(LadderSfcPage *page)
+static void below_entered(LadderSfcPage *page)
 {
 	set_active(page, true);
 }
@@ -139,20 +143,22 @@ static void show_rungs(LadderSfcPage *page, int first)
 	ladder_canvas_set_sim(LADDER_CANVAS(page->rungs), page->sim);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
-	follow_focus(page, page->rungs, G_CALLBACK(rungs_entered));
+	follow_focus(page, page->rungs, G_CALLBACK(below_entered));
 	put_below(page, page->rungs, heading, true);
 	gtk_widget_grab_focus(page->rungs);
 	set_active(page, true);
 	page->shown = heading;
 }
 
-static void show_text(LadderSfcPage *page)
+static void show_text(LadderSfcPage *page, int line)
 {
 	close_below(page);
 	page->text = ladder_text_view_new(page->document, page->pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
+	follow_focus(page, page->text, G_CALLBACK(below_entered));
 	put_below(page, page->text, _("Text of the program"), false);
-	gtk_widget_child_focus(page->text, GTK_DIR_TAB_FORWARD);
+	ladder_text_view_go(LADDER_TEXT_VIEW(page->text), line, 5);
+	set_active(page, true);
 }
 
 static void body_wanted(LadderSfcPage *page, int first, int count)
@@ -160,7 +166,7 @@ static void body_wanted(LadderSfcPage *page, int first, int count)
 	if (count > 0)
 		show_rungs(page, first);
 	else
-		show_text(page);
+		show_text(page, first);
 }
 
 /* The first rung of the body that was shown: the nearest body with its heading, else one

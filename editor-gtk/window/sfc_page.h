@@ -8,6 +8,7 @@
 
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
+#include "editor-gtk/text/text_view.h"
 
 #define LADDER_TYPE_SFC_PAGE (ladder_sfc_page_get_type())
 G_DECLARE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, LADDER, SFC_PAGE, GtkBox)
@@ -20,6 +21,8 @@ LadderSfcView *ladder_sfc_page_chart(LadderSfcPage *page);
 LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page);
 /** ladder_sfc_page_sheet - the rungs below if they are active; NULL: the chart is. */
 LadderGridView *ladder_sfc_page_sheet(LadderSfcPage *page);
+/** ladder_sfc_page_text - the text below, if it has the focus, or had it last; or NULL. */
+LadderTextView *ladder_sfc_page_text(LadderSfcPage *page);
 /** ladder_sfc_page_show_rung - goes to a rung of the POU in the chart, and opens it below
  * if it belongs to a body of rungs. */
 void ladder_sfc_page_show_rung(LadderSfcPage *page, int rung, int row, int col);

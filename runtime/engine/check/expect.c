@@ -1184,38 +1184,13 @@ static bool is_sfc_step(const struct token *token)
 	return false;
 }
 
-/* What is wanted in the line at @line of a chart, before @to; @bar: after its last bar, or
- * @line. */
-static struct expect_want expect_sfc(struct before *b, const char *text, size_t line,
-				     size_t bar, size_t to)
-{
-	enum inside in;
-
-	if (bar > line) {
-		expect_tokens(b, text, bar, to);
-		return expect_cell(b);
-	}
-	expect_tokens(b, text, expect_statement(text, line), to);
-	if (b->count && is_sfc_step(&b->token[0]))
-		return step_want(b);
-	if (b->count && st_is(&b->token[0], "TRANSITION"))
-		return transition_want(b);
-	if (b->count && st_is(&b->token[0], "CONTROL"))
-		return control_want(b);
-	in = inside_at(text, line);
-	if (in == IN_STEP)
-		return use_want(b);
-	if (in == IN_BODY)
-		return expect_list(b);
-	return kinds_want(b->count ? 0 : EXPECT_KEYWORD);
-}
-
 /* ---- Structured Text ---- */
 
-/* Where the lines below the heading of the POU begin. */
-static size_t body_of(const char *text, size_t line)
+/* Where the lines below the heading of the POU begin; of a chart below that of the action. */
+static size_t body_of(const struct before *b, const char *text, size_t line)
 {
 	static const char *const heads[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "SUBROUTINE" };
+	const bool chart = b->pou && b->pou->sfc;
 	size_t begin = line;
 
 	while (begin > 0) {
@@ -1225,6 +1200,8 @@ static size_t body_of(const char *text, size_t line)
 		for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
 			if (begins(text, begin, end, heads[i]))
 				return end + 1;
+		if (chart && (begins(text, begin, end, "ACTION") || begins(text, begin, end, "TRANSITION")))
+			return end + 1;
 	}
 	return 0;
 }
@@ -1381,10 +1358,11 @@ static const char *const *ends_of_block(const struct before *b)
 		[POU_BLOCK] = { STATEMENTS, "VAR", "VAR_INPUT", "END_FUNCTION_BLOCK" },
 		[POU_SUBROUTINE] = { STATEMENTS, "VAR", "END_SUBROUTINE" },
 	};
+	static const char *const action[] = { STATEMENTS, "END_ACTION", NULL };
 	const struct st_block *block = st_place_block(&b->st);
 
 	if (!block)
-		return outside[b->pou->kind];
+		return b->pou->sfc ? action : outside[b->pou->kind];
 	if (block->kind == ST_IF)
 		return block->other ? last : branch;
 	if (block->kind == ST_CASE)
@@ -1419,7 +1397,7 @@ static bool in_choice(const struct before *b)
 
 static struct expect_want expect_st(struct before *b, const char *text, size_t line, size_t to)
 {
-	const size_t body = body_of(text, line);
+	const size_t body = body_of(b, text, line);
 	struct expect_want want;
 	struct st_open open;
 
@@ -1439,6 +1417,52 @@ static struct expect_want expect_st(struct before *b, const char *text, size_t l
 	if (st_ends_value(&b->st))
 		return b->st.count == 1 ? nothing : st_behind_want(b);
 	return st_value_want(st_compared(b, text));
+}
+
+/* Is the body around the line at @line of a chart Structured Text? Before its first statement is
+ * whole, it is what the other actions are. */
+static bool is_st_action(const struct before *b, const char *text, size_t line)
+{
+	const size_t body = body_of(b, text, line);
+	struct lex lex, end;
+
+	if (!b->pou || !b->pou->sfc || inside_at(text, line) != IN_BODY)
+		return false;
+	lex_init(&lex, text + body, strlen(text + body));
+	lex_next(&lex);
+	end = lex;
+	while (end.token.kind != TOKEN_END && !lex_is(&end, "END_ACTION") && !lex_is(&end, "END_TRANSITION"))
+		lex_next(&end);
+	if (lex_is(&lex, "RUNG") || op_find(lex.token.text, lex.token.len) == OP_LD)
+		return false;
+	lex.end = end.token.text;
+	return st_begins(lex) || (b->pou->st && b->pou->st->count > 0 && b->pou->il.count == 0);
+}
+
+/* What is wanted in the line at @line of a chart, before @to; @bar: after its last bar, or
+ * @line. */
+static struct expect_want expect_sfc(struct before *b, const char *text, size_t line,
+				     size_t bar, size_t to)
+{
+	enum inside in;
+
+	if (bar > line) {
+		expect_tokens(b, text, bar, to);
+		return expect_cell(b);
+	}
+	expect_tokens(b, text, expect_statement(text, line), to);
+	if (b->count && is_sfc_step(&b->token[0]))
+		return step_want(b);
+	if (b->count && st_is(&b->token[0], "TRANSITION"))
+		return transition_want(b);
+	if (b->count && st_is(&b->token[0], "CONTROL"))
+		return control_want(b);
+	in = inside_at(text, line);
+	if (in == IN_STEP)
+		return use_want(b);
+	if (in == IN_BODY)
+		return is_st_action(b, text, line) ? expect_st(b, text, line, to) : expect_list(b);
+	return kinds_want(b->count ? 0 : EXPECT_KEYWORD);
 }
 
 /* Phase#: the values of the enumeration before the cursor's word. */
@@ -1607,13 +1631,15 @@ static void print_call(const struct before *b, const struct word_row *row, const
 static bool find_call(struct before *b, const char *text, size_t at, int line,
 		      struct expect_call *out)
 {
-	const size_t body = body_of(text, expect_line(text, at));
+	const size_t from = expect_line(text, at);
 	const struct word_row *row;
 	struct st_open open;
 	char name[LIMIT_NAME + 1];
+	size_t body;
 
-	b->pou = pou_at(scope_project(b->scope), text, expect_line(text, at), line);
-	if (!b->pou || b->pou->language != LANGUAGE_ST || body > at)
+	b->pou = pou_at(scope_project(b->scope), text, from, line);
+	body = body_of(b, text, from);
+	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !is_st_action(b, text, from)))
 		return false;
 	st_place_find(&b->st, text + body, at - body);
 	open = st_place_open(&b->st);

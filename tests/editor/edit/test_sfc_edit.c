@@ -97,6 +97,9 @@ static void check_texts(void)
 	CHECK(strstr(body(), "Count(P1);") && strstr(body(), "ACTION Count:\n    RUNG\n"));
 	EDIT(sfc_edit_delete_use(edit, chart()->step[1].first_use));
 	CHECK(!strstr(body(), "SET"));
+	CHECK(sfc_doing_read("ACTION Sum ST", &doing) && doing.action && doing.statements);
+	EDIT(sfc_edit_set_use(edit, 0, -1, &doing));
+	CHECK(strstr(body(), "Sum(N);") && strstr(body(), "ACTION Sum:\n    ;\n  END_ACTION\n"));
 }
 
 /* A line of an action and its parts: qualifier, time, name, declaration; or the reason of a
@@ -112,6 +115,7 @@ static void check_doings(void)
 		{ "D T#1s Horn %QX0.5", "D T#1s Horn|Horn %QX0.5" },
 		{ "N AT %QX0.5", "N  N|N AT %QX0.5" }, { "S : BOOL", "N  S|S : BOOL" },
 		{ "ACTION Count", "N  Count|Count" }, { "S ACTION Count", "S  Count|Count" },
+		{ "ACTION Count ST", "N  Count|Count ST" },
 		{ "Z Horn", "! the first word is not a qualifier" },
 		{ "Horn now", "! the first word is not a qualifier" },
 		{ "N a b", "! there are too many words: write a qualifier and a name" }, { "ACTION a b", "! there are too many words: write a qualifier and a name" },

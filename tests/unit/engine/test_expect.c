@@ -126,6 +126,9 @@ static const char *st_at(const char *body, char **call)
 	return seen.text;
 }
 
+/* The same in an action of a chart. */
+#define ACTION "END_PROGRAM\nPROGRAM Other SFC\n  INITIAL_STEP A:\n    Do(N);\n  END_STEP\n  ACTION Do:\n"
+
 static void test_statements(void)
 {
 	static const struct {
@@ -171,6 +174,13 @@ static void test_statements(void)
 		{ "  IF Open THEN Level := \n  IF ^", " Open ", " THEN " },
 		{ "  // IF Open THEN\n  ^", " END_PROGRAM ", " END_IF " },
 		{ "VAR\n  X : ^ END_VAR", " INT ", " IF " },
+		{ ACTION "    Level := 1;\n    ^\n  END_ACTION", " END_ACTION ", " END_PROGRAM " },
+		{ ACTION "    Level := 1;\n    I^\n  END_ACTION", " IF ", " LD " },
+		{ ACTION "    IF Open ^\n  END_ACTION", " THEN ", " Level " },
+		{ ACTION "    IF A.^\n  END_ACTION", " X ", " Open " },
+		{ ACTION "    WHILE Open DO\n      ^\n  END_ACTION", " END_WHILE ", " END_ACTION " },
+		{ ACTION "    Now := ^;\n  END_ACTION", " Filling ", " First " },
+		{ ACTION "    LD Open\n    ^\n  END_ACTION", " AND ", " IF " },
 	};
 
 	for (size_t i = 0; i < sizeof(cases) / sizeof(*cases); i++) {
@@ -197,6 +207,8 @@ static void test_calls(void)
 		{ "  Level := Top((1 + 2), ^", "Top(X : INT, How : Phase)|How : Phase" },
 		{ "  Level := Top((1 + ^", "|" }, { "  Level := Top(1); ^", "|" },
 		{ "  Level := Nothing(^", "|" }, { "  Level := ^", "|" },
+		{ ACTION "    Level := Top(3, ^);\n  END_ACTION", "Top(X : INT, How : Phase)|How : Phase" },
+		{ ACTION "    LD Top(^\n  END_ACTION", "|" },
 	};
 	char *call;
 

@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""chart_text - Structured Text in the actions of a chart, below its sheet."""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from charts import asked, at, on_chart, shape, upon  # noqa: E402
+from desk import A11Y, Editor, check, lines, main, new_file, until  # noqa: E402
+
+MIXER = '''RUNGBOARD 1
+
+PROGRAM Mixer SFC
+  VAR
+    Go    AT %IX0.0 : BOOL;
+    Valve AT %QX0.0 : BOOL;
+    Runs  : INT;
+    Wait  : TON;
+  END_VAR
+
+  INITIAL_STEP Idle:
+  END_STEP
+
+  STEP Fill:
+    Valve(N);
+  END_STEP
+
+  TRANSITION FROM Idle TO Fill := Go; END_TRANSITION
+
+  TRANSITION FROM Fill TO Idle := Runs >= 3; END_TRANSITION
+END_PROGRAM
+'''
+COUNTED = MIXER.replace('    Valve(N);\n', '    Valve(N);\n    Count(N);\n').replace('END_PROGRAM', '''
+  ACTION Count:
+    Runs := Runs + 1;
+    IF NOT Fill.X THEN
+      Runs := 0;
+    END_IF;
+    Wait(IN := Fill.X, PT := T#20ms);
+  END_ACTION
+END_PROGRAM''')
+
+
+def text_of(editor):
+    """The text, not its heading."""
+    return until(lambda: [node for node in editor.all('Text of the program') if node.has(12)],
+                 'the focus in the text')[0]
+
+
+def offered(editor, word):
+    until(lambda: editor.all(word, 'label') or editor.all(word, 'list item'), 'the offer of ' + word)
+
+
+def good(editor):
+    until(lambda: not [node for node in editor.all('error', 'label') if re.fullmatch('[0-9]+ errors?.*', node.name)],
+          'no errors')
+
+
+def written(screen):
+    """an action in Structured Text is made, written with offers and told mistakes, and undone, by keyboard"""
+    path = new_file(screen, MIXER)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.keys('Home', 'Down', 'Down')
+    at(editor, 'Step Fill')
+    asked(editor, 'F9', 'ACTION Count ST')
+    shape(editor, 'Fill does: N Count')
+    editor.click(shape(editor, 'Fill does: N Count'), count=2)
+    view = text_of(editor)
+    until(lambda: '  ACTION Count:\n    ;\n  END_ACTION\n' in view.text(), 'the new action')
+    editor.keys('End', 'BackSpace')
+    editor.type('IF')
+    offered(editor, 'whole statement')
+    editor.shot('chart-text-offer')
+    editor.keys('Return')
+    until(lambda: '    IF  THEN\n      \n    END_IF;' in view.text(), 'the whole statement')
+    editor.type('NOT Fill.X')
+    editor.keys('Tab')
+    editor.type('Runs = 0;')
+    editor.says('"Runs =" compares and stores nothing')
+    editor.shot('chart-text-wrong')
+    editor.keys('ctrl+Left', 'ctrl+Left', 'ctrl+Left')
+    editor.type(':')
+    until(lambda: 'Runs := 0;' in view.text(), 'the mended statement')
+    editor.keys('Down', 'End', 'Return')
+    editor.type('Wait(')
+    editor.find('Wait(IN : BOOL, PT : TIME, Q => BOOL, ET => TIME)', 'label')
+    editor.type('IN := Fill.X, PT := T#20ms);')
+    editor.keys('Return')
+    editor.type('Runs := Runs + 1;')
+    until(lambda: 'Runs := Runs + 1;\n  END_ACTION' in view.text(), 'the last statement')
+    good(editor)
+    text = editor.save(path)
+    assert '''  ACTION Count:
+    IF NOT Fill.X THEN
+      Runs := 0;
+    END_IF;
+    Wait(IN := Fill.X, PT := T#20ms);
+    Runs := Runs + 1;
+  END_ACTION
+''' in text, text
+    check(path)
+    assert lines(path, '@print Fill.X Runs\n.\nGo=1\nGo=0\n. x3\n')[-2:] == ['Runs=1', 'Runs=1']
+    for _ in range(60):
+        editor.keys('ctrl+z')
+    until(lambda: 'Count' not in view.text(), 'the chart without the action')
+    assert editor.save(path) == MIXER
+
+
+def described(view):
+    return str(view.editor.bus.call_blocking(view.editor.name, view.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                             (A11Y + 'Accessible', 'Description')))
+
+
+def onto(editor, view, word):
+    """The cursor in the first line with that text."""
+    line = view.text()[:view.text().index(word)].count('\n')
+    editor.keys('ctrl+Home', *['Down'] * line, 'End')
+
+
+def watched(screen):
+    """while simulating, lines of an action have values and say what ran; a condition says why; dark, too"""
+    for env in {}, {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'}:
+        editor = Editor(screen, new_file(screen, COUNTED), **env)
+        on_chart(editor)
+        editor.click(shape(editor, 'Fill does: N Count'), count=2)
+        view = text_of(editor)
+        editor.keys('ctrl+t')
+        editor.says('scan 1')
+        onto(editor, view, 'Runs := Runs + 1')
+        until(lambda: 'value 0, result not run' in described(view), 'a line that did not run')
+        until(lambda: 'value 0, result not run' in described(view), 'a line that did not run')
+        editor.click(editor.find('Go, %IX0.0', 'check box'))
+        editor.keys('ctrl+t', 'ctrl+t')
+        editor.says('scan 3')
+        editor.click(view)
+        until(lambda: view.has(12), 'the focus in the text')
+        onto(editor, view, 'Runs := Runs + 1')
+        until(lambda: 'value 2' in described(view) and 'not run' not in described(view), 'a line that ran')
+        onto(editor, view, 'IF NOT Fill.X')
+        until(lambda: 'value TRUE, result FALSE' in described(view), 'the condition')
+        editor.shot('chart-text-run' + ('-dark' if env else ''))
+        editor.keys('ctrl+F12')
+        editor.says('FALSE: NOT Fill.X is not true')
+        editor.finish()
+
+
+def rename(editor, text):
+    line = until(editor.asked, 'the new name')[0]
+    until(lambda: line.has(12), 'the focus in the line')
+    editor.keys('ctrl+a')
+    editor.type(text)
+    editor.keys('Return')
+    until(lambda: not editor.all(role='dialog'), 'the dialog to be gone')
+
+
+def renamed(screen):
+    """a step that gets another name has it in the text, too; F2 in the text renames a variable everywhere"""
+    path = new_file(screen, COUNTED)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.click(shape(editor, 'Fill does: N Count'), count=2)
+    view = text_of(editor)
+    editor.click(upon(editor, shape(editor, 'Step Fill')))
+    at(editor, 'Step Fill')
+    editor.keys('F2')
+    rename(editor, 'Pour')
+    until(lambda: 'IF NOT Pour.X THEN' in view.text() and 'IN := Pour.X' in view.text(), 'the new name')
+    text = editor.save(path)
+    assert 'STEP Pour:' in text and 'FROM Idle TO Pour' in text and 'Fill' not in text, text
+    check(path)
+
+
+if __name__ == '__main__':
+    main([written, watched, renamed])
