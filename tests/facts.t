@@ -205,7 +205,7 @@ for (grep { !/^\|-/ } split /\n/, $table) {
 		is("$length $each", "$fixed " . ($plus ? $times // 1 : 0), "docs/code-image.md: the operands of $operation");
 	}
 }
-fact('docs/code-image.md', qr/have (\w+) more operands at the end/, ($length{AGET} =~ /(\d+) \* \(n >> 1\)/)[0]);
+fact('docs/code-image.md', qr/have (\w+) more operands at the end/, ($length{AGET} =~ /(\d+) \* \(n >> 1\b/)[0]);
 
 # ---- words ----
 my $words = decode_json(scalar `$ladder words --json`);

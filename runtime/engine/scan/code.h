@@ -37,7 +37,9 @@
  *                               there is one (else dst = 0, counted). base: typed,
  *                               of the first element, whose index is low (signed);
  *                               stride: bytes to the next
- *                               n 1: base and stride count bits of the areas
+ *                               n 1: base and stride count bits of the areas;
+ *                               CODE_KEEP: without an element dst is as it was;
+ *                               CODE_SHORT …: what the operands are anyway
  *   APUT   en, ok, src, base, index, low, count, stride   likewise; else nothing
  *                               Both: for each further index four more words, index,
  *                               low, count, stride; how many in n from bit 1 on
@@ -232,6 +234,13 @@ struct program {
 	bool classic;           /* set by the loader of a ClassicLadder project: */
 };
 
+/* In n of AGET and APUT. */
+#define CODE_ACCESS 31u     /* mask of the rest                                   */
+#define CODE_KEEP   32u     /* of AGET                                            */
+#define CODE_SHORT  64u     /* one index, an INT; both values of one type of 2 bytes */
+#define CODE_LONG   128u    /* with it: of 4 bytes                                */
+#define CODE_WIDE   256u    /* with it: the index is a DINT                       */
+
 #define CODE_DIMENSION 4u /* words of an index: its operand, low, count, stride */
 
 /* n of REAL, DINT, INT: the functions of these names; no MOD of REAL. */
@@ -239,6 +248,7 @@ enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_MOD, MATH_COUNT };
 #define MATH_OF(n)   ((n) & 7u)
 #define MATH_ENABLED 8u  /* flag beside it: en is tested; else it is CODE_TRUE    */
 #define MATH_LEFT    16u /* flag, not with MATH_ENABLED: dst = a if there is no result */
+#define MATH_LIKELY  32u /* flag, with MATH_ENABLED: en is hardly ever FALSE, so a branch is faster */
 
 /**
  * code_open - verifies an image and gives access to it

@@ -178,7 +178,7 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 		give_bytes(visit, at[0], at[2], true);
 		return;
 	case VM_AGET:
-	case VM_APUT: visit_element(visit, at, n, op == VM_APUT); return;
+	case VM_APUT: visit_element(visit, at, n & CODE_ACCESS, op == VM_APUT); return;
 	case VM_ABLOCK: visit_block(visit, at, n); return;
 	case VM_EACH:
 		give_bytes(visit, at[1], n, false);

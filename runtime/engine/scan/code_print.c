@@ -88,8 +88,9 @@ static int print_dimensions(const uint32_t *at, uint32_t count, char *out, size_
 /* AGET, APUT, ABLOCK. */
 static int print_element(const uint32_t *code, char *out, size_t size)
 {
-	const uint32_t op = *code & 0xff, n = *code >> 8, *at = code + 1;
-	const bool block = op == VM_ABLOCK;
+	const uint32_t op = *code & 0xff, *at = code + 1;
+	const bool block = op == VM_ABLOCK, keep = op == VM_AGET && *code >> 8 & CODE_KEEP;
+	const uint32_t n = *code >> 8 & CODE_ACCESS;
 	char array[LIMIT_INDICES * 64], other[40], element[64];
 
 	print_dimensions(at + (block ? 5 : 4),
@@ -104,9 +105,9 @@ static int print_element(const uint32_t *code, char *out, size_t size)
 					at[0], element, array, other, at[1]);
 	}
 	if (op == VM_AGET)
-		return snprintf(out, size, "aget    en b%u %s%s%s -> %s ok b%u", at[0],
+		return snprintf(out, size, "aget    en b%u %s%s%s -> %s%s ok b%u", at[0],
 				n & 1 ? "bit " : "", typed(at[3]).text, array,
-				typed(at[2]).text, at[1]);
+				typed(at[2]).text, keep ? " or keep" : "", at[1]);
 	return snprintf(out, size, "aput    en b%u %s -> %s%s%s ok b%u", at[0],
 			typed(at[2]).text, n & 1 ? "bit " : "", typed(at[3]).text,
 			array, at[1]);

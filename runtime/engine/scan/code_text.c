@@ -63,7 +63,7 @@ uint32_t code_words(const uint32_t *code)
 		return 2;
 	case VM_AGET:
 	case VM_APUT:
-		return 9 + 4 * (n >> 1);
+		return 9 + 4 * (n >> 1 & 15u);
 	case VM_ABLOCK:
 		return 10 + 4 * (n >> 1);
 	case VM_EACH:
@@ -283,6 +283,21 @@ static bool check_ablock(struct verifier *v, const uint32_t *at, uint32_t n)
 	return !grid.failed;
 }
 
+#define CODE_SHORTS (CODE_SHORT | CODE_LONG | CODE_WIDE)
+#ifndef RUNGBOARD_SMALL
+/* The VM believes these marks; on small boards it has no use for them. */
+static bool check_short(const uint32_t *at, uint32_t n)
+{
+	const uint32_t type = CODE_TYPE(at[3]), marks = n & CODE_SHORTS;
+
+	if (!(marks & CODE_SHORT))
+		return !marks;
+	return !(n & CODE_ACCESS) && CODE_TYPE(at[2]) == type && verify_is_type(type) &&
+	       iec_type_row((enum iec_type)type)->size == (n & CODE_LONG ? 4 : 2) &&
+	       CODE_TYPE(at[4]) == (n & CODE_WIDE ? IEC_DINT : IEC_INT);
+}
+#endif
+
 /* AGET and APUT. `ok` is written first or last, so that an image that uses one place
  * for it and the element does no harm. */
 static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
@@ -290,8 +305,12 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 {
 	bool put = op == VM_APUT;
 	uint32_t type = CODE_TYPE(at[3]), value = CODE_TYPE(at[2]);
-	uint32_t more = n >> 1;
+	uint32_t more;
 
+	WITH_POINTERS(if (!check_short(at, n))
+		return false;)
+	n &= ~(put ? CODE_SHORTS : CODE_SHORTS | CODE_KEEP);
+	more = n >> 1;
 	if ((n & 1 && more) || !reads_bool(v, at[0]) || !writes_bool(v, at[1]) ||
 	    !check_dimensions(v, at + 4, 1 + more))
 		return false;
@@ -348,7 +367,8 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 	bool always = at[0] == CODE_TRUE_AT(&v->program->areas);
 
 	return MATH_OF(n) < (type == IEC_REAL ? MATH_MOD : MATH_COUNT) &&
-	       n < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
+	       (n & ~MATH_LIKELY) < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
+	       (n & (MATH_LIKELY | MATH_ENABLED)) != MATH_LIKELY &&
 	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }

@@ -240,7 +240,7 @@ static bool poke(struct vm *vm, const uint32_t *at)
 }
 #endif
 
-/* ---- the most frequent element: one index, INT or DINT, and values of one type ----
+/* ---- the most frequent element: CODE_SHORT ----
  * Left out where room is short: the general way has the same result. */
 
 #ifdef __OPTIMIZE_SIZE__
@@ -251,61 +251,50 @@ static bool poke(struct vm *vm, const uint32_t *at)
 #define INLINE inline __attribute__((always_inline))
 #endif
 
-/* Is the element at *@where? False: there is none, or it is another kind. */
-static inline bool find_often(const uint8_t *m, const uint32_t *at, uint32_t n,
-			      uint32_t *where)
+/* Is it such an element, at *@where? False: there is none, or it is another kind. No element has
+ * a number above 2^24, so a difference that wraps is none. */
+static INLINE bool find_short(const uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *where)
 {
-	uint32_t index = at[ELEMENT + INDEX], type = CODE_TYPE(index);
+	const uint8_t *index = m + CODE_OFFSET(at[ELEMENT + INDEX]);
 	uint64_t element;
 
-	if (!HAS_OFTEN || n || CODE_TYPE(at[VALUE]) != CODE_TYPE(at[BASE]) || !m[CODE_OFFSET(at[EN])] ||
-	    (type != IEC_INT && type != IEC_DINT))
+	if (!HAS_OFTEN || !LIKELY(n & CODE_SHORT))
 		return false;
-	element = (uint64_t)((int64_t)whole(m + CODE_OFFSET(index), type == IEC_INT ? 2 : 4) -
-			     (int32_t)at[ELEMENT + LOW]);
+	if (n & CODE_WIDE)
+		element = (uint64_t)((int64_t)whole(index, 4) - (int32_t)at[ELEMENT + LOW]);
+	else
+		element = (uint32_t)whole(index, 2) - at[ELEMENT + LOW];
 	*where = CODE_OFFSET(at[BASE]) + (uint32_t)element * at[ELEMENT + STRIDE];
-	return element < at[ELEMENT + COUNT];
+	return LIKELY(m[at[EN]]) && LIKELY(element < at[ELEMENT + COUNT]);
 }
 
-/* A number of 2 or 4 bytes; false: another one. */
-static inline bool copy_often(uint8_t *to, const uint8_t *from, uint32_t type)
+static INLINE void copy_short(uint8_t *to, const uint8_t *from, uint32_t n)
 {
-	switch (type) {
-	case IEC_INT:
-	case IEC_UINT:
-	case IEC_WORD:
-		memcpy(to, from, 2);
-		return true;
-	case IEC_DINT:
-	case IEC_UDINT:
-	case IEC_DWORD:
-	case IEC_REAL:
+	if (n & CODE_LONG)
 		memcpy(to, from, 4);
-		return true;
-	default:
-		return false;
-	}
+	else
+		memcpy(to, from, 2);
 }
 
 /* AGET and APUT of it; false: it is another one, or there is none. */
-static inline bool get_often(uint8_t *m, const uint32_t *at, uint32_t n)
+static INLINE bool get_short(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where;
 
-	if (!find_often(m, at, n, &where) ||
-	    !copy_often(m + CODE_OFFSET(at[VALUE]), m + where, CODE_TYPE(at[VALUE])))
+	if (!find_short(m, at, n, &where))
 		return false;
+	copy_short(m + CODE_OFFSET(at[VALUE]), m + where, n);
 	m[at[OK]] = 1;
 	return true;
 }
 
-static inline bool put_often(uint8_t *m, const uint32_t *at, uint32_t n)
+static INLINE bool put_short(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where;
 
-	if (!find_often(m, at, n, &where) ||
-	    !copy_often(m + where, m + CODE_OFFSET(at[VALUE]), CODE_TYPE(at[VALUE])))
+	if (!find_short(m, at, n, &where))
 		return false;
+	copy_short(m + where, m + CODE_OFFSET(at[VALUE]), n);
 	m[at[OK]] = 1;
 	return true;
 }
@@ -517,6 +506,12 @@ void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n)
  * their own, which need no struct fn_args. Results are the same bits as those of the
  * functions. No branch depends on a value, as values change from scan to scan. */
 
+/* Does it run without a look at the old value? */
+static inline bool runs_straight(const uint8_t *m, const uint32_t *pc, uint32_t n)
+{
+	return HAS_OFTEN && (!(n & MATH_ENABLED) || (n & MATH_LIKELY && LIKELY(m[pc[0]])));
+}
+
 static float single(const uint8_t *at)
 {
 	float value;
@@ -545,7 +540,7 @@ static INLINE uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 
 	memcpy(&bits, &out, sizeof(bits));
 	good = bits << 1 < 0xff000000u; /* finite */
-	if (HAS_OFTEN && LIKELY(!(n & MATH_ENABLED))) {
+	if (LIKELY(runs_straight(m, pc, n))) {
 		m[pc[1]] = (uint8_t)good;
 		if (LIKELY(good))
 			memcpy(m + pc[2], &bits, sizeof(bits));
@@ -600,7 +595,7 @@ static INLINE uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, siz
 	uint32_t some = compute_whole(MATH_OF(n), a, whole(m + pc[4], size), low, &out);
 	uint32_t good = some & fits(out, size), en;
 
-	if (HAS_OFTEN && !(n & MATH_ENABLED)) {
+	if (runs_straight(m, pc, n)) {
 		m[pc[1]] = (uint8_t)good;
 		if (LIKELY(some))
 			memcpy(m + pc[2], &out, size); /* its low bytes: little-endian */
@@ -845,11 +840,11 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (!LIKELY(!run_whole(m, pc + 1, n, 2)))
 				count_error(vm, pc, base);
 			pc += 6;
-			if (NEXT_OFTEN(pc, VM_JMP))
-				goto jump;
-			break;
+			n = *pc >> 8;
+			if (!NEXT_OFTEN(pc, VM_CMP_INT))
+				break;
+			/* fall through */
 		case VM_CMP_INT:
-		compare_int:
 			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 2),
 						       whole(m + pc[2], 2)));
 			if (NEXT_OFTEN(pc, VM_JMPC))
@@ -859,9 +854,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (!LIKELY(!run_whole(m, pc + 1, n, 4)))
 				count_error(vm, pc, base);
 			pc += 6;
-			if (NEXT_OFTEN(pc, VM_JMP))
-				goto jump;
-			break;
+			n = *pc >> 8;
+			if (!NEXT_OFTEN(pc, VM_CMP_DINT))
+				break;
+			/* fall through */
 		case VM_CMP_DINT:
 			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 4),
 						       whole(m + pc[2], 4)));
@@ -912,7 +908,6 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 2;
 			break;
 		case VM_JMP:
-		jump:
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
@@ -922,8 +917,6 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			/* Back to EACH, for the next active step. */
 			if ((*pc & 0xff) == VM_EACH)
 				goto each;
-			if (NEXT_OFTEN(pc, VM_CMP_INT))
-				goto compare_int;
 			break;
 		case VM_JMPC:
 		jump_if:
@@ -942,23 +935,27 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto each;
 			break;
 		case VM_AGET:
-			if (LIKELY(get_often(m, pc + 1, n))) {
+			if (LIKELY(get_short(m, pc + 1, n))) {
 				pc += 9;
 				break;
 			}
+			found = n & CODE_KEEP;
+			n &= CODE_ACCESS;
 			m[pc[2]] = m[pc[1]] && get_element(m, pc + 1, n);
 			if (!m[pc[2]]) {
-				clear_value(m, pc + 1);
+				if (!found)
+					clear_value(m, pc + 1);
 				if (m[pc[1]])
 					count_error(vm, pc, base);
 			}
 			pc += 9 + 4 * (n >> 1);
 			break;
 		case VM_APUT:
-			if (LIKELY(put_often(m, pc + 1, n))) {
+			if (LIKELY(put_short(m, pc + 1, n))) {
 				pc += 9;
 				break;
 			}
+			n &= CODE_ACCESS;
 			m[pc[2]] = m[pc[1]] && put_element(m, pc + 1, n);
 			if (m[pc[1]] && !m[pc[2]])
 				count_error(vm, pc, base);

@@ -500,7 +500,9 @@ static bool begins(const struct list *list)
 
 	if (list->at == 0)
 		return true;
-	return line->rung ? line->rung != before->rung || before->kind == IL_LABEL :
+	if (before->kind == IL_LABEL)
+		return line->rung || line->line;
+	return line->rung ? line->rung != before->rung :
 			    line->line != 0 && line->line != before->line;
 }
 
@@ -527,7 +529,7 @@ static void close_point(struct assembler *as)
 	as->open_point = -1;
 }
 
-static void make_point(struct list *list, uint32_t rung, uint32_t line)
+static void make_point(struct list *list, uint32_t rung, uint32_t line, bool loop)
 {
 	struct assembler *as = list->as;
 	struct point *point;
@@ -539,7 +541,7 @@ static void make_point(struct list *list, uint32_t rung, uint32_t line)
 		return;
 	}
 	as->open_point = as->point_count - 1;
-	*point = (struct point){ unit_number(list), rung, line, (uint32_t)as->code.count, 0 };
+	*point = (struct point){ unit_number(list), rung, line, (uint32_t)as->code.count, 0, loop };
 	emit_op(as, VM_POINT, 0);
 }
 
@@ -549,15 +551,17 @@ static void place_point(struct list *list, uint32_t rung, uint32_t line)
 {
 	struct assembler *as = list->as;
 	const struct point *next;
+	const bool loop = list->at > 0 && begins_loop(list);
 
 	if (as->text == &as->code) {
-		if (as->open_point < 0 || begins_loop(list) ||
+		if (as->open_point < 0 || loop ||
 		    (uint32_t)as->code.count - as->point[as->open_point].at >= POINT_APART)
-			make_point(list, rung, line);
+			make_point(list, rung, line, loop);
 		return;
 	}
 	next = as->open_point < 0 ? NULL : &as->point[as->open_point];
-	if (!next || next->unit != unit_number(list) || next->rung != rung || next->line != line)
+	if (!next || next->unit != unit_number(list) || next->rung != rung || next->line != line ||
+	    next->loop != loop)
 		return;
 	emit_op(as, VM_POINT, next->words);
 	as->open_point = as->open_point + 1 < as->point_count ? as->open_point + 1 : -1;
@@ -603,6 +607,8 @@ static void assemble_op(struct list *list, const struct il_line *line)
 		list_flow(list, line);
 		break;
 	case OP_CAL:
+		if (begins_loop(list))
+			begin_statement(list);
 		list_cal(list);
 		break;
 	case OP_STP:
@@ -918,6 +924,8 @@ static void assemble_one(struct list *list)
 		list_label(list, line);
 		break;
 	case IL_CALL:
+		if (begins_loop(list))
+			begin_statement(list);
 		list_call(list);
 		break;
 	case IL_EACH:

@@ -111,7 +111,7 @@ struct result {
 
 /* A safe point: before this line of a unit; its word in CODE_TEXT, words up to the next one.
  * The watched section has the same ones. */
-struct point { int unit; uint32_t rung, line, at, words; };
+struct point { int unit; uint32_t rung, line, at, words; bool loop; };
 #define POINT_APART 64u /* words of code from one to the next, at least         */
 
 struct text_key { const char *text; size_t len; uint32_t offset; };

@@ -359,6 +359,81 @@ static void emit_call(struct list *list, const struct word_row *row, enum word w
 		as->open_bit = at + ((as->text->word[at] & 0xff) == VM_FN ? 3 : 2);
 }
 
+/* ---- MOVE from or to an element ---- */
+
+/* The input of a MOVE and where it goes, both values of one type that need no more than a copy. */
+struct moved { const struct meaning *in, *out, *eno; int eno_line; };
+
+static bool find_moved(struct list *list, const struct word_row *row, enum word word,
+		       struct moved *moved)
+{
+	*moved = (struct moved){ .in = NULL };
+	if (function_of(row, word) != FN_MOVE)
+		return false;
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		const struct meaning *m = list_meaning(list, arg->operand);
+		const char *pin = pin_text(list, arg);
+
+		if (strcasecmp(pin, "ENO") == 0) {
+			moved->eno = m;
+			moved->eno_line = i;
+		} else if (strcasecmp(pin, "OUT") == 0) {
+			moved->out = m;
+		} else if (strcasecmp(pin, "EN") != 0) {
+			moved->in = m;
+		}
+	}
+	return moved->in && moved->out && moved->out->type != IEC_NONE &&
+	       moved->out->type != IEC_BOOL && moved->out->type != IEC_STRING &&
+	       !moved->in->through && !moved->out->through;
+}
+
+/* An element whose index is found out in the scan goes to a plain value. */
+static bool gets_element(const struct moved *moved)
+{
+	return meaning_is_indexed(moved->in) && moved->in->type == moved->out->type &&
+	       !meaning_is_checked(moved->out);
+}
+
+/* A value, or another element, goes to such an element. */
+static bool puts_element(const struct list *list, const struct moved *moved)
+{
+	const struct meaning *in = moved->in;
+
+	return meaning_is_indexed(moved->out) &&
+	       (in->kind == MEANING_LITERAL ? in->type == IEC_NONE || in->type == moved->out->type :
+		in->type == moved->out->type) && list->types[list->at] == moved->out->type;
+}
+
+/* A MOVE that AGET or APUT does alone; false: it is another one. */
+static bool move_element(struct list *list, const struct word_row *row, enum word word)
+{
+	struct target eno = { .beside = true };
+	struct moved moved;
+	struct spot spot;
+	struct call call = { .en = TRUE_SLOT };
+	uint32_t from;
+
+	if (!find_moved(list, row, word, &moved) ||
+	    !(gets_element(&moved) || puts_element(list, &moved)))
+		return false;
+	list->now.kind = RESULT_NONE; /* read for the last time here */
+	read_en(list, &call);
+	if (gets_element(&moved)) {
+		spot = layout_spot(list->as, moved.out);
+		eno.slot = list_fetch_to(list, moved.in, call.en,
+					 CODE_OPERAND(spot.type, spot.offset));
+	} else {
+		from = read_input(list, moved.in, moved.out->type, &call);
+		eno.slot = list_deposit(list, moved.out, call.en, from);
+	}
+	eno.m = moved.eno;
+	if (moved.eno)
+		finish_at(list, &eno, moved.eno_line);
+	return true;
+}
+
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -374,6 +449,8 @@ void list_call(struct list *list)
 		list_own_call(list);
 		return;
 	}
+	if (move_element(list, row, word))
+		return;
 	list->now.kind = RESULT_NONE; /* read for the last time here */
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);

@@ -71,7 +71,19 @@ static void emit_through(struct list *list, enum vm_op op, const struct meaning 
 	emit(list->as, m->opens ? (uint32_t)m->open[0].array.low : 0);
 }
 
-static void emit_value(struct list *list, enum vm_op op, const struct meaning *m,
+/* What the VM may know of an access with one index; types of the values, and of the index. */
+static uint32_t shortness(uint32_t value, uint32_t base, uint32_t index)
+{
+	const uint32_t size = iec_type_row((enum iec_type)base)->size;
+	const bool wide = index == IEC_DINT;
+
+	if (value != base || base == IEC_STRING || (size != 2 && size != 4) || (!wide && index != IEC_INT))
+		return 0;
+	return CODE_SHORT | (size == 4 ? CODE_LONG : 0) | (wide ? CODE_WIDE : 0);
+}
+
+/* @flags: CODE_KEEP or 0. */
+static void emit_value(struct list *list, enum vm_op op, uint32_t flags, const struct meaning *m,
 		       const uint32_t operand[3])
 {
 	struct spot spot = layout_spot(list->as, m);
@@ -84,7 +96,10 @@ static void emit_value(struct list *list, enum vm_op op, const struct meaning *m
 		return;
 	}
 	indices = indices_of(list, m);
-	emit_head(list, op, spot.packed, m->opens + ranged, operand[0], operand[1]);
+	if (!spot.packed && m->opens + ranged == 1)
+		flags |= shortness(CODE_TYPE(operand[2]), m->type,
+				   CODE_TYPE(m->opens ? indices.operand[0] : operand[2]));
+	emit_head(list, op, flags | spot.packed, m->opens + ranged, operand[0], operand[1]);
 	emit(list->as, operand[2]);
 	emit(list->as, CODE_OPERAND(m->type, base));
 	emit_indices(list, m, &indices, spot.packed);
@@ -133,10 +148,19 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 	     layout_tail(list->as, RUN_VALUES, m->type);
 	*ok = scratch_new(list->as);
 	at = list->as->text->count;
-	emit_value(list, VM_AGET, m,
+	emit_value(list, VM_AGET, 0, m,
 		   (uint32_t[]){ en, *ok, CODE_OPERAND(m->type, to) });
 	list->as->open_number = at + 3;
 	return CODE_OPERAND(m->type, to);
+}
+
+uint32_t list_fetch_to(struct list *list, const struct meaning *m, uint32_t en, uint32_t to)
+{
+	const uint32_t ok = scratch_new(list->as);
+
+	list_protect(list, CODE_OFFSET(to), 1);
+	emit_value(list, VM_AGET, CODE_KEEP, m, (uint32_t[]){ en, ok, to });
+	return ok;
 }
 
 /* @from as a value of @type, in a place of its own. */
@@ -170,7 +194,7 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		emit_whole(list, m, true,
 			   (uint32_t[]){ en, ok, CODE_OFFSET(from) });
 	else
-		emit_value(list, VM_APUT, m, (uint32_t[]){ en, ok, from });
+		emit_value(list, VM_APUT, 0, m, (uint32_t[]){ en, ok, from });
 	return ok;
 }
 
@@ -180,7 +204,8 @@ void list_keep_range(struct list *list, const struct var_range *range, uint32_t 
 	const uint32_t ok = scratch_new(list->as);
 
 	list_protect(list, CODE_OFFSET(to), iec_type_row((enum iec_type)CODE_TYPE(to))->size);
-	emit_head(list, VM_APUT, 0, 1, CODE_TRUE_AT(list->as->areas), ok);
+	emit_head(list, VM_APUT, shortness(CODE_TYPE(from), CODE_TYPE(to), CODE_TYPE(from)), 1,
+		  CODE_TRUE_AT(list->as->areas), ok);
 	emit(list->as, from);
 	emit(list->as, to);
 	emit_range(list, range, from);

@@ -86,7 +86,8 @@ void list_emit_fn(struct list *list, const struct fn_code *fn)
 	list_place(list);
 	if (is_short) {
 		emit_op(as, op_of(fn->type), math |
-			(fn->en != CODE_TRUE_AT(as->areas) ? MATH_ENABLED :
+			(fn->en != CODE_TRUE_AT(as->areas) ?
+			 MATH_ENABLED | (list->pou->st ? MATH_LIKELY : 0) :
 			 fn->left && !has_always_result(fn->fn, fn->type) ? MATH_LEFT : 0));
 	} else {
 		emit_op(as, VM_FN, (uint32_t)fn->type | fn->count << 8 |

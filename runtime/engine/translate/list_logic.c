@@ -217,8 +217,12 @@ void list_flow(struct list *list, const struct il_line *line)
 	uint32_t slot = 0;
 
 	if (line->modifiers & MOD_C) {
+		const enum result_kind kind = list->now.kind;
+
 		condition = list_now_bits(list);
-		slot = list_slot(list, &condition);
+		list->now.kind = RESULT_NONE; /* nothing else reads what the last instruction makes */
+		slot = list_keep(list, &condition);
+		list->now.kind = kind;
 		list->now.bits = bits_leaf(list->as, slot);
 	}
 	list_place(list);

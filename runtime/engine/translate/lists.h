@@ -125,6 +125,9 @@ void list_invert(struct list *list, enum iec_type type);
  */
 uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 		    uint32_t *ok);
+/** list_fetch_to - the same to @to, a typed word of the same type, which stays as it was if there
+ * is none; returns @ok. Not for a structure, an array, or what a pointer leads to. */
+uint32_t list_fetch_to(struct list *list, const struct meaning *m, uint32_t en, uint32_t to);
 /** list_deposit - stores @from, a typed word, in such an element while @en. Returns the BOOL
  * that tells whether it exists. */
 uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,

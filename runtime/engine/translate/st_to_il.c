@@ -374,6 +374,14 @@ static void leave_for(struct st_il *s, const struct st_open *open)
 	here(s, round);
 }
 
+/* Does the end of the loop compare itself, without a jump to its beginning? */
+static bool tests_below(struct st_il *s, const struct st_open *open)
+{
+	int64_t by;
+
+	return !open->bits && (!open->by || literal_value(s, open->by, IEC_LINT, &by));
+}
+
 /* The lowest or highest value that the variable can have, as a constant of @type. */
 static uint32_t for_limit(struct st_il *s, const struct st_open *open, enum iec_type type, bool high,
 			  union iec_value less)
@@ -497,8 +505,13 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 	open->top = new_label(s);
 	open->again = new_label(s);
 	at_item(s);
-	here_again(s, open->top);
-	leave_for(s, open);
+	if (tests_below(s, open)) {
+		leave_for(s, open);
+		here_again(s, open->top);
+	} else {
+		here_again(s, open->top);
+		leave_for(s, open);
+	}
 }
 
 /* Leaves the loop if a step beyond @limit would be needed. */
@@ -542,9 +555,25 @@ static void leave_at_limit(struct st_il *s, const struct st_open *open, enum iec
 	here(s, step);
 }
 
+/* Behind the step: the next round, unless the variable is beyond the end. */
+static void next_round(struct st_il *s, const struct st_open *open)
+{
+	int64_t by = 1;
+
+	if (!tests_below(s, open)) {
+		jump(s, 0, open->top);
+		return;
+	}
+	if (open->by)
+		literal_value(s, open->by, IEC_LINT, &by);
+	ld_emit(&s->ld, OP_LD, 0, open->variable);
+	compare(s, by < 0 ? FN_GE : FN_LE, open->to);
+	jump(s, MOD_C, open->top);
+}
+
 static void close_for(struct st_il *s, const struct st_open *open)
 {
-	jump(s, 0, open->top);
+	next_round(s, open);
 	here(s, open->out);
 	level_back(s, &open->level);
 	s->depth--;

@@ -80,6 +80,18 @@ static const char grids[] =
 	"  MOVE(IN := Z[2], OUT => Z[i])\n"
 	"END_PROGRAM\n";
 
+/* Accesses that the VM has a shorter way for. */
+static const char shorts[] =
+	"VAR\n"
+	"  T : ARRAY[1..4] OF INT := [7, 2(8)];\n  D : ARRAY[-1..2] OF DINT;\n"
+	"  R : ARRAY[0..2] OF REAL;\n  L : ARRAY[0..2] OF LINT;\n"
+	"  h : INT;\n  w : DINT;\n  s : SINT;\n  x : INT;\n  y : DINT;\n  z : REAL;\n  v : LINT;\n"
+	"END_VAR\n"
+	"PROGRAM Main ST\n"
+	"  x := T[h];\n  T[w] := x;\n  y := D[w];\n  z := R[h];\n"
+	"  x := T[s];\n  v := L[h];\n  y := T[h];\n  T[h + 1] := T[w];\n"
+	"END_PROGRAM\n";
+
 /* Pointers to values of several kinds. */
 static const char pointers[] =
 	"VAR\n"
@@ -348,6 +360,43 @@ static void test_grids(void)
 	CHECK(refuses(VM_ABLOCK, 0, 6, areas->size) && refuses(VM_ABLOCK, 0, 0, VM_ABLOCK | 18u << 8));
 }
 
+static uint32_t marks_of(enum vm_op op, int number)
+{
+	return *find(op, number) >> 8;
+}
+
+static bool refuses_marks(enum vm_op op, int number, uint32_t n)
+{
+	return refuses(op, number, 0, (uint32_t)op | n << 8);
+}
+
+static void test_shorts(void)
+{
+	enum { HALF = CODE_SHORT, FULL = CODE_SHORT | CODE_LONG, WIDE = CODE_SHORT | CODE_WIDE };
+
+	CHECK_AS(let_in(), "the unchanged image is accepted");
+	CHECK(marks_of(VM_AGET, 0) == (HALF | CODE_KEEP) && marks_of(VM_APUT, 0) == WIDE);
+	CHECK(marks_of(VM_AGET, 1) == (FULL | CODE_WIDE | CODE_KEEP) &&
+	      marks_of(VM_AGET, 2) == (FULL | CODE_KEEP));
+	CHECK_AS(marks_of(VM_AGET, 3) == CODE_KEEP && marks_of(VM_AGET, 4) == CODE_KEEP,
+		 "a SINT as index and values of 8 bytes have no shorter way");
+	CHECK_AS(marks_of(VM_AGET, 5) == HALF, "a value that is widened later is read as it is");
+	CHECK(marks_of(VM_AGET, 6) == WIDE && marks_of(VM_APUT, 1) == HALF);
+	CHECK_AS(!refuses_marks(VM_AGET, 0, HALF) && !refuses_marks(VM_AGET, 0, CODE_KEEP) &&
+		 !refuses_marks(VM_APUT, 0, 0), "no mark is needed");
+	CHECK_AS(refuses_marks(VM_AGET, 0, WIDE) && refuses_marks(VM_APUT, 0, HALF),
+		 "an index has the type that is said");
+	CHECK_AS(refuses_marks(VM_AGET, 0, FULL) && refuses_marks(VM_AGET, 1, WIDE) &&
+		 refuses_marks(VM_AGET, 4, FULL) && refuses_marks(VM_AGET, 4, HALF),
+		 "values have the size that is said");
+	CHECK(refuses_marks(VM_AGET, 0, CODE_LONG) && refuses_marks(VM_AGET, 0, CODE_WIDE));
+	CHECK(refuses_marks(VM_AGET, 3, HALF));
+	CHECK(refuses_marks(VM_AGET, 0, HALF | 1) && refuses_marks(VM_AGET, 0, HALF | 2));
+	CHECK_AS(refuses_marks(VM_APUT, 0, WIDE | CODE_KEEP), "only AGET keeps a value");
+	CHECK(refuses_marks(VM_AGET, 0, HALF | 512) && refuses_marks(VM_APUT, 1, 1u << 23));
+	CHECK_AS(refuses(VM_AGET, 0, 3, find(VM_AGET, 1)[3]), "both values have one type");
+}
+
 static void test_pointers(void)
 {
 	const uint32_t *peek = find(VM_PEEK, 0), *poke = find(VM_POKE, 0);
@@ -528,6 +577,7 @@ int main(void)
 	test_image(source, test_values);
 	test_image(members, test_members);
 	test_image(grids, test_grids);
+	test_image(shorts, test_shorts);
 	test_image(pointers, test_pointers);
 	test_any_pointer();
 	return tap_done();

@@ -294,6 +294,11 @@ static void prints_pairs(void)
 		     "int     DIV en b1 INT@6 INT@8 -> INT@4 eno b2"));
 	CHECK(prints((uint32_t[]){ VM_INT | (MATH_MOD | MATH_LEFT) << 8, 1, 2, 4, 6, 8 },
 		     "int     MOD or left en b1 INT@6 INT@8 -> INT@4 eno b2"));
+	CHECK(prints((uint32_t[]){ VM_INT | (MATH_MOD | MATH_ENABLED | MATH_LIKELY) << 8, 1, 2, 4, 6, 8 },
+		     "int     MOD en b1 INT@6 INT@8 -> INT@4 eno b2"));
+	CHECK(prints((uint32_t[]){ VM_AGET | (CODE_KEEP | CODE_SHORT) << 8, 1, 2,
+		CODE_OPERAND(IEC_INT, 4), CODE_OPERAND(IEC_INT, 10), CODE_OPERAND(IEC_INT, 8), 1, 5, 2 },
+		     "aget    en b1 INT@10[INT@8 - 1] of 5 by 2 -> INT@4 or keep ok b2"));
 	CHECK(prints((uint32_t[]){ VM_CMP_DINT | 0x77 << 8, 4, 8, 0, 9 },
 		     "cmp     DINT@4 <> DINT@8 -> b9"));
 	CHECK(prints((uint32_t[]){ VM_CMP_REAL | 0xa0 << 8, 4, 8, 3, 9 },

@@ -173,6 +173,9 @@ static void test_pairs(void)
 	REFUSED(d.text[AT_PAIR + 4] = UINT32_MAX);
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_ENABLED | MATH_LEFT));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_ENABLED | MATH_COUNT));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV | MATH_LIKELY));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_ENABLED | MATH_LEFT | MATH_LIKELY));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_LEFT | MATH_LIKELY); d.text[AT_MATH + 1] = own(1));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV | MATH_LEFT));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, 2 * MATH_LEFT); d.text[AT_MATH + 1] = own(1));
 	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_MOD | MATH_LEFT | 1u << 20);

@@ -1019,6 +1019,7 @@ struct chain {
 	const uint32_t *dimension; /* CODE_DIMENSION words each               */
 	uint32_t dimensions;
 	bool bit, store, block;
+	bool keep;           /* without an element the value is as it was     */
 };
 
 static uint64_t chain_count(const struct chain *chain)
@@ -1129,7 +1130,7 @@ static void put_chain(struct maker *m, const struct chain *chain)
 		m->room_used = used;
 	}
 	put_label(m, "F", label);
-	if (!chain->store && !chain->block)
+	if (!chain->store && !chain->block && !chain->keep)
 		clear_value(m, at[2]);
 	count_failure(m, &en);
 	out(m, "LD", "FALSE");
@@ -1248,7 +1249,7 @@ static bool put_indexed(struct maker *m, const struct chain *chain)
 		jump(m, "JMP", "D", label);
 	}
 	put_label(m, "F", label);
-	if (!chain->store)
+	if (!chain->store && !chain->keep)
 		clear_value(m, at[2]);
 	count_failure(m, &en);
 	out(m, "LD", "FALSE");
@@ -1296,10 +1297,13 @@ static bool put_ranged(struct maker *m, const uint32_t *at, uint32_t n)
 
 static void put_element(struct maker *m, const uint32_t *at, uint32_t n, bool store)
 {
+	const bool keep = !store && n & CODE_KEEP;
+
+	n &= CODE_ACCESS;
 	if (store && put_ranged(m, at, n))
 		return;
 	const struct chain chain = { .at = at, .dimension = at + 4, .dimensions = 1 + (n >> 1),
-				     .bit = n & 1, .store = store };
+				     .bit = n & 1, .store = store, .keep = keep };
 
 	if (chain.dimensions > 1 || chain_count(&chain) <= CHAIN_MOST || !put_indexed(m, &chain))
 		put_chain(m, &chain);
