@@ -46,6 +46,9 @@
  *   EACH   cursor, base, n × target   n BOOLs at base: goes on at the target of the next
  *                               one from cursor (UDINT) on that is TRUE, and cursor is
  *                               behind it; none: cursor is 0, and on behind all targets
+ *   SWITCH index, low, n × target   goes on at the target of `index`, the first of which
+ *                               belongs to low (both signed); if there is none, behind them.
+ *                               All lie further down
  *   TICK   hold, last, dt, x, t   dt := now - last (0 while hold), last := now; TIME;
  *                               of n BOOLs at x: those that are TRUE have dt added at t
  *   ABLOCK en, ok, dst, src, size, index, low, count, stride   BLOCK, where src (n bit 0:
@@ -68,7 +71,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 9u
+#define CODE_VERSION 10u
 #define CODE_AREAS   16
 
 /* A pointer: offset of a place, its bytes, and the position from its first byte on. */

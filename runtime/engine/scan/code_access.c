@@ -185,6 +185,7 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 		give_bytes(visit, at[0], sizeof(uint32_t), true);
 		return;
 	case VM_TICK: visit_tick(visit, at, n); return;
+	case VM_SWITCH: give_typed(visit, at[0], false); return;
 	case VM_STOP: give_bool(visit, at[0], false); return;
 	case VM_JMPC: give_bool(visit, at[1], false); return;
 	WITH_POINTERS(case VM_PEEK: case VM_POKE: visit_pointer(visit, at, op == VM_POKE); return;)

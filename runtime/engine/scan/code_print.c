@@ -124,6 +124,20 @@ static int print_pointer(const uint32_t *code, char *out, size_t size)
 }
 #endif
 
+/* `switch  INT@8 - 1 of 3: 20 31 31`; the number of bytes of all targets. */
+static int print_switch(const uint32_t *code, char *out, size_t size)
+{
+	const uint32_t *at = code + 1, n = *code >> 8;
+	int used = snprintf(out, size, "switch  %s - %d of %u:", typed(at[0]).text, (int)at[1], n);
+
+	for (uint32_t i = 0; i < n; i++) {
+		const bool fits = (size_t)used < size;
+
+		used += snprintf(fits ? out + used : NULL, fits ? size - (size_t)used : 0, " %u", at[2 + i]);
+	}
+	return used;
+}
+
 int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 {
 	uint32_t n = *code >> 8;
@@ -173,6 +187,8 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 				at[0]);
 	case VM_EACH:
 		return snprintf(out, size, "each    %u of b%u @%u", n, at[1], at[0]);
+	case VM_SWITCH:
+		return print_switch(code, out, size);
 	case VM_TICK:
 		return snprintf(out, size, "tick    hold b%u %u of b%u @%u dt @%u last @%u",
 				at[0], n, at[3], at[4], at[2], at[1]);

@@ -67,6 +67,7 @@ uint32_t code_words(const uint32_t *code)
 	case VM_ABLOCK:
 		return 10 + 4 * (n >> 1);
 	case VM_EACH:
+	case VM_SWITCH:
 		return 3 + n;
 	case VM_TICK:
 		return 6;
@@ -87,7 +88,7 @@ targets_of(const uint32_t *code, uint32_t *count)
 	const uint32_t op = *code & 0xff;
 	const bool jump = op == VM_JMP || op == VM_JMPC;
 
-	*count = jump ? 1 : op == VM_EACH ? *code >> 8 : 0;
+	*count = jump ? 1 : op == VM_EACH || op == VM_SWITCH ? *code >> 8 : 0;
 	return code + (jump ? 1 : 3);
 }
 
@@ -423,6 +424,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 	case VM_EACH:
 		return verify_use(v, at[0], IEC_UDINT, true) &&
 		       verify_all(v, at[1], n, IEC_BOOL, false);
+	case VM_SWITCH:
+		return check_dimensions(v, at, 1);
 	case VM_TICK:
 		return verify_tick(v, at, n);
 	case VM_POINT:
@@ -466,10 +469,12 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 		uint32_t targets;
 
 		target = targets_of(code, &targets);
-		for (uint32_t i = 0; i < targets; i++)
-			if (target[i] < first || target[i] - first >= words ||
-			    !starts[target[i] - first])
+		for (uint32_t i = 0; i < targets; i++) {
+			const uint32_t to = target[i] - first; /* above all words, if it is before them */
+
+			if (to >= words || !starts[to] || ((*code & 0xff) == VM_SWITCH && to <= at))
 				return verify_refuse(v, code);
+		}
 	}
 	memset(starts, 0, words);
 	return true;

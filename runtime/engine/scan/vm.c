@@ -11,6 +11,14 @@
 /* The branch that a compiler places first. */
 #define LIKELY(x) __builtin_expect((x), 1)
 
+/* A text of its own takes room on the stack; on a small board not in each vm_run() of tasks that
+ * interrupt each other. What is called in several places has one place there, too. */
+#ifdef __OPTIMIZE_SIZE__
+#define OWN_FRAME __attribute__((noinline))
+#else
+#define OWN_FRAME
+#endif
+
 /* ---- operands ---- */
 
 static inline bool is_real(uint32_t word)
@@ -121,7 +129,7 @@ static inline bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more
 	return true;
 }
 
-static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
+static OWN_FRAME bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
 				uint32_t *where)
 {
 	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
@@ -352,6 +360,18 @@ static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 		return false;
 	memcpy(m + to, m + from, at[SIZE]);
 	return true;
+}
+
+/* SWITCH: where it goes on. */
+static OWN_FRAME const uint32_t *choose(const uint8_t *m, const uint32_t *pc, const uint32_t *base)
+{
+	const uint32_t n = *pc >> 8;
+	const int64_t index = HAS_OFTEN && CODE_TYPE(pc[1]) == IEC_INT ?
+			      whole(m + CODE_OFFSET(pc[1]), 2) : integer(m, pc[1]);
+	const uint64_t number = (uint64_t)index - (uint64_t)(int32_t)pc[2];
+
+	pc += 3;
+	return number < n ? base + pc[number] : pc + n;
 }
 
 /* ---- steps: the cost of a chart depends on its active steps only ---- */
@@ -672,14 +692,6 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 	return true;
 }
 
-/* A text of its own takes room on the stack; on a small board not in each vm_run() of tasks that
- * interrupt each other. */
-#ifdef __OPTIMIZE_SIZE__
-#define OWN_FRAME __attribute__((noinline))
-#else
-#define OWN_FRAME
-#endif
-
 /* True if it ran without an error. */
 static OWN_FRAME bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
@@ -907,6 +919,13 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				ask_to_stop(vm, (uint32_t)(pc - base));
 			pc += 2;
 			break;
+		case VM_JMPC:
+		jump_if:
+			if (m[pc[2]] == *pc >> 8) {
+				pc += 3;
+				break;
+			}
+			/* fall through */
 		case VM_JMP:
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
@@ -918,21 +937,8 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if ((*pc & 0xff) == VM_EACH)
 				goto each;
 			break;
-		case VM_JMPC:
-		jump_if:
-			n = *pc >> 8;
-			if (m[pc[2]] == n) {
-				pc += 3;
-				break;
-			}
-			if (!spend_each(&budget, pc, base + pc[1], run,
-					watch ? program->watch_words : program->text_words))
-				goto out_of_budget;
-			count_back(vm, pc, base + pc[1]);
-			pc = base + pc[1];
-			n = *pc >> 8;
-			if ((*pc & 0xff) == VM_EACH)
-				goto each;
+		case VM_SWITCH:
+			pc = choose(m, pc, base);
 			break;
 		case VM_AGET:
 			if (LIKELY(get_short(m, pc + 1, n))) {

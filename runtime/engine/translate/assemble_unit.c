@@ -584,7 +584,6 @@ static void assemble_op(struct list *list, const struct il_line *line)
 {
 	switch ((enum op)line->op) {
 	case OP_LD:
-		begin_statement(list);
 		list_load(list, line);
 		break;
 	case OP_ST:
@@ -942,10 +941,35 @@ static void assemble_one(struct list *list)
 	}
 }
 
+/* The lines of a SWITCH; their results have their places as those of other lines have. */
+static void assemble_choices(struct list *list, int lines)
+{
+	const struct il_result number = list->now;
+	const struct il_result found = { .kind = RESULT_BITS, .bits = bits_constant(false) };
+
+	for (int end = list->at + lines; ; list->at++) {
+		const struct il_line *line = &list->il->line[list->at];
+
+		list->now = line->kind == IL_OP && line->op != OP_JMP ? number : found;
+		keep_result(list);
+		if (list->at + 1 == end)
+			return;
+	}
+}
+
 static void assemble_line(struct list *list)
 {
 	const bool before = leaves(&list->il->line[list->at]);
+	int choices;
 
+	if (list->il->line[list->at].kind == IL_OP && list->il->line[list->at].op == OP_LD) {
+		begin_statement(list);
+		choices = list_choices(list);
+		if (choices) {
+			assemble_choices(list, choices);
+			return;
+		}
+	}
 	if (before)
 		keep_result(list);
 	assemble_one(list);

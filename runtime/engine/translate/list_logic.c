@@ -195,7 +195,7 @@ bool list_jumps_back(const struct list *list, const struct il_line *label)
 	return list->looped[fold(list, label->operand)] == JUMPED_BACK;
 }
 
-static void add_fixup(struct list *list, uint32_t name)
+void list_target(struct list *list, uint32_t name)
 {
 	uint32_t word = (uint32_t)list->as->text->count;
 
@@ -207,6 +207,11 @@ static void add_fixup(struct list *list, uint32_t name)
 	}
 	list->fixup[list->fixup_count - 1].word = word;
 	list->fixup[list->fixup_count - 1].fold = name ? fold(list, name) : 0;
+}
+
+bool list_is_ahead(const struct list *list, uint32_t name)
+{
+	return !list->label[fold(list, name)];
 }
 
 /* JMP and RET; label 0 is the end of the list. */
@@ -233,7 +238,7 @@ void list_flow(struct list *list, const struct il_line *line)
 	}
 	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP,
 		line->modifiers & MOD_C && line->modifiers & MOD_N);
-	add_fixup(list, target);
+	list_target(list, target);
 	if (line->modifiers & MOD_C)
 		emit(list->as, slot);
 }
@@ -295,7 +300,7 @@ void list_each(struct list *list)
 	emit(list->as, offset_of(list, line->pin));
 	emit(list->as, offset_of(list, line->operand));
 	for (int i = 1; i <= targets; i++)
-		add_fixup(list, line[i].operand);
+		list_target(list, line[i].operand);
 }
 
 void list_tick(struct list *list)

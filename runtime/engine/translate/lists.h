@@ -176,12 +176,20 @@ void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
 bool list_find_labels(struct list *list);
 /** list_jumps_back - whether a jump behind this label leads to it: it begins a loop. */
 bool list_jumps_back(const struct list *list, const struct il_line *label);
+/** list_target - a word for the place of a label; 0: for the end of the list. */
+void list_target(struct list *list, uint32_t name);
+/** list_is_ahead - does a label stand further down? */
+bool list_is_ahead(const struct list *list, uint32_t name);
 /** list_flow - JMP and RET. */
 void list_flow(struct list *list, const struct il_line *line);
 /** list_stop - STP. */
 void list_stop(struct list *list, const struct il_line *line);
 /** list_label - a label: all waiting values are stored before it. */
 void list_label(struct list *list, const struct il_line *line);
+/** list_choices - how many lines from here on compare one number with constants and jump; they become
+ * one SWITCH, if they are many and their constants lie close together. 0: none. @list->now becomes
+ * what it is behind them. */
+int list_choices(struct list *list);
 /** list_each - IL_EACH with its labels; list_tick - IL_TICK. */
 void list_each(struct list *list);
 void list_tick(struct list *list);

@@ -299,6 +299,8 @@ static void prints_pairs(void)
 	CHECK(prints((uint32_t[]){ VM_AGET | (CODE_KEEP | CODE_SHORT) << 8, 1, 2,
 		CODE_OPERAND(IEC_INT, 4), CODE_OPERAND(IEC_INT, 10), CODE_OPERAND(IEC_INT, 8), 1, 5, 2 },
 		     "aget    en b1 INT@10[INT@8 - 1] of 5 by 2 -> INT@4 or keep ok b2"));
+	CHECK(prints((uint32_t[]){ VM_SWITCH | 3 << 8, CODE_OPERAND(IEC_INT, 8), (uint32_t)-1, 20, 31, 20 },
+		     "switch  INT@8 - -1 of 3: 20 31 20"));
 	CHECK(prints((uint32_t[]){ VM_CMP_DINT | 0x77 << 8, 4, 8, 0, 9 },
 		     "cmp     DINT@4 <> DINT@8 -> b9"));
 	CHECK(prints((uint32_t[]){ VM_CMP_REAL | 0xa0 << 8, 4, 8, 3, 9 },

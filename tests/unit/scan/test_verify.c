@@ -217,6 +217,38 @@ static void test_calls(void)
 	REFUSED(d.text[AT_FB + 1] = own(FLAG));
 }
 
+/* SWITCH with two targets in place of the two jumps at the end. */
+static void choose(struct draft *d, uint32_t n, uint32_t first, uint32_t second)
+{
+	const uint32_t code[] = { op(VM_SWITCH, n), own_as(IEC_DINT, NUMBER), (uint32_t)-1, first, second };
+
+	memcpy(d->text + AT_JMPC, code, sizeof(code));
+}
+
+static void test_choices(void)
+{
+	struct draft with;
+
+	draft_good(&with);
+	choose(&with, 2, AT_END, AT_END);
+	CHECK_AS(judge(&with) == DIAG_COUNT, "a SWITCH with targets further down is accepted");
+	with.text[AT_JMPC + 2] = 0x80000000;
+	CHECK_AS(judge(&with) == DIAG_COUNT, "its first number may be any");
+	REFUSED(choose(&d, 2, AT_END, AT_FB));
+	REFUSED(choose(&d, 2, AT_JMPC, AT_END));
+	REFUSED(choose(&d, 2, AT_END - 1, AT_END));
+	REFUSED(choose(&d, 2, AT_END, WORDS));
+	REFUSED(choose(&d, 2, UINT32_MAX, AT_END));
+	REFUSED(choose(&d, 1, AT_END, AT_END));
+	REFUSED(choose(&d, 3, AT_END, AT_END));
+	REFUSED(choose(&d, 0xffffff, AT_END, AT_END));
+	REFUSED(choose(&d, 2, AT_END, AT_END); d.text[AT_JMPC + 1] = own(NUMBER));
+	REFUSED(choose(&d, 2, AT_END, AT_END); d.text[AT_JMPC + 1] = own_as(IEC_REAL, NUMBER));
+	REFUSED(choose(&d, 2, AT_END, AT_END); d.text[AT_JMPC + 1] = own_as(IEC_BOOL, FLAG));
+	REFUSED(choose(&d, 2, AT_END, AT_END); d.text[AT_JMPC + 1] = own_as(IEC_DINT, NUMBER + 2));
+	REFUSED(choose(&d, 2, AT_END, AT_END); d.text[AT_JMPC + 1] = CODE_OPERAND(IEC_DINT, 0xffff00));
+}
+
 static void test_flow(void)
 {
 	REFUSED(d.text[AT_JMPC + 1] = AT_LUT + 1);
@@ -471,6 +503,7 @@ int main(void)
 	test_operands();
 	test_pairs();
 	test_calls();
+	test_choices();
 	test_flow();
 	test_maps();
 	test_tasks();

@@ -1520,6 +1520,26 @@ static void put_bit(struct maker *m, const uint32_t *at, uint32_t bit, bool get)
 	out(m, "ST", get ? other : address);
 }
 
+/* Comparisons, which translation finds again. Numbers without a branch lead behind the targets. */
+static void put_switch(struct maker *m, const uint32_t *at, uint32_t n)
+{
+	const uint32_t behind = (uint32_t)(at + 2 + n - m->program->text);
+	char *index = room(m);
+	char constant[NAME_SIZE];
+
+	if (!typed(m, at[0], index)) {
+		lose(m, "a choice without a name");
+		return;
+	}
+	for (uint32_t i = 0; i < n; i++) {
+		if (at[2 + i] == behind || !print_index(at[0], (int64_t)(int32_t)at[1] + i, constant))
+			continue;
+		out(m, "LD", index);
+		out(m, "EQ", constant);
+		jump(m, "JMPC", "L", at[2 + i]);
+	}
+}
+
 static void put_code_text(struct maker *m, const uint32_t *code)
 {
 	const uint32_t n = *code >> 8, *at = code + 1;
@@ -1585,6 +1605,7 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 	case VM_EACH:
 		put_each(m, at, n);
 		break;
+	case VM_SWITCH: put_switch(m, at, n); break;
 	case VM_ABLOCK:
 		put_element_block(m, at, n);
 		break;
@@ -1594,8 +1615,7 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 	case VM_END:
 		out(m, "RET", "");
 		break;
-	case VM_PEEK:
-	case VM_POKE:
+	case VM_PEEK: case VM_POKE:
 		out(m, "(*", "a pointer: lists have none *)");
 		break;
 	case VM_POINT: /* translation finds it again */
@@ -1624,6 +1644,7 @@ static void note_targets(struct maker *m, const uint32_t *code)
 		m->target[at[0]] = 1;
 		break;
 	case VM_EACH:
+	case VM_SWITCH:
 		for (uint32_t i = 0; i < n; i++)
 			m->target[at[2 + i]] = 1;
 		break;
