@@ -249,8 +249,13 @@ struct program {
 /* n of REAL, DINT, INT: the functions of these names; no MOD of REAL. */
 enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_MOD, MATH_COUNT };
 #define MATH_OF(n)   ((n) & 7u)
+/* n of CMP: <= and >= of two values. */
+#define CODE_AT_MOST  0xccu
+#define CODE_AT_LEAST 0xaau
 #define MATH_ENABLED 8u  /* flag beside it: en is tested; else it is CODE_TRUE    */
 #define MATH_LEFT    16u /* flag, not with MATH_ENABLED: dst = a if there is no result */
+#define MATH_LOOP    64u /* flag, of ADD of INT and DINT without others: CMP_INT or CMP_DINT of its
+			  * result by <= or >= follows, and JMPC by that */
 #define MATH_LIKELY  32u /* flag, with MATH_ENABLED: en is hardly ever FALSE, so a branch is faster */
 
 /**

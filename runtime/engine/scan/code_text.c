@@ -368,11 +368,26 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 	bool always = at[0] == CODE_TRUE_AT(&v->program->areas);
 
 	return MATH_OF(n) < (type == IEC_REAL ? MATH_MOD : MATH_COUNT) &&
-	       (n & ~MATH_LIKELY) < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
+	       (n & ~(MATH_LIKELY | MATH_LOOP)) < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
 	       (n & (MATH_LIKELY | MATH_ENABLED)) != MATH_LIKELY &&
 	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }
+
+#ifndef RUNGBOARD_SMALL
+/* MATH_LOOP: the VM believes that these instructions follow. */
+static bool check_loop(const uint32_t *code, uint32_t words)
+{
+	const uint32_t op = *code & 0xff, *cmp = code + 6, *jump = code + 11;
+
+	if ((op != VM_INT && op != VM_DINT && op != VM_REAL) || !(*code >> 8 & MATH_LOOP))
+		return true;
+	return op != VM_REAL && *code >> 8 == (MATH_ADD | MATH_LOOP) && words >= 14 &&
+	       (*cmp & 0xff) == (op == VM_INT ? VM_CMP_INT : VM_CMP_DINT) && cmp[1] == code[3] &&
+	       (*cmp >> 8 == CODE_AT_MOST || *cmp >> 8 == CODE_AT_LEAST) &&
+	       *jump == VM_JMPC && jump[2] == cmp[4];
+}
+#endif
 
 /* One instruction; jumps and calls are checked later. */
 static bool check_code(struct verifier *v, const uint32_t *code)
@@ -459,6 +474,8 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 		if ((*code & 0xff) >= VM_COUNT ||
 		    words_needed(code) > words - at || !check_code(v, code))
 			return verify_refuse(v, code);
+		WITH_POINTERS(if (!check_loop(code, words - at))
+			return verify_refuse(v, code);)
 		starts[at] = 1;
 		last = *code & 0xff;
 	}

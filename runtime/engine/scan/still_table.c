@@ -172,7 +172,7 @@ static bool is_sure(const struct table *table, const struct code_access *access)
 		return true;
 	case VM_DINT:
 	case VM_INT: /* without EN, all but a quotient */
-		return (at == code[2] && access->bits == 8) || *code >> 8 < MATH_DIV ||
+		return (at == code[2] && access->bits == 8) || (*code >> 8 & ~MATH_LOOP) < MATH_DIV ||
 		       *code >> 8 & MATH_LEFT;
 	case VM_COPY:
 		return *code >> 8 && code[1] == CODE_TRUE_AT(&table->program->areas);

@@ -606,6 +606,24 @@ static inline uint32_t fits(int64_t value, size_t size)
 	return value == (size == 2 ? (int16_t)value : (int32_t)value);
 }
 
+/* Operands of what follows on MATH_LOOP, from the ADD on. */
+enum { LOOP_CMP = 6, LOOP_RIGHT = 8, LOOP_TEST = 10, LOOP_JUMP = 11, LOOP_WORDS = 14 };
+
+/* ADD, CMP and JMPC at once. False: the sum does not fit, nothing was done; @more: does it jump? */
+static INLINE bool step(uint8_t *m, const uint32_t *pc, size_t size, bool *more)
+{
+	const int64_t sum = (int64_t)whole(m + pc[4], size) + whole(m + pc[5], size);
+
+	if (!LIKELY(fits(sum, size)))
+		return false;
+	memcpy(m + pc[3], &sum, size); /* its low bytes: little-endian */
+	m[pc[2]] = 1;
+	*more = pc[LOOP_CMP] >> 8 == CODE_AT_MOST ? sum <= whole(m + pc[LOOP_RIGHT], size) :
+						      sum >= whole(m + pc[LOOP_RIGHT], size);
+	m[pc[LOOP_TEST]] = *more;
+	return true;
+}
+
 /* The same for INT and DINT, by their size: overflow wraps and is an error. */
 static INLINE uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
 {
@@ -807,6 +825,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *back[LIMIT_CALLS]; /* return addresses                */
 	const uint32_t *run = pc;          /* last target of EACH            */
 	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
+	bool more;
 
 	const uint32_t *until = HAS_STILL && vm->until ? base + vm->until : NULL;
 
@@ -849,6 +868,12 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = put_order(m, pc, n, order(m, pc + 1));
 			break;
 		case VM_INT:
+			if (HAS_OFTEN && n & MATH_LOOP && step(m, pc, 2, &more)) {
+				pc += more ? LOOP_JUMP : LOOP_WORDS;
+				if (more)
+					goto jump;
+				break;
+			}
 			if (!LIKELY(!run_whole(m, pc + 1, n, 2)))
 				count_error(vm, pc, base);
 			pc += 6;
@@ -863,6 +888,12 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto jump_if;
 			break;
 		case VM_DINT:
+			if (HAS_OFTEN && n & MATH_LOOP && step(m, pc, 4, &more)) {
+				pc += more ? LOOP_JUMP : LOOP_WORDS;
+				if (more)
+					goto jump;
+				break;
+			}
 			if (!LIKELY(!run_whole(m, pc + 1, n, 4)))
 				count_error(vm, pc, base);
 			pc += 6;
@@ -927,6 +958,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			}
 			/* fall through */
 		case VM_JMP:
+		jump:
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;

@@ -76,6 +76,7 @@ struct assembler {
 	int open_cmp;              /* of a comparison that ends the code; -1  */
 	int open_bit;              /* word with the slot of the bit that the last
 				      instruction makes; -1: it makes none    */
+	int op_at, op_before;      /* words of the last instruction and the one before it */
 	int open_number;           /* likewise of a number that it always stores  */
 	struct code_place *place;
 	int place_count;

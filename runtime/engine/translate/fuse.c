@@ -23,6 +23,8 @@ void bits_end(struct assembler *as)
 void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
 {
 	bits_end(as);
+	as->op_before = as->op_at;
+	as->op_at = as->text->count;
 	emit(as, (uint32_t)op | n << 8);
 }
 

@@ -214,6 +214,23 @@ bool list_is_ahead(const struct list *list, uint32_t name)
 	return !list->label[fold(list, name)];
 }
 
+/* Marks the step of a loop: ADD, and a comparison that ends the code, which makes the BOOL at @slot.
+ * They follow each other even where a label stands between them. */
+static void mark_loop(struct assembler *as, uint32_t slot)
+{
+	uint32_t *add, *cmp, op;
+
+	if (as->text->count < 11 || as->op_at != as->text->count - 5 || as->op_before != as->op_at - 6)
+		return;
+	cmp = &as->text->word[as->op_at];
+	add = &as->text->word[as->op_before];
+	op = *add & 0xff;
+	if ((op == VM_INT || op == VM_DINT) && *add >> 8 == MATH_ADD &&
+	    (*cmp & 0xff) == (op == VM_INT ? VM_CMP_INT : VM_CMP_DINT) && cmp[1] == add[3] &&
+	    cmp[4] == slot && (*cmp >> 8 == CODE_AT_MOST || *cmp >> 8 == CODE_AT_LEAST))
+		*add |= MATH_LOOP << 8;
+}
+
 /* JMP and RET; label 0 is the end of the list. */
 void list_flow(struct list *list, const struct il_line *line)
 {
@@ -236,6 +253,8 @@ void list_flow(struct list *list, const struct il_line *line)
 		emit_op(list->as, VM_END, 0);
 		return;
 	}
+	if (line->op == OP_JMP && line->modifiers == MOD_C && !list_is_ahead(list, target))
+		mark_loop(list->as, slot);
 	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP,
 		line->modifiers & MOD_C && line->modifiers & MOD_N);
 	list_target(list, target);

@@ -90,6 +90,8 @@ static const char shorts[] =
 	"PROGRAM Main ST\n"
 	"  x := T[h];\n  T[w] := x;\n  y := D[w];\n  z := R[h];\n"
 	"  x := T[s];\n  v := L[h];\n  y := T[h];\n  T[h + 1] := T[w];\n"
+	"  FOR h := 1 TO 4 DO T[h] := h; END_FOR;\n"
+	"  FOR w := 2 TO -1 BY -1 DO D[w] := w; END_FOR;\n"
 	"END_PROGRAM\n";
 
 /* Pointers to values of several kinds. */
@@ -370,6 +372,25 @@ static bool refuses_marks(enum vm_op op, int number, uint32_t n)
 	return refuses(op, number, 0, (uint32_t)op | n << 8);
 }
 
+static void test_steps(void)
+{
+	const uint32_t *add = find(VM_INT, 1);
+	const uint32_t other = find(VM_DINT, 0)[3];
+
+	CHECK_AS(marks_of(VM_INT, 1) == (MATH_ADD | MATH_LOOP) &&
+		 marks_of(VM_DINT, 0) == (MATH_ADD | MATH_LOOP), "a FOR has a step, up or down");
+	CHECK((add[6] & 0xff) == VM_CMP_INT && add[6] >> 8 == CODE_AT_MOST && add[11] == VM_JMPC);
+	CHECK(find(VM_DINT, 0)[6] >> 8 == CODE_AT_LEAST);
+	CHECK_AS(!refuses_marks(VM_INT, 1, MATH_ADD), "no mark is needed");
+	CHECK_AS(refuses_marks(VM_INT, 0, MATH_ADD | MATH_LOOP), "without a comparison it is no step");
+	CHECK(refuses_marks(VM_INT, 1, MATH_SUB | MATH_LOOP) && refuses_marks(VM_INT, 1, MATH_ADD | MATH_LOOP | MATH_LEFT));
+	CHECK(refuses_marks(VM_INT, 1, MATH_ADD | MATH_LOOP | MATH_ENABLED));
+	CHECK(refuses(VM_INT, 1, 6, VM_CMP_INT | 0x22u << 8) && refuses(VM_INT, 1, 6, VM_CMP_INT | 0xcau << 8));
+	CHECK(refuses(VM_INT, 1, 6, VM_CMP_DINT | 0xccu << 8) && refuses(VM_INT, 1, 7, add[8]));
+	CHECK(refuses(VM_INT, 1, 3, other) && refuses(VM_INT, 1, 13, add[2]));
+	CHECK(refuses(VM_INT, 1, 11, VM_JMPC | 1u << 8));
+}
+
 static void test_shorts(void)
 {
 	enum { HALF = CODE_SHORT, FULL = CODE_SHORT | CODE_LONG, WIDE = CODE_SHORT | CODE_WIDE };
@@ -395,6 +416,7 @@ static void test_shorts(void)
 	CHECK_AS(refuses_marks(VM_APUT, 0, WIDE | CODE_KEEP), "only AGET keeps a value");
 	CHECK(refuses_marks(VM_AGET, 0, HALF | 512) && refuses_marks(VM_APUT, 1, 1u << 23));
 	CHECK_AS(refuses(VM_AGET, 0, 3, find(VM_AGET, 1)[3]), "both values have one type");
+	test_steps();
 }
 
 static void test_pointers(void)
