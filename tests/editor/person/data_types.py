@@ -508,6 +508,111 @@ def of_all_kinds(screen):
     assert 'Tank : Level;' in editor.save(path)
 
 
+MODES = '''RUNGBOARD 1
+
+TYPE
+  Mode : (Idle, Slow, Fast);
+  Pace : Mode := Slow;
+END_TYPE
+
+VAR
+  Now : Mode;
+  Key : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | [ Now = Idle ] | [ Now := Mode#Fast ] | COIL %QX0.0 |
+END_PROGRAM
+
+PROGRAM List IL
+  LD    Fast
+  ST    Now
+END_PROGRAM
+
+PROGRAM Text ST
+VAR
+  Last : Pace;
+END_VAR
+  IF Now = Slow THEN
+    Last := Mode#Fast;
+  END_IF;
+END_PROGRAM
+
+PROGRAM Way SFC
+  INITIAL_STEP Start:
+  END_STEP
+  STEP Run:
+  END_STEP
+  TRANSITION FROM Start TO Run := Key AND Now = Fast; END_TRANSITION
+  TRANSITION FROM Run TO Start := NOT Key; END_TRANSITION
+END_PROGRAM
+'''
+
+
+def to_text(editor, name):
+    """Brings the text of that program to the front, with the keys in it."""
+    editor.click(editor.find(name, 'label'), count=2)
+    return until(lambda: [node for node in editor.all('Text of the program') if 'PROGRAM ' + name in node.text() and node.has(12)], name)[0]
+
+
+def go(editor, view, before, word):
+    """Moves the cursor into a word of the text."""
+    text = view.text()
+    at = text.index(before) + before.index(word) + 1
+    line = text[:at].count('\n')
+    column = at - text.rfind('\n', 0, at) - 1
+    editor.keys('ctrl+Home', *['Down'] * line, *['Right'] * column)
+    editor.says('Line %d \u00b7 column %d' % (line + 1, column + 1))
+
+
+def modes(screen):
+    """uses, definition and renaming of values and types in a ladder, a list, Structured Text and a chart"""
+    path = new_file(screen, MODES)
+    editor = Editor(screen, path)
+
+    def uses(name):
+        def look():
+            rows = [node.name for node in editor.all(role='table row') if ' ' in node.name and node.box()[2] > 0 and ', ' in node.name]
+            return len([row for row in rows if row.startswith(name + ' ')]) > 1
+        until(look, 'the uses of ' + name)
+    editor.to_sheet()
+    editor.keys('Right', 'shift+F12')  # Now, then the two others of the cell
+    uses('Now')
+    editor.keys('shift+F12')
+    uses('Mode')
+    editor.keys('shift+F12')
+    uses('Mode#Fast')
+    editor.shot('uses-value')
+    for program, before, word, kind in ('List', 'LD    Fast', 'Fast', 'Mode#Fast'), ('Text', 'Now = Slow', 'Slow', 'Mode#Slow'), \
+            ('Text', 'Last := Mode#Fast', 'Fast', 'Mode#Fast'):
+        view = to_text(editor, program)
+        go(editor, view, before, word)
+        editor.keys('shift+F12')
+        uses(kind)
+        editor.click(view)
+        go(editor, view, before, word)
+        editor.keys('alt+F12')
+        editor.focus_on(word + ', Name', 'text')
+    editor.shot('uses-definition')
+    view = to_text(editor, 'Text')
+    go(editor, view, 'Last : Pace', 'Pace')
+    editor.keys('F12')
+    editor.focus_on('Pace, Type', 'text')
+    view = to_text(editor, 'Text')
+    go(editor, view, 'Mode#Fast', 'Fast')
+    editor.brought('F2')
+    editor.keys('ctrl+a')
+    editor.type('Quick')
+    editor.keys('Return')
+    text = until(lambda: 'Mode#Quick;' in view.text() and editor.save(path), 'the new name')
+    assert 'Fast' not in text and text.count('Quick') == MODES.count('Fast'), text
+    check(path)
+    editor.keys('ctrl+z')
+    text = editor.save(path)
+    assert 'Quick' not in text and text.count('Fast') == MODES.count('Fast'), text
+
+
 MEMORY = '''RUNGBOARD 1
 
 VAR
@@ -564,4 +669,4 @@ def addresses(screen):
     check(path)
 
 
-main([structure, completed, everywhere, array, keys_alone, enumeration, others, of_all_kinds, addresses])
+main([structure, completed, everywhere, array, keys_alone, enumeration, others, of_all_kinds, modes, addresses])
