@@ -659,7 +659,7 @@ static void add_column(LadderTypesView *view, struct panel_list *list,
 static void add_columns(LadderTypesView *view)
 {
 	static const struct column_row members[] = {
-		{ FIELD_NAME, 0, 150, EVERY }, { TYPES_NUMBER, 0, 150, ENUMERATIONS },
+		{ FIELD_NAME, 0, 150, EVERY }, { TYPES_NUMBER, PANEL_EXPAND, 150, ENUMERATIONS },
 		{ FIELD_TYPE, 0, 210, STRUCTURES },
 		{ FIELD_INITIAL, PANEL_BUTTON, 150, STRUCTURES },
 		{ FIELD_COMMENT, PANEL_EXPAND, 120, STRUCTURES },

@@ -58,8 +58,13 @@ void list_show_column(GtkColumnViewColumn *column, bool shown)
 
 	if (shown == gtk_column_view_column_get_visible(column))
 		return;
-	if (!shown)
+	if (!shown) {
 		g_object_set_data(G_OBJECT(column), "width", GINT_TO_POINTER(width));
+		g_object_set_data(G_OBJECT(column), "expand", GINT_TO_POINTER(
+			gtk_column_view_column_get_expand(column)));
+	}
+	gtk_column_view_column_set_expand(column, shown &&
+		GPOINTER_TO_INT(g_object_get_data(G_OBJECT(column), "expand")));
 	gtk_column_view_column_set_fixed_width(column, shown ?
 		GPOINTER_TO_INT(g_object_get_data(G_OBJECT(column), "width")) : -1);
 	gtk_column_view_column_set_visible(column, shown);

@@ -16,8 +16,8 @@
  *   GtkTreeListRow, gtk_tree_list_row_set_expanded() goes on with freed memory. To see it: set
  *   the row of the expander to NULL in unbind_name() of init_dialog.c without list_drop_row(),
  *   select a value of an array and fold the array by a click. Try so on each new floor.
- * - A hidden column with a fixed width still takes its width: other columns are narrower, and the
- *   right end shows the glow of a list that is drawn too far, for good. To see it: open a function
+ * - A hidden column with a fixed width, or that expands, still takes its width: other columns are
+ *   narrower, and the right end shows the glow of a list that is drawn too far, for good. To see it: open a function
  *   block without list_show_column() in interface_view.c. Test: test_hidden_column.c.
  */
 #ifndef EDITOR_GTK48_LIST_H
@@ -34,8 +34,8 @@ void list_scroll_to(GtkWidget *view, guint at);
 void list_mend_focus(GtkWidget *list);
 /** list_drop_row - the expander has no row any more; the row lives on until the next idle. */
 void list_drop_row(GtkTreeExpander *expander);
-/** list_show_column - shows or hides a column, which keeps its fixed width for when it is shown
- * again. While it is hidden, gtk_column_view_column_get_fixed_width() is -1. */
+/** list_show_column - shows or hides a column, which keeps its fixed width, and whether it expands,
+ * for when it is shown again. While it is hidden, gtk_column_view_column_get_fixed_width() is -1. */
 void list_show_column(GtkColumnViewColumn *column, bool shown);
 /** list_column_width - its fixed width, also while list_show_column() hides it. */
 int list_column_width(GtkColumnViewColumn *column);
