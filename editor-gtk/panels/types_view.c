@@ -326,6 +326,14 @@ static void type_changed(GtkDropDown *types, GParamSpec *spec, LadderTypesView *
 	fill_rows(view);
 }
 
+/* As type_of(), also between a change of the name and the refresh that follows it. */
+static int type_now(LadderTypesView *view)
+{
+	if (type_of(view) < 0)
+		refresh(GTK_WIDGET(view));
+	return type_of(view);
+}
+
 /* ---- fields ---- */
 
 /* The index of a row now: rows are updated with a delay. -1: deleted. */
@@ -360,7 +368,7 @@ static const char *field_name(int field)
 static bool set_value(LadderTypesView *view, const LadderPanelRow *row, int field,
 		      const char *text, char **why)
 {
-	const int type = type_of(view), index = index_of(view, row);
+	const int type = type_now(view), index = index_of(view, row);
 
 	return field == FIELD_NAME ?
 	       type_rename_value(document_of(view), type, index, text, why) :
@@ -371,7 +379,7 @@ static bool set_declared(LadderTypesView *view, const LadderPanelRow *row, int f
 			 const char *text, char **why)
 {
 	LadderDocument *document = document_of(view);
-	const int type = type_of(view);
+	const int type = type_now(view);
 
 	switch (field) {
 	case TYPES_BASE: return type_set_base(document, type, text, why);
@@ -493,7 +501,7 @@ static LadderPanelRow *row_here(LadderTypesView *view)
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	const int type = type_of(view);
+	const int type = type_now(view);
 	const LadderPanelRow *row = row_here(view);
 	const int behind = row ? index_of(view, row) :
 		(int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store)) - 1;
@@ -517,7 +525,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	LadderPanelRow *row = row_here(view);
+	LadderPanelRow *row = type_now(view) < 0 ? NULL : row_here(view);
 	char *why = NULL, *name;
 	int uses;
 
@@ -566,7 +574,7 @@ static void move(LadderTypesView *view, LadderPanelRow *row, int to)
 static void move_by(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	LadderPanelRow *row = row_here(view);
+	LadderPanelRow *row = type_now(view) < 0 ? NULL : row_here(view);
 
 	(void)unused;
 	if (row)
@@ -615,7 +623,7 @@ static void show_uses(LadderTypesView *view)
 static void act_on_type(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	const int type = type_of(view);
+	const int type = type_now(view);
 	const char *verb = strchr(action, '.') + 1;
 	char *name;
 
