@@ -482,11 +482,52 @@ static struct value read_place(struct frame_of *f, const struct tree *tree, stru
 	return slot && slot->kind == SLOT_VALUE ? *slot->value : none;
 }
 
+/* What whole constants alone give, as in 2 * 60 - 1. */
+static bool whole_number(const struct tree *tree, int64_t *out)
+{
+	int64_t a, b;
+
+	if (tree->kind == TREE_CONSTANT) {
+		*out = tree->minus ? -tree->literal.value.i : tree->literal.value.i;
+		return tree->literal.type == IEC_NONE && !tree->literal.real && !tree->literal.high;
+	}
+	if (tree->kind == TREE_NEG)
+		return whole_number(tree->left, &a) && !__builtin_sub_overflow(0, a, out);
+	if (tree->kind != TREE_TWO || !whole_number(tree->left, &a) || !whole_number(tree->right, &b))
+		return false;
+	if (tree->fn == FN_ADD)
+		return !__builtin_add_overflow(a, b, out);
+	if (tree->fn == FN_SUB)
+		return !__builtin_sub_overflow(a, b, out);
+	if (tree->fn == FN_MUL)
+		return !__builtin_mul_overflow(a, b, out);
+	if ((tree->fn != FN_DIV && tree->fn != FN_MOD) || b == 0)
+		return false;
+	*out = tree->fn == FN_DIV ? a / b : a % b;
+	return true;
+}
+
+/* The same, where a number or bits of @type are wanted. */
+static bool exact(const struct tree *tree, enum iec_type type, struct value *out)
+{
+	const struct iec_type_row *row = iec_type_row(type);
+	int64_t number;
+
+	if (tree->kind == TREE_CONSTANT || type == IEC_BOOL || !(row->class & (ANY_INT | CLASS_BITS)) ||
+	    !whole_number(tree, &number) || number < row->low ||
+	    (row->size < 8 && number > row->high))
+		return false;
+	*out = (struct value){ .type = type, .i = number };
+	return true;
+}
+
 struct value tree_compute(struct frame_of *f, const struct tree *tree, enum iec_type type,
 			  struct chain_state *chain)
 {
 	struct value value = { 0 };
 
+	if (exact(tree, type, &value))
+		return value;
 	switch (tree->kind) {
 	case TREE_CONSTANT: value = constant(tree, type); break;
 	case TREE_PLACE: value = read_place(f, tree, chain); break;

@@ -488,6 +488,11 @@ static void target(struct maker *m, enum type type)
 		say(m, "%s", type_row[type].name[below(m, (uint32_t)writable[type])]);
 }
 
+static bool is_whole(enum type type)
+{
+	return (type >= T_SINT && type <= T_ULINT) || (type >= T_BYTE && type <= T_LWORD);
+}
+
 static void assignment(struct maker *m)
 {
 	static const char *const whole[] = {
@@ -503,7 +508,12 @@ static void assignment(struct maker *m)
 	}
 	target(m, type);
 	say(m, " := ");
-	if (chance(m, 15))
+	if (is_whole(type) && chance(m, 4))
+		expr(m, T_BOOL, 2); /* 0 or 1 */
+	else if (is_whole(type) && chance(m, 3))
+		say(m, "(100 %s %d) MOD 60 + 9", one_of(m, (const char *const[]){ "+", "-", "*", "/" }, 4),
+		    1 + (int)below(m, 300));
+	else if (chance(m, 15))
 		leaf_or_constant(m, type, 2);
 	else
 		expr(m, type, 1 + (int)below(m, 3));

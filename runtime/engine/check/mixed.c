@@ -36,6 +36,8 @@ enum iec_type mixed_join(enum iec_type a, enum iec_type b)
 
 bool mixed_converts(enum iec_type from, enum iec_type to)
 {
+	if (from == IEC_BOOL)
+		return is_whole(to);
 	if (!mixed_is_bits(from) && !(is_whole(from) && mixed_is_bits(to)))
 		return false;
 	return class_of(to) == CLASS_REAL ||

@@ -9,6 +9,7 @@
 #include "engine/model/expr_args.h"
 #include "engine/model/shape.h"
 #include "engine/translate/ladder_unit.h"
+#include "engine/translate/whole_number.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -373,6 +374,29 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 	return value;
 }
 
+static bool takes_whole(enum iec_type type)
+{
+	return iec_type_row(type)->class & ANY_INT || mixed_is_bits(type);
+}
+
+/* In a statement: a number of constants alone, such as 60 * 1000, where @type is wanted. */
+static bool is_whole_constant(const struct chain *c, int index, enum iec_type type,
+			      union iec_value *value)
+{
+	struct literal literal;
+
+	return !c->ld->rung && takes_whole(type) && whole_compute(c->expr, index, &literal) &&
+	       literal_fit(&literal, type, value);
+}
+
+static struct value whole_constant(struct chain *c, union iec_value value, enum iec_type type)
+{
+	char text[32];
+	const int len = literal_print(type, value, text, sizeof(text));
+
+	return constant(c, text, (size_t)len, false, type);
+}
+
 /* The operand that enables the next operation. */
 static uint32_t chain_power(struct chain *c)
 {
@@ -661,10 +685,13 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 {
 	enum iec_type type = infer_wanted(c, index, hint);
 	struct value left, right;
+	union iec_value number;
 	enum word word;
 
 	if (word_is_test(word_row(node->fn)))
 		return compute_compare(c, node);
+	if (is_whole_constant(c, index, hint, &number))
+		return whole_constant(c, number, hint);
 	if (node->fn == FN_EXPT)
 		return is_power(c, node->left, node->right) ?
 			compute_power(c, node->left, node->right, hint, target) :
@@ -1334,6 +1361,44 @@ static void store_reference(struct chain *c)
 		target);
 }
 
+static void said_cut(struct chain *c, enum iec_type type, const struct literal *literal,
+		     const char *becomes)
+{
+	const struct unit *unit = c->ld->unit;
+	const struct translation *translation = c->ld->translation;
+	char text[LIMIT_ARG], number[40];
+	struct diag place = { .id = DIAG_CUT_CONSTANT, .file = unit->pou->file,
+			      .pou = project_text(translation->project, unit->pou->name) };
+
+	iec_value_print(literal->high ? IEC_ULINT : IEC_LINT, literal->value, number, sizeof(number));
+	snprintf(text, sizeof(text), "%.21s" DIAG_AND "%s" DIAG_AND "%.21s", number,
+		 iec_type_row(type)->word, becomes);
+	st_where(&translation->project->names, c->ld->item, c->expr->target, &place.line,
+		 &place.column);
+	diag_add(translation->diags, place, "%s", text);
+}
+
+/* In plain IEC text a constant that the type cannot hold is cut, as other tools do. False: it is none. */
+static bool store_cut(struct chain *c, uint32_t target)
+{
+	const struct meaning *m = meaning(c, target);
+	char text[40];
+	struct literal literal;
+	union iec_value value;
+
+	if (!c->ld->translation->project->words.own_first || !m || c->expr->target_bit.len ||
+	    !takes_whole(m->type) || meaning_is_ranged(m) || (m->like && m->like->enumeration) ||
+	    !whole_compute(c->expr, c->expr->root, &literal) || literal_fit(&literal, m->type, &value))
+		return false;
+	value = whole_cut(&literal, m->type);
+	iec_value_print(m->type, value, text, sizeof(text));
+	said_cut(c, m->type, &literal, text);
+	chain_at(c, c->expr->target);
+	operate(c, FN_MOVE, whole_constant(c, value, m->type), (struct value){ .type = IEC_NONE }, m->type,
+		target);
+	return true;
+}
+
 void ld_store(struct ld *ld)
 {
 	struct chain c = statement(ld);
@@ -1345,6 +1410,9 @@ void ld_store(struct ld *ld)
 	}
 	const uint32_t target = chain_target(&c);
 	const enum iec_type type = type_of(&c, target);
+
+	if (store_cut(&c, target))
+		return;
 	const bool other = !ld->expr->target_bit.len &&
 			   mixed_converts(chain_infer(&c, ld->expr->root), type) &&
 			   !iec_can_widen(chain_infer(&c, ld->expr->root), type);
