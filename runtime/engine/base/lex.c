@@ -200,7 +200,7 @@ static const char *skip_number(const char *start, const char *at,
 			at++;
 			if (dated)
 				return skip_date(at, end);
-			if (at != end && *at == '\'')
+			if (at != end && (*at == '\'' || *at == '"'))
 				return skip_quoted(at, end);
 			if (end - at >= 2 && (*at == '-' || *at == '+') &&
 			    ascii_digit(at[1]))
@@ -271,12 +271,12 @@ static enum token_kind scan_symbol(struct lex *lex)
 		lex->at = line_end(at, end);
 		return TOKEN_COMMENT;
 	}
-	if (*at == '"') {
+	if (*at == '"' && !lex->wide) {
 		close = skip_string(at, end);
 		lex->at = close ? close : line_end(at, end);
 		return close ? TOKEN_STRING : TOKEN_BAD;
 	}
-	if (*at == '\'') {
+	if (*at == '\'' || *at == '"') {
 		lex->at = skip_quoted(at, end);
 		return TOKEN_NUMBER;
 	}

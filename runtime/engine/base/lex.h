@@ -42,6 +42,7 @@ struct lex {
 	const char *at, *end, *line_start;
 	int line;
 	bool newlines, comments; /* set after lex_init if they are wanted      */
+	bool wide;               /* the same: "…" is a TOKEN_NUMBER, as '…' is */
 	struct token token;      /* the current token                          */
 };
 

@@ -127,8 +127,21 @@ static enum literal_result literal_date(enum iec_type type, struct rest rest,
 	return LITERAL_OK;
 }
 
-/* The byte that an escape behind $ stands for; -1: it is none. */
-static int escape(const char *at, size_t left, size_t *used)
+/* The number that @count hexadecimal digits are; -1: they are none. */
+static int hexadecimal(const char *at, size_t left, size_t count)
+{
+	int number = 0;
+
+	for (size_t i = 0; i < count; i++) {
+		if (i >= left || literal_digit(at[i]) > 15)
+			return -1;
+		number = number * 16 + (int)literal_digit(at[i]);
+	}
+	return number;
+}
+
+/* The byte that an escape behind $ stands for, or in a wide text the character; -1: it is none. */
+static int escape(const char *at, size_t left, bool wide, size_t *used)
 {
 	static const char letter[] = "LNPRT";
 	static const char byte[] = "\n\n\f\r\t";
@@ -136,39 +149,70 @@ static int escape(const char *at, size_t left, size_t *used)
 	*used = 1;
 	if (left == 0)
 		return -1;
-	if (*at == '$' || *at == '\'')
+	if (*at == '$' || *at == '\'' || (wide && *at == '"'))
 		return *at;
 	for (size_t i = 0; i < sizeof(letter) - 1; i++)
 		if (ascii_upper(*at) == letter[i])
 			return byte[i];
-	if (left < 2 || literal_digit(at[0]) > 15 || literal_digit(at[1]) > 15)
-		return -1;
-	*used = 2;
-	return (int)(literal_digit(at[0]) * 16 + literal_digit(at[1]));
+	*used = wide ? 4 : 2;
+	return hexadecimal(at, left, *used);
+}
+
+/* A character as UTF-8; its number of bytes. */
+static size_t put_code(int code, char out[4])
+{
+	const size_t len = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+
+	for (size_t i = len; i-- > 1; code >>= 6)
+		out[i] = (char)(0x80 | (code & 0x3f));
+	out[0] = (char)(len == 1 ? code : (0xf00 >> len & 0xff) | code);
+	return len;
+}
+
+/* The bytes of the escape behind the $ at @at; 0: it is none. A wide one of two halves is one
+ * character. */
+static size_t escaped(const char *at, size_t left, bool wide, size_t *used, char out[4])
+{
+	int code = escape(at, left, wide, used), low;
+
+	if (code < 0)
+		return 0;
+	if (code >= 0xd800 && code < 0xe000) {
+		low = left > 9 && at[4] == '$' ? hexadecimal(at + 5, left - 5, 4) : -1;
+		if (code >= 0xdc00 || low < 0xdc00 || low >= 0xe000)
+			return 0;
+		*used = 9;
+		code = 0x10000 + ((code - 0xd800) << 10) + low - 0xdc00;
+	}
+	if (wide)
+		return put_code(code, out);
+	*out = (char)code;
+	return 1;
 }
 
 /* Counts the bytes of the text between two quotes; @out may be NULL. */
-static enum literal_result unescape(const char *text, size_t len, char *out,
-				    size_t *count)
+static enum literal_result unescape(const struct literal *literal, char *out, size_t *count)
 {
-	*count = 0;
-	for (size_t i = 0; i < len; i++) {
-		int byte = (unsigned char)text[i];
-		size_t used;
+	const char *text = literal->text;
 
-		if (byte == '\'')
+	*count = 0;
+	for (size_t i = 0; i < literal->len; i++) {
+		char byte[4] = { text[i] };
+		size_t used, bytes = 1;
+
+		if (text[i] == (literal->wide ? '"' : '\''))
 			return LITERAL_BAD;
-		if (byte == '$') {
-			byte = escape(text + i + 1, len - i - 1, &used);
-			if (byte < 0)
+		if (text[i] == '$') {
+			bytes = escaped(text + i + 1, literal->len - i - 1, literal->wide, &used, byte);
+			if (!bytes)
 				return LITERAL_BAD;
 			i += used;
 		}
-		if (*count == IEC_STRING_MOST)
+		if (*count + bytes > IEC_STRING_MOST)
 			return LITERAL_RANGE;
 		if (out)
-			out[*count] = (char)byte;
-		++*count;
+			memcpy(out + *count, byte, bytes);
+		*count += bytes;
 	}
 	return LITERAL_OK;
 }
@@ -177,7 +221,7 @@ size_t literal_string(const struct literal *literal, char *out)
 {
 	size_t count;
 
-	unescape(literal->text, literal->len, out, &count);
+	unescape(literal, out, &count);
 	return count;
 }
 
@@ -185,12 +229,13 @@ static enum literal_result literal_quoted(struct rest rest, struct literal *out)
 {
 	size_t len = (size_t)(rest.end - rest.at), count;
 
-	if (len < 2 || rest.at[0] != '\'' || rest.end[-1] != '\'')
+	if (len < 2 || rest.at[0] != rest.end[-1] || (rest.at[0] != '\'' && rest.at[0] != '"'))
 		return LITERAL_BAD;
 	out->type = IEC_STRING;
+	out->wide = *rest.at == '"';
 	out->text = rest.at + 1;
 	out->len = len - 2;
-	return unescape(out->text, out->len, NULL, &count);
+	return unescape(out, NULL, &count);
 }
 
 /* ---- numbers ---- */
@@ -329,6 +374,8 @@ static enum iec_type type_before(const char *text, size_t len)
 		return IEC_TIME;
 	if (ascii_is("D", text, len) || ascii_is("LD", text, len))
 		return IEC_DATE;
+	if (ascii_is("WSTRING", text, len))
+		return IEC_STRING;
 	return iec_type_find(text, len);
 }
 
@@ -343,7 +390,7 @@ enum literal_result literal_parse(const char *text, size_t len,
 	*out = (struct literal){ .type = IEC_NONE };
 	if (len == 0)
 		return LITERAL_NONE;
-	if (*text == '\'')
+	if (*text == '\'' || *text == '"')
 		return literal_quoted(rest, out);
 	if (parse_bool(rest, &out->value.i)) {
 		out->type = IEC_BOOL;

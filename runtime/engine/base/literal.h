@@ -3,7 +3,7 @@
  * literal - constants as IEC 61131-3 writes them (tables 5 to 8).
  *
  * `12 -7 1_000 2#1010 8#17 16#FF TRUE 1.5E-3 T#1h2m3.5s INT#16#7F TOD#08:30:00
- * D#2026-11-21 DT#2026-11-21-08:30:00 'it$'s'`. Text to value and value to canonical
+ * D#2026-11-21 DT#2026-11-21-08:30:00 'it$'s' "caf$00E9"`. Text to value and value to canonical
  * text. Nothing is rounded silently.
  */
 #ifndef BASE_LITERAL_H
@@ -21,6 +21,7 @@ enum literal_result {
 struct literal {
 	enum iec_type type;    /* IEC_NONE: an untyped number, fits where it can */
 	bool real;             /* untyped with a point or exponent               */
+	bool wide;             /* of a STRING: its quotes are "; $ and four digits are a character */
 	bool high;             /* i holds the bits of a number above INT64_MAX   */
 	union iec_value value; /* r when real or type REAL or LREAL, else i      */
 	const char *text;      /* of a STRING: what stands between its quotes,   */

@@ -66,6 +66,7 @@ void init_begin(struct init_walk *walk, const struct project *project,
 	walk->level[0].item = shape_pin(var);
 	lex_init(&walk->lex, names_text(names, var_value_text(var)),
 		 names_len(names, var_value_text(var)));
+	walk->lex.wide = true;
 	lex_next(&walk->lex);
 }
 
@@ -586,6 +587,7 @@ bool init_names_pin(const char *text, size_t len, const char *pin)
 	struct lex lex;
 
 	lex_init(&lex, text, len);
+	lex.wide = true;
 	while (lex_next(&lex) != TOKEN_END) {
 		struct lex ahead = lex;
 

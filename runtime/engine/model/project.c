@@ -316,6 +316,8 @@ void project_write_type(const struct project *project, const struct var *var,
 		sink_text(sink, project_text(project, project->named[var->named - 1].name));
 		return;
 	}
+	if (var->wide)
+		sink_text(sink, "W");
 	if (!var->enumeration || project->enumeration[var->enumeration - 1].based)
 		sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
 							iec_type_row(var->type)->word);

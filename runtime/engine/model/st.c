@@ -38,6 +38,7 @@ void st_begin(struct st_walk *walk, const struct names *names, const struct st_i
 {
 	*walk = (struct st_walk){ .kind = (enum st_kind)item->kind };
 	lex_init(&walk->lex, names_text(names, item->text), names_len(names, item->text));
+	walk->lex.wide = true; /* the reader refused it in a rung file */
 	walk->lex.line = item->line;
 	walk->lex.line_start = walk->lex.at - (item->column - 1);
 	lex_next(&walk->lex);

@@ -339,6 +339,7 @@ static bool fail_walk(struct reader *r, const struct var *var, const struct lex 
 	struct lex lex;
 
 	lex_init(&lex, text, names_len(&r->project->names, var->init_text));
+	lex.wide = true;
 	r->lex = *start;
 	r->lex.newlines = r->lex.comments = false;
 	while (lex_next(&lex) != TOKEN_END && lex.token.text < at)

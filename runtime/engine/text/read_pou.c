@@ -84,15 +84,23 @@ static void read_rungs(struct reader *r, struct pou *pou)
 	}
 }
 
+/* Rungs, which have titles in quotes. */
+static void read_drawn(struct reader *r, struct pou *pou)
+{
+	const bool wide = r->lex.wide;
+
+	r->lex.wide = false;
+	if (pou->language == LANGUAGE_LD)
+		read_rungs(r, pou);
+	else if (pou->sfc)
+		read_sfc(r, pou);
+	r->lex.wide = wide;
+}
+
 static void read_body(struct reader *r, struct pou *pou)
 {
-	if (pou->language == LANGUAGE_LD) {
-		read_rungs(r, pou);
-		return;
-	}
-	if (pou->language == LANGUAGE_SFC) {
-		if (pou->sfc)
-			read_sfc(r, pou);
+	if (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_SFC) {
+		read_drawn(r, pou);
 		return;
 	}
 	struct lex before = r->lex;

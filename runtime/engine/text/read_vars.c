@@ -277,6 +277,11 @@ static bool read_pointer(struct reader *r, struct var *var)
 	return !r->no_memory;
 }
 
+static bool is_wide_text(const struct reader *r)
+{
+	return ascii_is("WSTRING", r->lex.token.text, r->lex.token.len);
+}
+
 bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 {
 	const struct token *token = &r->lex.token;
@@ -291,6 +296,11 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
+	if (r->plain && is_wide_text(r)) {
+		reader_fail_word(r, DIAG_WIDE_TEXT, "");
+		var->type = IEC_STRING;
+		var->wide = true;
+	}
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
@@ -300,8 +310,7 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 			reader_step(r);
 			return true;
 		}
-		if (ascii_is("WSTRING", token->text, token->len) ||
-		    ascii_is("WCHAR", token->text, token->len))
+		if (ascii_is("WCHAR", token->text, token->len) || is_wide_text(r))
 			return reader_fail_token(r, DIAG_NO_WIDE_TEXT);
 		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))

@@ -689,6 +689,7 @@ char *reader_open(struct reader *r, const char *text, size_t len)
 	r->begin = r->lex.at;
 	r->lex.newlines = true;
 	r->lex.comments = true;
+	r->lex.wide = r->plain;
 	reader_next(r);
 	return copy;
 }

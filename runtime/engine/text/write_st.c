@@ -85,7 +85,7 @@ static void write_statement(const struct sink *sink, const char *text, size_t le
 	struct lex lex;
 
 	lex_init(&lex, text, len);
-	lex.newlines = lex.comments = true;
+	lex.newlines = lex.comments = lex.wide = true;
 	while (lex_next(&lex) != TOKEN_END) {
 		if (lex.token.kind == TOKEN_COMMENT) {
 			sink_text(sink, style.last.kind == TOKEN_END ? "" : " ");
