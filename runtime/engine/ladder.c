@@ -13,6 +13,7 @@
 #include "engine/check/expect.h"
 #include "engine/check/settle.h"
 #include "engine/model/caller.h"
+#include "engine/model/located.h"
 #include "engine/scan/symbol_index.h"
 #include "engine/text/mend.h"
 #include "engine/text/text.h"
@@ -215,7 +216,8 @@ static bool read_project(struct ladder *ladder, const struct text_file *files, i
 		good = no_memory(ladder, files->name);
 	arena_reset(&ladder->scratch);
 	return good && (ladder->leaves ||
-			settle_project(ladder->project, &ladder->scratch, &ladder->diags));
+			(settle_project(ladder->project, &ladder->scratch, &ladder->diags) &&
+			 located_place(ladder->project, &ladder->diags)));
 }
 
 /* The same with what a desk makes of the files; @made gets the texts, which the caller frees. */
@@ -560,7 +562,9 @@ static bool add_further(struct project *project, int count)
 		if (!project_is_further(project, entry))
 			continue;
 		pou[at] = pou[project_find_pou(project, of, strlen(of))];
-		pou[at++].name = entry->name;
+		pou[at].name = entry->name;
+		if (!located_further(project, &pou[at++]))
+			return false;
 	}
 	project->pou = pou;
 	project->pou_count = at;

@@ -184,7 +184,7 @@ bool check_config(struct scope *scope, struct uses *uses,
 		const struct config_entry *entry = &c.config->entry[i];
 
 		if (entry->kind == CONFIG_VARS || entry->kind == CONFIG_ACCESS ||
-		    !check_repeated(&c, entry))
+		    entry->kind == CONFIG_LOCATED || !check_repeated(&c, entry))
 			continue;
 		if (entry->kind == CONFIG_TASK)
 			check_task(&c, entry);

@@ -294,6 +294,36 @@ static void check_points(struct names_check *c, const struct pou *pou, const str
 		report_line(c, why, pou, var->line, text_of(c, name));
 }
 
+static void check_address(struct names_check *c, const struct var *var, struct diag place)
+{
+	place.id = DIAG_BAD_ADDRESS;
+	if (!is_inside(c, var))
+		c->good &= diag_add(c->diags, place, "%s", text_of(c, var->name));
+	place.id = DIAG_AT_TYPE;
+	if (!fits(var))
+		c->good &= diag_add(c->diags, place, "%s", text_of(c, var->name));
+}
+
+/* Of its own, or from VAR_CONFIG? */
+static bool has_address(const struct names_check *c, const struct var *var)
+{
+	const char *text = text_of(c, var->at_text);
+
+	return var->at.area != AREA_NONE && *text && text[strlen(text) - 1] != '*';
+}
+
+/* VAR_CONFIG */
+static void check_located(struct names_check *c)
+{
+	for (int i = 0; i < c->project->located.count; i++) {
+		const struct var *line = &c->project->located.var[i];
+
+		if (has_address(c, line))
+			check_address(c, line, (struct diag){ .file = c->project->config->file,
+							      .line = line->line });
+	}
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint16_t flags)
 {
@@ -316,10 +346,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
-	if (!is_inside(c, var))
-		report_line(c, DIAG_BAD_ADDRESS, pou, var->line, name);
-	if (var->at.area != AREA_NONE && !fits(var))
-		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
+	if (has_address(c, var))
+		check_address(c, var, place_of(c, DIAG_COUNT, pou, var->line));
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
@@ -799,6 +827,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	check_structures(&c);
 	check_named(&c);
 	check_table(&c, NULL, &c.project->globals);
+	check_located(&c);
 	check_bodies(&c, bad);
 	c.good &= check_config(scope, &c.uses, diags);
 	c.good &= check_access(scope, &c.uses, scratch, diags);

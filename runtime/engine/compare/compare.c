@@ -1221,11 +1221,17 @@ static void compare_entry(struct diff *diff, struct compare_difference what,
 static const char *kind_of(const struct config_entry *entry)
 {
 	static const char *const kind[] = {
-		[CONFIG_VARS] = "", [CONFIG_ACCESS] = "", [CONFIG_AREA] = "area",
+		[CONFIG_VARS] = "", [CONFIG_ACCESS] = "", [CONFIG_LOCATED] = "", [CONFIG_AREA] = "area",
 		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance",
 	};
 
 	return kind[entry->kind];
+}
+
+static bool is_block(const struct config_entry *entry)
+{
+	return entry->kind == CONFIG_VARS || entry->kind == CONFIG_ACCESS ||
+	       entry->kind == CONFIG_LOCATED;
 }
 
 /* Tasks, programs and areas of the configurations. */
@@ -1249,7 +1255,7 @@ static void diff_config(struct diff *diff)
 
 		what.kind = kind_of(entry);
 		what.subject = subject_of(diff->a, entry);
-		if (entry->kind == CONFIG_VARS || entry->kind == CONFIG_ACCESS)
+		if (is_block(entry))
 			continue;
 		other = same_line(diff->b, entry, what.subject);
 		what.change = other ? NULL : "removed";
@@ -1262,7 +1268,7 @@ static void diff_config(struct diff *diff)
 	for (int i = 0; i < b->count; i++) {
 		what.kind = kind_of(&b->entry[i]);
 		what.subject = subject_of(diff->b, &b->entry[i]);
-		if (b->entry[i].kind != CONFIG_VARS && b->entry[i].kind != CONFIG_ACCESS &&
+		if (!is_block(&b->entry[i]) &&
 		    !same_line(diff->a, &b->entry[i], what.subject))
 			diff_say(diff, &what);
 	}
@@ -1336,6 +1342,8 @@ static void compare(struct diff *diff)
 	compare_parts(diff, PART_CONFIG, "configuration");
 	diff_config(diff);
 	diff_access(diff);
+	compare_above(diff, NULL, &a->located, &b->located);
+	compare_vars(diff, NULL, &a->located, &b->located);
 	diff->group = COMPARE_TYPES;
 	compare_parts(diff, PART_TYPES, "TYPE");
 	compare_structures(diff);

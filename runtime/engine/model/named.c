@@ -417,6 +417,7 @@ bool project_resolve(struct project *project, struct diag_list *diags)
 		good = resolve_table(project, &project->pou[i].vars, diags) && good;
 	for (int i = 0; i < project->structure_count; i++)
 		good = resolve_table(project, &project->structure[i].vars, diags) && good;
+	good = resolve_table(project, &project->located, diags) && good;
 	for (int i = 0; i < project->access_count; i++)
 		if (project->access[i].var.named)
 			good = resolve_var(project, &project->access[i].var, diags) && good;

@@ -19,7 +19,8 @@
 
 /* A CONFIGURATION as it was written, line by line (IEC 61131-3, 2.7 and tables 49 and
  * 50). check/ resolves the names, scan/ decides when a task runs. */
-enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM, CONFIG_ACCESS };
+enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM, CONFIG_ACCESS,
+		   CONFIG_LOCATED };
 
 /* One line; members of other kinds are 0. */
 struct config_entry {
@@ -34,7 +35,7 @@ struct config_entry {
 	enum iec_area area;   /* AREA                                         */
 	uint32_t bytes;       /* AREA: its size                               */
 	int block;            /* VARS: index of a block of the globals; ACCESS: of
-				 project.access_block                         */
+				 project.access_block; LOCATED: of project.located */
 	uint32_t comment;     /* its comment                                  */
 	int line;
 };
@@ -172,6 +173,8 @@ struct project {
 	uint32_t head;          /* comments above PROJECT or the first part    */
 	uint32_t tail;          /* comments at the end of the first file       */
 	struct var_table globals;
+	struct var_table located; /* lines of VAR_CONFIG; a name is a path, as P1.Speed */
+	struct var *unlocated;  /* by line: the variable as its program declares it */
 	struct access *access;  /* lines of all VAR_ACCESS                     */
 	int access_count;
 	struct access_block *access_block;

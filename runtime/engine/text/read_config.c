@@ -298,6 +298,16 @@ static void read_access_block(struct reader *r, struct config *config)
 		add_entry(r, config, entry);
 }
 
+static void read_located_block(struct reader *r, struct config *config, bool inside)
+{
+	struct config_entry entry = { .kind = CONFIG_LOCATED, .inside = inside,
+				    .line = r->lex.token.line };
+
+	entry.block = read_located(r);
+	if (entry.block >= 0)
+		add_entry(r, config, entry);
+}
+
 /* A word that cannot begin a line here ends the block. */
 static bool ends_config(const struct reader *r)
 {
@@ -313,9 +323,12 @@ static uint32_t *comment_of(struct project *project, struct config_entry *entry)
 	struct var_block *vars;
 	struct access_block *access;
 
-	if (entry->kind == CONFIG_VARS) {
-		vars = &project->globals.block[entry->block];
-		return vars->count ? &project->globals.var[vars->first + vars->count - 1].comment :
+	if (entry->kind == CONFIG_VARS || entry->kind == CONFIG_LOCATED) {
+		struct var_table *table = entry->kind == CONFIG_VARS ? &project->globals :
+								       &project->located;
+
+		vars = &table->block[entry->block];
+		return vars->count ? &table->var[vars->first + vars->count - 1].comment :
 				     &vars->comment;
 	}
 	if (entry->kind == CONFIG_ACCESS) {
@@ -378,6 +391,8 @@ static void read_entries(struct reader *r, struct config *config, bool inside)
 			return;
 		if (lex_is(&r->lex, "VAR") || lex_is(&r->lex, "VAR_GLOBAL"))
 			read_block(r, config, inside);
+		else if (lex_is(&r->lex, "VAR_CONFIG"))
+			read_located_block(r, config, inside);
 		else if (lex_is(&r->lex, "VAR_ACCESS") && inside)
 			reader_misplaced_access(r); /* behind the RESOURCE */
 		else if (lex_is(&r->lex, "VAR_ACCESS"))

@@ -18,7 +18,9 @@ static bool add_name(struct reader *r, struct var_table *table)
 {
 	uint32_t name = 0;
 
-	if (!reader_name(r, "name of a variable", &name))
+	if (r->paths && r->lex.token.kind == TOKEN_NAME && memchr(r->lex.token.text, '.', r->lex.token.len))
+		name = reader_intern(r, r->lex.token.text, r->lex.token.len);
+	else if (!reader_name(r, "name of a variable", &name))
 		return false;
 	if (r->project->globals.count == LIMIT_VARS ||
 	    table->count == LIMIT_VARS)
@@ -696,6 +698,30 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 	else
 		r->no_memory = true;
 	reader_close_vars(r, &head);
+}
+
+int read_located(struct reader *r)
+{
+	struct var_table *table = &r->project->located;
+	const struct token head = r->lex.token;
+	struct var_block block = { .first = table->count, .line = head.line };
+	struct var_block *slot;
+
+	reader_next(r);
+	block.comment = buffer_take(r, &r->note);
+	r->paths = true;
+	read_declarations(r, table);
+	r->paths = false;
+	block.count = table->count - block.first;
+	if (block.count > 0)
+		keep_last_comments(r, table, &block, r->comments);
+	slot = arena_push(&r->project->arena, &table->block, &table->block_count, sizeof(block));
+	if (slot)
+		*slot = block;
+	else
+		r->no_memory = true;
+	reader_close_vars(r, &head);
+	return table->block_count - 1;
 }
 
 void read_members(struct reader *r, struct var_table *table)

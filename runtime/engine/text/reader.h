@@ -70,6 +70,7 @@ struct reader {
 	struct il *il;              /* of the POU, for COMMENT_IL             */
 	const struct pou *pou;      /* the current POU; NULL: none            */
 	uint16_t var_flags;          /* of the current VAR block               */
+	bool paths;                 /* reading VAR_CONFIG: names are paths    */
 	bool members;               /* reading the members of a structure     */
 	bool library;               /* the file was named by USES             */
 	bool keep_pins;             /* pins are the project's own: as written */
@@ -237,6 +238,8 @@ void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);
 /** read_access - VAR_ACCESS … END_VAR; its number in the project, or -1: no memory. */
 int read_access(struct reader *r);
+/** read_located - VAR_CONFIG … END_VAR; the index of its block. */
+int read_located(struct reader *r);
 /** reader_misplaced_access - reports one that does not belong here, and drops it. */
 void reader_misplaced_access(struct reader *r);
 /** reader_close_vars - END_VAR of the block that began at @head. */

@@ -451,6 +451,20 @@ static void put_program(const struct config_writer *w,
 	sink_text(w->sink, ";");
 }
 
+/* VAR_CONFIG … END_VAR */
+static void write_located(const struct sink *sink, const struct project *project, int index)
+{
+	const struct var_block *block = &project->located.block[index];
+	const struct var *var = project->located.var ? project->located.var + block->first : NULL;
+	const struct widths widths = measure(project, var, block->count);
+
+	write_above(sink, project, block->comment);
+	sink_text(sink, "VAR_CONFIG\n");
+	for (int i = 0; i < block->count; i++)
+		write_var(sink, project, &var[i], &widths);
+	sink_text(sink, "END_VAR\n");
+}
+
 static void put_entry(const struct config_writer *w,
 		     const struct config_entry *entry)
 {
@@ -463,6 +477,10 @@ static void put_entry(const struct config_writer *w,
 	}
 	if (entry->kind == CONFIG_ACCESS) {
 		write_access(w->sink, w->project, entry->block);
+		return;
+	}
+	if (entry->kind == CONFIG_LOCATED) {
+		write_located(w->sink, w->project, entry->block);
 		return;
 	}
 	sink_mark(w->sink, TEXT_ENTRY, number, true);
