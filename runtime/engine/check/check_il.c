@@ -109,19 +109,31 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 	return NULL;
 }
 
+/* A structure or array in a message: its name; of a result, its type. */
+static const char *il_whole_text(struct il_check *c, const struct il_line *line,
+				 const struct meaning *m, char out[LIMIT_ARG])
+{
+	const char *word = m->type == IEC_NONE ? scope_row(c->fn.scope, (enum word)m->word)->word :
+						 iec_type_row(m->type)->word;
+
+	if (!il_is_made(&c->fn, il_operand_text(c, line)))
+		return il_operand_text(c, line);
+	snprintf(out, LIMIT_ARG, "%s%.40s", m->kind == MEANING_ARRAY ? "ARRAY OF " : "", word);
+	return out;
+}
+
 /* The operand as a value to read; NULL after a diagnostic. */
 static const struct meaning *as_value(struct il_check *c, const struct il_line *line,
 				      const struct meaning *m)
 {
+	char text[LIMIT_ARG];
+
 	if (m && meaning_fault(m) != DIAG_COUNT) {
-		il_report(&c->fn, line, meaning_fault(m), il_operand_text(c, line));
+		il_report(&c->fn, line, meaning_fault(m), il_whole_text(c, line, m, text));
 		return NULL;
 	}
 	if (m && m->kind == MEANING_STRUCT) {
-		il_report(&c->fn, line, DIAG_STRUCT_AS_VALUE,
-			  il_is_made(&c->fn, il_operand_text(c, line)) ?
-			  scope_row(c->fn.scope, (enum word)m->word)->word :
-			  il_operand_text(c, line));
+		il_report(&c->fn, line, DIAG_STRUCT_AS_VALUE, il_whole_text(c, line, m, text));
 		return NULL;
 	}
 	return m;
@@ -585,10 +597,12 @@ static const char *pin_text(struct il_check *c, const struct il_line *arg)
 static bool is_plain(struct il_check *c, const struct il_line *arg,
 		     const struct meaning *m)
 {
+	char text[LIMIT_ARG];
+
 	if (m->kind == MEANING_STRUCT)
-		return il_report(&c->fn, arg, DIAG_STRUCT_AS_VALUE, il_operand_text(c, arg));
+		return il_report(&c->fn, arg, DIAG_STRUCT_AS_VALUE, il_whole_text(c, arg, m, text));
 	return meaning_fault(m) == DIAG_COUNT ||
-	       il_report(&c->fn, arg, meaning_fault(m), il_operand_text(c, arg));
+	       il_report(&c->fn, arg, meaning_fault(m), il_whole_text(c, arg, m, text));
 }
 
 static struct il_result value_of(const struct meaning *m)
@@ -961,6 +975,9 @@ static bool check_result(struct il_check *c, const struct il_line *arg,
 	if (!m || !var)
 		return false;
 	pin.type = var->type;
+	pin.capacity = var->capacity;
+	pin.elements = var->array.count;
+	pin.low = var->array.low;
 	if (var->type == IEC_NONE)
 		pin.word = var->fb;
 	return check_value(c, arg, m, &pin);
@@ -1037,7 +1054,7 @@ static bool il_check_own_fn(struct il_check *c, int at)
 	if (!first.there)
 		return no_result(c, line, row->word);
 	if (pin < 0 || row->pin[pin].type == IEC_NONE || !var ||
-	    var->type == IEC_NONE)
+	    var->type == IEC_NONE || var->array.count)
 		return il_report(&c->fn, line, DIAG_WRONG_TYPE, row->word);
 	good = can_store(c, line, first, row->pin[pin].type);
 	if (line->operand)

@@ -140,6 +140,23 @@ static enum diag_id find_others(const struct expr *expr, const struct word_row *
 	return DIAG_COUNT;
 }
 
+/* IN3 of a comparison of several is its third pin. */
+static int named_pin(const struct word_row *row, const struct expr_node *arg)
+{
+	const int pin = word_pin_find(row, arg->text, arg->len);
+	int number = 0;
+
+	if (pin >= 0 || most_of(row) == row->most_inputs || arg->len < 3 || arg->len > 4 ||
+	    !ascii_same(arg->text, "IN", 2) || arg->text[2] == '0')
+		return pin;
+	for (int i = 2; i < arg->len; i++) {
+		if (!ascii_digit(arg->text[i]))
+			return pin;
+		number = number * 10 + arg->text[i] - '0';
+	}
+	return number <= most_of(row) ? number - 1 : pin;
+}
+
 static enum diag_id find_pins(const struct expr *expr, const struct word_row *row,
 			      struct expr_args *out)
 {
@@ -152,8 +169,7 @@ static enum diag_id find_pins(const struct expr *expr, const struct word_row *ro
 
 		if ((arg->len > 0) != (expr->node[out->arg[0].at].len > 0))
 			return fail(out, DIAG_MIXED_NAMES, -1, arg);
-		pin = arg->len ? word_pin_find(row, arg->text, arg->len) :
-				 next_pin(row, pin);
+		pin = arg->len ? named_pin(row, arg) : next_pin(row, pin);
 		if (pin < 0 || (pin < row->pin_count && !takes(row, pin)))
 			return fail(out, DIAG_NO_PIN, -1, arg);
 		for (int k = 0; k < i; k++)

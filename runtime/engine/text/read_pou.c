@@ -175,8 +175,6 @@ static bool read_result(struct reader *r, struct pou *pou)
 	var.type = IEC_BOOL;
 	if (!pou->no_result && !reader_type(r, &var))
 		return false;
-	if (var.array.count)
-		return reader_fail_word(r, DIAG_MISPLACED, "ARRAY");
 	block = arena_push(arena, &table->block, &table->block_count,
 			   sizeof(*block));
 	slot = arena_push(arena, &table->var, &table->count, sizeof(*slot));

@@ -238,7 +238,7 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 
 	if (word_is_own(word)) {
 		result = result_of(c, word);
-		return result ? result->type : IEC_NONE;
+		return result && !result->array.count ? result->type : IEC_NONE;
 	}
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return IEC_TIME;
@@ -953,8 +953,9 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	struct ld *ld = c->ld;
 	const struct word_row *row = ld_row(ld, word);
 	const struct var *result = result_of(c, word);
+	const bool array = result && result->array.count;
 	struct value in[LIMIT_ARGS], out = {
-		.operand = target, .type = result ? result->type : IEC_NONE };
+		.operand = target, .type = result && !array ? result->type : IEC_NONE };
 	uint32_t more[LIMIT_ARGS];
 
 	take_others(c, args, more);
@@ -973,11 +974,13 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	}
 	c->calls--;
 	ld_freeze_globals(ld);
-	if (!out.operand && result && result->type != IEC_NONE)
+	if (!out.operand && result && result->type != IEC_NONE && !array)
 		out.operand = temps_number(ld->temps, result->type);
 	else if (!out.operand && result)
 		out.operand = temps_whole(ld->temps, &(struct meaning){
-			.kind = MEANING_STRUCT, .word = (uint16_t)result->fb });
+			.kind = array ? MEANING_ARRAY : MEANING_STRUCT, .type = result->type,
+			.array = result->array, .capacity = result->capacity,
+			.word = (uint16_t)result->fb });
 	return emit_call(c, word, args, in, more, out);
 }
 

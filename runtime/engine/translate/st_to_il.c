@@ -180,8 +180,11 @@ static void want_bool(struct st_il *s, enum iec_type type)
 	char text[LIMIT_ARG];
 	const char *at;
 
-	if (type == IEC_BOOL || (type == IEC_NONE && s->ld.expr->count == 1))
-		return; /* of a constant check_il tells */
+	const struct expr *expr = s->ld.expr;
+
+	if (type == IEC_BOOL || (type == IEC_NONE && (expr->count == 1 ||
+						      expr->node[expr->root].op == EXPR_CALL)))
+		return; /* of a constant, and of a whole structure or array, check_il tells */
 	at = st_said(s->ld.expr, text, sizeof(text), type);
 	text[strcspn(text, DIAG_AND)] = '\0';
 	st_report(s, DIAG_NOT_BOOL, at, text);
