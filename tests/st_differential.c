@@ -2,7 +2,7 @@
  *
  * st_differential - the engine and the evaluator of tests/st run the same random programs of
  * Structured Text; every variable and the number of failed operations must be the same in
- * every scan.
+ * every scan. The engine runs them plain, watched, and with breakpoints and single steps.
  *
  *   st_differential [--seed S] [--count N] [--long] [--refused] [--text] [--whole] [FILE]
  *
@@ -14,6 +14,7 @@
 #include "tests/tap.h"
 
 #include "engine/ladder.h"
+#include "engine/trial/stops.h"
 
 #include <math.h>
 #include <time.h>
@@ -34,10 +35,20 @@ struct match {
 	struct ladder *ladder;
 	struct st_world *world;
 	struct side side[2];      /* plain; watched                           */
+	struct twin twin;         /* stands now and then                      */
+	struct stops *stops;
+	uint64_t stood;
 	struct location at[SHOWN];
 	char why[300];
 	int scan;
 };
+
+#define SIDES 3
+
+static struct resource *resource_of(struct match *match, int side)
+{
+	return side < 2 ? &match->side[side].resource : &match->twin.resource;
+}
 
 static double number(struct value value)
 {
@@ -48,7 +59,7 @@ static double number(struct value value)
 static bool same_value(struct match *match, int side, int index)
 {
 	const union iec_value theirs =
-		image_get(&match->side[side].resource.image, match->at[index]);
+		image_get(&resource_of(match, side)->image, match->at[index]);
 	const struct value mine = *st_world_value(match->world, index);
 	const bool real = mine.type == IEC_REAL || mine.type == IEC_LREAL;
 
@@ -65,14 +76,14 @@ static bool same_value(struct match *match, int side, int index)
 		   theirs.i == mine.i)
 		return true;
 	snprintf(match->why, sizeof(match->why), "scan %d%s: %s: engine %.17g, evaluator %.17g",
-		 match->scan, side ? " (watched)" : "", st_world_name(match->world, index),
+		 match->scan, side == 2 ? " (stepped)" : side ? " (watched)" : "", st_world_name(match->world, index),
 		 real ? theirs.r : (double)theirs.i, number(mine));
 	return false;
 }
 
 static bool same_all(struct match *match, int side)
 {
-	const uint32_t errors = match->side[side].resource.vm.errors;
+	const uint32_t errors = resource_of(match, side)->vm.errors;
 
 	for (int i = 0; i < st_world_count(match->world); i++)
 		if (st_world_is_settled(match->world, i) && !same_value(match, side, i))
@@ -116,8 +127,8 @@ static void set_input(struct match *match, int index, struct random_source *sour
 			mine->i &= 1;
 		theirs.i = mine->i;
 	}
-	for (int side = 0; side < 2; side++)
-		image_set(&match->side[side].resource.image, match->at[index], theirs);
+	for (int side = 0; side < SIDES; side++)
+		image_set(&resource_of(match, side)->image, match->at[index], theirs);
 }
 
 static void change_inputs(struct match *match, struct random_source *source)
@@ -131,20 +142,46 @@ static void change_inputs(struct match *match, struct random_source *source)
 
 /* ---- one program ---- */
 
+/* Stands at some statements. */
+static bool step_scan(struct match *match, struct random_source *source, int64_t now_ns)
+{
+	static const enum stops_step way[] = { STOPS_INTO, STOPS_INTO, STOPS_OVER, STOPS_OUT, STOPS_GO };
+	uint32_t most = 400;
+	bool goes_on;
+
+	match->twin.period_ns = now_ns - match->twin.now_ns;
+	do {
+		const enum stops_step step = most == 0 ? STOPS_LEAVE :
+			way[random_below(source, sizeof(way) / sizeof(*way))];
+
+		goes_on = stops_scan(match->stops, &match->twin, step);
+		match->stood += match->twin.resource.stopped;
+		most -= most > 0;
+	} while (match->twin.resource.stopped);
+	return goes_on;
+}
+
+static bool scan_side(struct match *match, int side, struct random_source *source, int64_t now_ns)
+{
+	return side == 2 ? step_scan(match, source, now_ns) :
+			   resource_scan(&match->side[side].resource, now_ns);
+}
+
 static enum verdict run_match(struct match *match, uint64_t seed)
 {
-	struct random_source source;
+	struct random_source source, steps;
 	int64_t now_ns;
 
 	random_seed(&source, seed ^ 0x57a7e);
+	random_seed(&steps, seed ^ 0x57e95);
 	now_ns = random_next(&source);
 	for (match->scan = 1; match->scan <= SCANS; match->scan++) {
 		change_inputs(match, &source);
 		now_ns += random_chance(&source, 50) ? 2000000 : random_below(&source, 9000000);
 		if (!st_world_scan(match->world, now_ns))
 			return ENDLESS;
-		for (int side = 0; side < 2; side++) {
-			if (!resource_scan(&match->side[side].resource, now_ns)) {
+		for (int side = 0; side < SIDES; side++) {
+			if (!scan_side(match, side, &steps, now_ns)) {
 				snprintf(match->why, sizeof(match->why), "scan %d: a fault", match->scan);
 				return DISAGREE;
 			}
@@ -153,6 +190,21 @@ static enum verdict run_match(struct match *match, uint64_t seed)
 		}
 	}
 	return AGREE;
+}
+
+/* With a breakpoint in every fifth line. */
+static bool begin_steps(struct match *match)
+{
+	const struct program *program = ladder_program(match->ladder);
+	const struct act start = { .kind = ACT_START };
+
+	match->stops = stops_new(program);
+	if (!match->stops || !twin_init(&match->twin, program, NULL, 1))
+		return false;
+	for (uint32_t pou = 0; pou < program->entry_count; pou++)
+		for (uint32_t line = 1; (line = stops_line(program, pou, line)); line += 5)
+			stops_add(match->stops, pou, line, NULL, NULL, false);
+	return twin_act(&match->twin, &start);
 }
 
 static enum verdict begin_match(struct match *match, const char *text, size_t len)
@@ -181,6 +233,8 @@ static enum verdict begin_match(struct match *match, const char *text, size_t le
 		resource_start(&side->resource);
 		side->resource.watch = i == 1;
 	}
+	if (!begin_steps(match))
+		return UNWALKED;
 	for (int i = 0; i < st_world_count(match->world); i++) {
 		const char *name = st_world_name(match->world, i);
 
@@ -192,6 +246,8 @@ static enum verdict begin_match(struct match *match, const char *text, size_t le
 	}
 	return AGREE;
 }
+
+static uint64_t stood; /* at statements, in all programs                    */
 
 static enum verdict judge(const char *text, size_t len, uint64_t seed, char *why, size_t size)
 {
@@ -209,6 +265,10 @@ static enum verdict judge(const char *text, size_t len, uint64_t seed, char *why
 	snprintf(why, size, "%s", match.why);
 	free(match.side[0].memory);
 	free(match.side[1].memory);
+	if (match.stops)
+		twin_free(&match.twin);
+	stops_free(match.stops);
+	stood += match.stood;
 	st_world_free(match.world);
 	ladder_free(match.ladder);
 	return verdict;
@@ -394,5 +454,6 @@ int main(int argc, char **argv)
 	CHECK_AS(got[REFUSED] * 10 <= got[AGREE], "few programs are refused");
 	CHECK_AS(got[ENDLESS] * 12 <= got[AGREE], "few programs run too long");
 	CHECK_AS(got[AGREE] > 0, "some programs ran");
+	CHECK_AS(options.count < 2 || stood > got[AGREE], "they stood at statements");
 	return tap_done();
 }

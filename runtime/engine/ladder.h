@@ -114,8 +114,8 @@ void ladder_leave_expressions(struct ladder *ladder, bool leave);
 void ladder_watch(struct ladder *ladder, bool watch);
 
 /** ladder_watch_lists - whether the instrumented section of later builds also keeps the current
- * result after each line of the lists that ladders and charts become: code_listed(). Such an image
- * is larger and slower; it is for a simulation, never for a board. Off at first. */
+ * result after each line of the lists that ladders and charts become: code_listed(), and has a
+ * place before each statement of Structured Text: trial/stops.h. Such an image is larger and slower; it is for a simulation, never for a board. Off at first. */
 void ladder_watch_lists(struct ladder *ladder, bool lists);
 
 /**

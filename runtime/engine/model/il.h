@@ -33,6 +33,7 @@ enum il_mark {
 			  * pin by the order of the inputs */
 	IL_MADE = 4,     /* made by the translation of a chart or a loop: it may write steps,
 			  * and a comparison that never changes is no news */
+	IL_BEGINS = 16,  /* a statement of Structured Text begins here        */
 	IL_WATCHING = 8, /* keeps power while it is watched; the other lines of that list are
 			  * those of the list that runs unwatched */
 };

@@ -193,7 +193,9 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 	uint32_t text;      /* words of CODE_WATCH are counted after them */
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
 	uint16_t row, col;  /* 1-based; 0: none. CODE_LINE: rung is a line
-			       of the file, in a list that was written     */
+			       of the file, in a list that was written; row, if
+			       not 0: column of a statement that begins at
+			       this word (ladder_watch_lists())            */
 };
 #define CODE_LINE UINT16_MAX
 #define CODE_LISTED (UINT16_MAX - 1)

@@ -55,7 +55,30 @@ static void reset_still(struct resource *resource)
 	if (HAS_STILL)
 		still_reset(resource->still);
 }
+
+/* Does a program stand where nobody has asked for another task? */
+static bool is_stopped(struct resource *resource)
+{
+	const struct vm *vm = &resource->vm;
+
+	resource->stopped = vm->stand && vm->stand->stands;
+	return resource->stopped;
+}
+
+static void drop_stop(struct resource *resource)
+{
+	resource->stopped = resource->stopped_late = false;
+}
+
+static bool is_late_stopped(struct resource *resource)
+{
+	resource->stopped_late = resource->stopped;
+	return resource->stopped_late;
+}
 #else
+#define is_stopped(resource) false
+#define is_late_stopped(resource) false
+#define drop_stop(resource)
 #define counts_points(resource) false
 #define begin_image(resource, now_ns, watch) ((void)(watch), image_begin(&(resource)->image))
 #define end_image(resource) image_end(&(resource)->image)
@@ -86,6 +109,7 @@ static void begin_cold(struct resource *resource)
 	resource->second_ns = INT64_MIN;
 	resource->level = 0;
 	resource->standing = false;
+	drop_stop(resource);
 	tasks_start(&resource->tasks, program, 0);
 	reset_still(resource);
 }
@@ -591,6 +615,8 @@ static bool run_levels(struct resource *resource, bool watch)
 {
 	for (;;) {
 		if (!run_tasks(resource, watch)) {
+			if (is_stopped(resource))
+				return false;
 			put_aside(resource);
 			resource->standing = !resource->interrupts->begin;
 			if (resource->standing)
@@ -632,16 +658,23 @@ static bool run_due(struct resource *resource, int64_t now_ns, bool watch)
 	if (declared || !program->task_count)
 		return !declared || run_levels(resource, watch);
 	begin_task(resource, 0, 0);
-	run_task(resource, watch);
-	return true;
+	return run_task(resource, watch) || !is_stopped(resource);
+}
+
+/* Of a scan that stood before. */
+static bool end_late(struct resource *resource, bool whole)
+{
+	if (!whole && is_late_stopped(resource))
+		return false;
+	interrupt_give_inputs(&resource->image);
+	resource->second_ns = INT64_MIN; /* the calendar is that of the begin */
+	return whole;
 }
 
 /* Goes on with a scan that stands. False: it stands again. Inputs that came from outside
  * meanwhile stay in the image for the next one. */
 static bool go_on(struct resource *resource, int64_t now_ns, bool watch)
 {
-	bool whole;
-
 	resource->standing = false;
 	interrupt_keep_inputs(&resource->image);
 	if (tasks_may_begin(&resource->tasks, resource->image.program, tasks_over(resource),
@@ -649,10 +682,7 @@ static bool go_on(struct resource *resource, int64_t now_ns, bool watch)
 		begin_inner(resource, now_ns);
 	else
 		go_back(resource);
-	whole = run_levels(resource, watch);
-	interrupt_give_inputs(&resource->image);
-	resource->second_ns = INT64_MIN; /* the calendar is that of the begin */
-	return whole;
+	return end_late(resource, run_levels(resource, watch));
 }
 
 static void clear_area(struct resource *resource, enum iec_area area)
@@ -694,11 +724,51 @@ static void begin_scan(struct resource *resource, int64_t now_ns, bool watch)
 	resource->vm.now_ns = now_ns + resource->timers_ns;
 }
 
+static bool end_scan(struct resource *resource, bool whole, uint32_t errors, bool watch)
+{
+	const struct vm *vm = &resource->vm;
+
+	if (errors == 0 && vm->errors)
+		resource->error_at = place_in(resource, vm->error_text, watch);
+	if (!whole)
+		return true;
+	end_image(resource);
+	resource->scans++;
+	if (vm->stop && resource->state == STATE_RUN)
+		halt(resource, watch);
+	return resource->state == STATE_RUN;
+}
+
+static bool watches(const struct resource *resource)
+{
+	return resource->watch && resource->image.program->watch_words;
+}
+
+#ifndef RUNGBOARD_SMALL
+/* A program without tasks has one that is run alone. */
+bool resource_go_on(struct resource *resource)
+{
+	const struct program *program = resource->image.program;
+	const uint32_t errors = resource->vm.errors;
+	const bool watch = watches(resource), late = resource->stopped_late;
+	bool whole;
+
+	resource->stopped = resource->stopped_late = false;
+	if (tasks_declared(program))
+		whole = run_levels(resource, watch);
+	else
+		whole = run_task(resource, watch) || !is_stopped(resource);
+	if (late)
+		whole = end_late(resource, whole);
+	return end_scan(resource, whole, errors, watch);
+}
+#endif
+
 bool resource_scan(struct resource *resource, int64_t now_ns)
 {
-	bool watch = resource->watch && resource->image.program->watch_words, whole;
-	struct vm *vm = &resource->vm;
-	uint32_t errors = vm->errors;
+	const bool watch = watches(resource);
+	const uint32_t errors = resource->vm.errors;
+	bool whole;
 
 	if (resource->state != STATE_RUN)
 		return false;
@@ -709,15 +779,7 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 		begin_scan(resource, now_ns, watch);
 		whole = run_due(resource, now_ns, watch);
 	}
-	if (errors == 0 && vm->errors)
-		resource->error_at = place_in(resource, vm->error_text, watch);
-	if (!whole)
-		return true;
-	end_image(resource);
-	resource->scans++;
-	if (vm->stop && resource->state == STATE_RUN)
-		halt(resource, watch);
-	return resource->state == STATE_RUN;
+	return end_scan(resource, whole, errors, watch);
 }
 
 static size_t append(char *out, size_t at, size_t end, const char *text)

@@ -101,6 +101,11 @@ struct resource {
 	struct level_run run[LIMIT_LEVELS + 1]; /* run[level] runs, those below it wait */
 	uint32_t level;              /* how many are interrupted              */
 	bool standing;               /* the scan stands at a safe point: see interrupts.begin */
+#ifndef RUNGBOARD_SMALL
+	bool stopped;                /* it stands in a program, where vm.run ended with
+				      * FAULT_PAUSED: see resource_go_on()    */
+	bool stopped_late;           /* likewise, in a scan that stood before */
+#endif
 	int64_t asked_ns;            /* the time that interrupts.asks() gave  */
 	uint64_t words;              /* of the programs that ended in this call of
 				      * resource_scan(), all of each, and those that they
@@ -165,6 +170,12 @@ void resource_fail(struct resource *resource, enum fault fault);
  * for STOP: then `halted` is set and the outputs in the image are 0.
  */
 bool resource_scan(struct resource *resource, int64_t now_ns);
+
+#ifndef RUNGBOARD_SMALL
+/** resource_go_on - goes on with a scan that is `stopped`: no time has passed, nothing begins anew.
+ * It may be `stopped` again. Returns, scan-safe, fails: as resource_scan(). */
+bool resource_go_on(struct resource *resource);
+#endif
 
 /**
  * resource_power - power of a cell in the last scan, when `watch` was on

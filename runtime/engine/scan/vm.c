@@ -804,16 +804,62 @@ static inline bool pay(uint32_t *budget, uint32_t cost)
 #ifdef VM_COUNTS_BACK
 static inline void count_back(struct vm *vm, const uint32_t *from, const uint32_t *to)
 {
-	if (to <= from && (*to & 0xff) != VM_EACH)
+	if (vm->went_back && to <= from && (*to & 0xff) != VM_EACH)
 		vm->went_back(vm, from);
 }
 #else
 #define count_back(vm, from, to) ((void)0)
 #endif
 
+/* engine/trial/vm_stepping.c is it once more: it looks at each instruction, so that none may be joined
+ * with the one before. */
+#ifdef VM_STEPS
+#define JOINS false
+static bool stands(struct vm *vm, const uint32_t *pc, const uint32_t *base,
+		   const uint32_t *const *back, uint32_t depth, const uint32_t *run, bool *fresh)
+{
+	struct vm_stand *stand = vm->stand;
+	const bool asked = *fresh;
+
+	*fresh = false;
+	if (!stand || asked || !stand->begins[pc - base])
+		return false;
+	stand->word = (uint32_t)(pc - base);
+	stand->depth = depth;
+	for (uint32_t i = 0; i < depth; i++)
+		stand->back[i] = (uint32_t)(back[i] - base);
+	stand->run = (uint32_t)(run - base);
+	stand->stands = stand->asks(stand, vm);
+	return stand->stands;
+}
+
+static bool stood(const struct vm *vm, const uint32_t *base, const uint32_t **pc,
+		  const uint32_t **back, uint32_t *depth, const uint32_t **run)
+{
+	struct vm_stand *stand = vm->stand;
+
+	if (!stand)
+		return false;
+	stand->starts += !stand->stands;
+	if (!stand->stands)
+		return false;
+	stand->stands = false;
+	*pc = base + stand->word;
+	*run = base + stand->run;
+	*depth = stand->depth;
+	for (uint32_t i = 0; i < stand->depth; i++)
+		back[i] = base + stand->back[i];
+	return true;
+}
+#else
+#define JOINS true
+#define stands(vm, pc, base, back, depth, run, fresh) ((void)(fresh), false)
+#define stood(vm, base, pc, back, depth, run) false
+#endif
+
 /* Loops consist of few instructions, which often follow each other: it saves time to look
  * whether the next one is that, before the switch does. */
-#define NEXT_OFTEN(pc, op) (HAS_OFTEN && LIKELY((*(pc) & 0xff) == (op)))
+#define NEXT_OFTEN(pc, op) (HAS_OFTEN && JOINS && LIKELY((*(pc) & 0xff) == (op)))
 
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 {
@@ -828,6 +874,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	bool more;
 
 	const uint32_t *until = HAS_STILL && vm->until ? base + vm->until : NULL;
+	bool fresh = stood(vm, base, &pc, back, &depth, &run);
 
 	vm->resume = 0;
 	if (HAS_STILL)
@@ -835,6 +882,11 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
 
+		if (stands(vm, pc, base, back, depth, run, &fresh)) {
+			vm->budget = budget;
+			vm->resume = (uint32_t)(pc - base);
+			return FAULT_PAUSED;
+		}
 		switch ((enum vm_op)(word & 0xff)) {
 		case VM_END:
 			if (depth == 0) {
@@ -913,7 +965,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 6;
 			n = *pc >> 8;
 			/* A sum is often followed by a comparison. */
-			if (!LIKELY((*pc & 0xff) == VM_CMP_REAL))
+			if (!JOINS || !LIKELY((*pc & 0xff) == VM_CMP_REAL))
 				break;
 			/* fall through */
 		case VM_CMP_REAL:

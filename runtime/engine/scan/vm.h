@@ -46,6 +46,7 @@ struct vm {
 	/* What runs programs; NULL: vm_run(). And what vm_run_counting() calls before it jumps back. */
 	enum fault (*run)(struct vm *vm, uint32_t entry, bool watch);
 	void (*went_back)(struct vm *vm, const uint32_t *from);
+	struct vm_stand *stand; /* of vm_run_stepping(); NULL: it is vm_run_counting() */
 #endif
 };
 
@@ -63,6 +64,27 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
  * an EACH. For the simulation: a board has no use for it, and it would cost vm_run() a part of its speed.
  * Scan-safe, fails: as vm_run(). */
 enum fault vm_run_counting(struct vm *vm, uint32_t entry, bool watch);
+
+
+/* Where vm_run_stepping() may stand, and where it stands. Words count from the begin of the section
+ * that is run. */
+struct vm_stand {
+	const uint8_t *begins; /* by word: not 0: it asks before this instruction */
+	/* Shall it stand here? @stand: `word`, `depth` and `back` are set. */
+	bool (*asks)(struct vm_stand *stand, struct vm *vm);
+	uint32_t word;         /* before which it is asked or stands          */
+	uint32_t depth;        /* how many calls it is in                     */
+	uint32_t back[LIMIT_CALLS]; /* where each of them goes on             */
+	uint32_t run;          /* last target of EACH                         */
+	uint32_t starts;       /* how often a program began                   */
+	bool stands;           /* set before FAULT_PAUSED; the next call goes on from there */
+};
+#ifndef RUNGBOARD_SMALL
+/** vm_run_stepping - as vm_run_counting(), and can stand before an instruction: FAULT_PAUSED, and
+ * `stands` is set. The next call goes on there and asks only before the instructions behind it. For
+ * the simulation. Scan-safe: as vm_run(). */
+enum fault vm_run_stepping(struct vm *vm, uint32_t entry, bool watch);
+#endif
 
 /** vm_look_up - runs @n parts of a LUT, the first one at @part. Scan-safe: yes. */
 void vm_look_up(uint8_t *memory, const uint32_t *part, uint32_t n);

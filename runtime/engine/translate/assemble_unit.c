@@ -11,6 +11,8 @@
 #include "engine/model/st.h"
 #include "engine/translate/lists.h"
 
+#include <limits.h>
+
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
 
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
@@ -957,11 +959,60 @@ static void assemble_choices(struct list *list, int lines)
 	}
 }
 
+/* ---- where the simulation can stand ---- */
+
+#define ST_STANDS (bit_of(ST_ASSIGN) | bit_of(ST_CALL) | bit_of(ST_IF) | bit_of(ST_ELSIF) | \
+		   bit_of(ST_CASE) | bit_of(ST_FOR) | bit_of(ST_END_FOR) | bit_of(ST_WHILE) | \
+		   bit_of(ST_UNTIL) | bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_RETURN))
+
+/* The statement that a line was made of: its first instruction may be of a part further down. */
+static const struct st_item *st_item_of(const struct st *st, const struct il_line *line)
+{
+	const int column = line->col ? line->col : INT_MAX;
+	int low = 0, high = st->count;
+
+	while (low < high) {
+		const int middle = low + (high - low) / 2;
+		const struct st_item *item = &st->item[middle];
+
+		if ((uint32_t)item->line < line->line ||
+		    ((uint32_t)item->line == line->line && item->column <= column))
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	while (low > 0 && !(bit_of((enum st_kind)st->item[low - 1].kind) & ST_STANDS))
+		low--;
+	return low > 0 ? &st->item[low - 1] : NULL;
+}
+
+/* While listing, an instruction begins there, and a place has the column of the statement as its
+ * row. */
+static void stand_here(struct list *list)
+{
+	struct assembler *as = list->as;
+	const struct il_line *line = &list->il->line[list->at];
+	const struct st_item *item;
+	struct code_place *place;
+
+	if (!as->listing || as->text != &as->watch || !(line->mark & IL_BEGINS))
+		return;
+	item = st_item_of(list->pou->st, line);
+	bits_end(as);
+	list_place(list);
+	place = &as->place[as->place_count - 1];
+	if (as->failed || !item)
+		return;
+	place->rung = (uint32_t)item->line;
+	place->row = (uint16_t)(item->column < UINT16_MAX ? item->column : UINT16_MAX);
+}
+
 static void assemble_line(struct list *list)
 {
 	const bool before = leaves(&list->il->line[list->at]);
 	int choices;
 
+	stand_here(list);
 	if (list->il->line[list->at].kind == IL_OP && list->il->line[list->at].op == OP_LD) {
 		begin_statement(list);
 		choices = list_choices(list);

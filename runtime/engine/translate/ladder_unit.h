@@ -46,6 +46,7 @@ struct ld {
 	bool listing;      /* translation->listing, while watched             */
 	bool statement;    /* expressions are those of Structured Text (check/mixed.h) */
 	uint8_t mark;      /* of the next instructions: IL_WATCHING, or 0     */
+	bool begins;       /* the next instruction that is no label gets IL_BEGINS */
 	const struct rung *rung;  /* NULL: a statement of the POU's text      */
 	const struct st_item *item; /* that statement                         */
 	int line;                 /* of the file, of the next instruction     */

@@ -125,6 +125,10 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 	line.col = ld->col;
 	line.line = (uint32_t)(ld->rung ? rung_line(ld->rung, ld->row) : ld->line);
 	line.mark |= ld->mark;
+	if (ld->begins && line.kind != IL_LABEL) {
+		line.mark |= IL_BEGINS;
+		ld->begins = false;
+	}
 	if (!il_add(ld->il, line))
 		ld->failed = true;
 }

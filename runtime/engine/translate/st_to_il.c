@@ -151,6 +151,12 @@ static bool next_part(struct st_il *s, struct st_walk *walk, struct st_part *par
 	return st_next(walk, part, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT });
 }
 
+/* A simulation may stand before what comes next: st_to_il(). */
+static void begins(struct st_il *s)
+{
+	s->ld.begins = true;
+}
+
 /* ---- messages ---- */
 
 static void st_report(struct st_il *s, enum diag_id id, const char *at, const char *arg)
@@ -249,6 +255,7 @@ static void begin_if(struct st_il *s, struct st_walk *walk)
 	struct st_open *open = push_block(s, ST_IF);
 
 	open->next = new_label(s);
+	begins(s);
 	unless(s, walk, open->next);
 }
 
@@ -260,8 +267,10 @@ static void other_if(struct st_il *s, struct st_walk *walk, enum st_kind kind)
 	jump(s, 0, open->out);
 	here(s, open->next);
 	open->next = kind == ST_ELSIF ? new_label(s) : 0;
-	if (kind == ST_ELSIF)
-		unless(s, walk, open->next);
+	if (kind != ST_ELSIF)
+		return;
+	begins(s);
+	unless(s, walk, open->next);
 }
 
 static void end_if(struct st_il *s)
@@ -279,6 +288,7 @@ static void begin_while(struct st_il *s, struct st_walk *walk)
 
 	open->again = new_label(s);
 	here_again(s, open->again);
+	begins(s);
 	unless(s, walk, open->out);
 }
 
@@ -296,6 +306,7 @@ static void end_repeat(struct st_il *s, struct st_walk *walk)
 	const struct st_open *open = innermost(s);
 
 	here(s, open->again);
+	begins(s);
 	unless(s, walk, open->top);
 	s->depth--;
 	here(s, open->out);
@@ -487,6 +498,7 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 	struct st_part part;
 	int64_t by;
 
+	begins(s);
 	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		if (part.role == ST_VARIABLE) {
@@ -609,6 +621,7 @@ static void end_for(struct st_il *s)
 	const struct st_open *open = innermost(s);
 
 	here(s, open->again);
+	begins(s);
 	if (open->bits) {
 		next_bits(s, open);
 		return;
@@ -721,6 +734,7 @@ static void begin_case(struct st_il *s, struct st_walk *walk, int at)
 	struct st_part part;
 	const int depth = st->item[at].depth;
 
+	begins(s);
 	if (!next_part(s, walk, &part))
 		s->ld.failed = true;
 	selector = ld_value(&s->ld, &type, &good);
@@ -874,6 +888,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 	enum iec_type type = IEC_NONE;
 	uint32_t good;
 
+	begins(s);
 	if (!next_part(s, walk, &part)) {
 		s->ld.failed = true;
 		return;
@@ -895,6 +910,7 @@ static void assign(struct st_il *s, struct st_walk *walk)
 {
 	struct st_part part;
 
+	begins(s);
 	if (next_part(s, walk, &part))
 		ld_store(&s->ld);
 	else
@@ -908,6 +924,7 @@ static void leave_loop(struct st_il *s, enum st_kind kind)
 
 	while (i > 0 && (s->open[i].kind == ST_IF || s->open[i].kind == ST_CASE))
 		i--;
+	begins(s);
 	jump(s, 0, kind == ST_EXIT ? s->open[i].out : s->open[i].again);
 }
 
@@ -925,6 +942,7 @@ static void st_item_to_il(struct st_il *s, int at)
 
 	s->ld.item = &s->pou->st->item[at];
 	at_item(s);
+	s->ld.begins = false;
 	st_begin(&walk, &s->translation->project->names, s->ld.item);
 	switch (kind) {
 	case ST_ASSIGN: assign(s, &walk); break;
@@ -944,7 +962,7 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_UNTIL: end_repeat(s, &walk); break;
 	case ST_EXIT:
 	case ST_CONTINUE: leave_loop(s, kind); break;
-	case ST_RETURN: ld_emit(&s->ld, OP_RET, 0, 0); break;
+	case ST_RETURN: begins(s); ld_emit(&s->ld, OP_RET, 0, 0); break;
 	case ST_EMPTY:
 	case ST_COMMENT:
 	case ST_KINDS: break;

@@ -146,7 +146,8 @@ void pace_set(struct resource *resource, uint64_t speed)
 		pace_finish(resource);
 		resource->interrupts = NULL;
 		resource->clock_ns = NULL;
-		resource->vm.run = NULL;
+		resource->vm.run = resource->vm.stand ? vm_run_stepping : NULL;
+		resource->vm.went_back = NULL;
 		resource->patience = 0;
 		resource->late = false;
 		resource->scan_us = 0;
@@ -174,7 +175,7 @@ static void ready(struct resource *resource, int64_t now_ns, uint64_t words)
 	resource->interrupts = &by_words;
 	resource->clock_ns = clock_of;
 	memset(pace->loop, 0, sizeof(pace->loop));
-	resource->vm.run = vm_run_counting;
+	resource->vm.run = resource->vm.stand ? vm_run_stepping : vm_run_counting;
 	resource->vm.went_back = went_back;
 	resource->patience = PACE_PATIENCE;
 }
@@ -199,6 +200,26 @@ static void judge(struct resource *resource, uint64_t words)
 	resource_fail(resource, FAULT_WATCHDOG);
 }
 
+/* The work of a period has ended, or the scan in it has. */
+static bool finish_period(struct resource *resource, uint64_t words)
+{
+	struct paced *pace = &resource->pace;
+
+	pace->taken += resource->words;
+	pace->owed = resource->words > pace->most ? resource->words - pace->most : 0;
+	judge(resource, words);
+	return resource->state == STATE_RUN;
+}
+
+bool pace_go_on(struct resource *resource, int64_t period_ns)
+{
+	const bool goes_on = resource_go_on(resource);
+
+	if (resource->stopped || !resource->pace.speed)
+		return goes_on;
+	return finish_period(resource, words_of(&resource->pace, period_ns));
+}
+
 bool pace_scan(struct resource *resource, int64_t now_ns, int64_t period_ns)
 {
 	struct paced *pace = &resource->pace;
@@ -218,8 +239,5 @@ bool pace_scan(struct resource *resource, int64_t now_ns, int64_t period_ns)
 		pace->taken = 0;
 	ready(resource, now_ns, words);
 	resource_scan(resource, pace->begin_ns);
-	pace->taken += resource->words;
-	pace->owed = resource->words > pace->most ? resource->words - pace->most : 0;
-	judge(resource, words);
-	return resource->state == STATE_RUN;
+	return resource->stopped || finish_period(resource, words);
 }

@@ -32,6 +32,8 @@ void pace_set(struct resource *resource, uint64_t speed);
  * PACE_PATIENCE periods, so many late ones in a row, or the WATCHDOG of a task.
  */
 bool pace_scan(struct resource *resource, int64_t now_ns, int64_t period_ns);
+/** pace_go_on - goes on with a scan that is `stopped`; @period_ns: as before. As resource_go_on(). */
+bool pace_go_on(struct resource *resource, int64_t period_ns);
 /** pace_finish - the rest of a scan that stands, at no cost. Scan-safe: as resource_scan(). */
 void pace_finish(struct resource *resource);
 /** pace_at - the time of a word of this period, as `pace.part` has it, in ns; with a speed.

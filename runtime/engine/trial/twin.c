@@ -87,6 +87,9 @@ static void resource_copy(struct resource *to, const struct resource *from, size
 	to->still = still;
 	still_reset(still);
 	to->image.memory = to->vm.memory = memory;
+	if (to->vm.stand)
+		to->vm.run = NULL;
+	to->vm.stand = NULL;
 	memcpy(memory, from->image.memory, size);
 }
 
@@ -289,6 +292,13 @@ bool twin_act(struct twin *twin, const struct act *act)
 
 /* ---- scans ---- */
 
+static bool is_running(struct twin *twin)
+{
+	if (twin->resource.state == STATE_FAULT)
+		twin_outputs_safe(twin);
+	return twin->resource.state == STATE_RUN;
+}
+
 /* The plant first: it has a period to react to the last outputs before the program
  * reads inputs again, and the first scan sees its inputs. */
 bool twin_scan(struct twin *twin)
@@ -304,7 +314,13 @@ bool twin_scan(struct twin *twin)
 		plant_turn(&twin->plant, twin->plant_drives, &resource->image,
 			   twin->now_ns);
 	pace_scan(resource, twin->now_ns, twin->period_ns);
-	if (resource->state == STATE_FAULT)
-		twin_outputs_safe(twin);
-	return resource->state == STATE_RUN;
+	return is_running(twin);
+}
+
+bool twin_go_on(struct twin *twin)
+{
+	if (!twin->resource.stopped)
+		return false;
+	pace_go_on(&twin->resource, twin->period_ns);
+	return is_running(twin);
 }

@@ -65,7 +65,7 @@ void twin_copy(struct twin *twin, const struct twin *from);
  * the state of @from (scan/carry.h); so does its plant, if both have one
  * @twin: just initialised @from: does not change
  *
- * Between two scans; one that stands is finished first. A record of @from cannot continue.
+ * Between two scans, @from is not `stopped`; one that stands is finished first. A record of @from cannot continue.
  * Owns: nothing. Scan-safe: no. Fails: false: no memory; free @twin.
  */
 bool twin_change(struct twin *twin, const struct twin *from);
@@ -100,4 +100,7 @@ void twin_outputs_safe(struct twin *twin);
  * Fails: false: it is not in RUN now. A scan that ends in FAULT or STOP counts.
  */
 bool twin_scan(struct twin *twin);
+/** twin_go_on - goes on with a scan in which the program is `stopped` (trial/stops.h). As
+ * twin_scan(). */
+bool twin_go_on(struct twin *twin);
 #endif
