@@ -49,7 +49,8 @@ const char *verb_found(enum verb verb)
 static unsigned usual_needs(enum verb verb)
 {
 	static const unsigned sheet[] = { [VERB_SHEET] = WITH_RUNGS, [VERB_CHART] = WITH_CHART,
-					  [VERB_BOTH] = WITH_CANVAS, [VERB_WINDOW] = 0 };
+					  [VERB_BOTH] = WITH_CANVAS, [VERB_TEXT] = WITH_ST,
+					  [VERB_WINDOW] = 0 };
 	const enum verb_group group = rows[verb].group;
 	const bool edits = group == VERBS_DRAW || group == VERBS_RUNG || group == VERBS_CHART;
 
@@ -147,7 +148,7 @@ static const struct key_row key_rows[] = {
 /* The keys in use; only verbs_use_scheme() changes them. */
 static char *keys_now[VERB_COUNT];
 static enum key_scheme scheme_now;
-static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets and charts */
+static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets, charts and texts */
 
 const char *key_scheme_name(enum key_scheme scheme)
 {
@@ -164,13 +165,15 @@ static bool same_key(const char *a, const char *b)
 	       state_a == state_b;
 }
 
-/* The same key may have one meaning in sheets and another in charts. */
+/* The same key may have one meaning in sheets, another in charts, and a third one in texts. */
 static bool is_apart(const struct key_row *row, enum verb verb)
 {
-	const enum verb_where where = row->word ? VERB_SHEET : rows[row->verb].where;
+	const enum verb_where a = row->word ? VERB_SHEET : rows[row->verb].where;
+	const enum verb_where b = rows[verb].where;
 
-	return (where == VERB_SHEET && rows[verb].where == VERB_CHART) ||
-	       (where == VERB_CHART && rows[verb].where == VERB_SHEET);
+	if (a == VERB_WINDOW || b == VERB_WINDOW || a == b)
+		return false;
+	return a == VERB_TEXT || b == VERB_TEXT || (a != VERB_BOTH && b != VERB_BOTH);
 }
 
 static bool is_given_away(enum key_scheme scheme, const char *key, enum verb verb)
@@ -292,7 +295,8 @@ static void fill_shortcuts(enum verb_where where)
 
 	g_list_store_remove_all(shortcuts[where]);
 	for (int i = 0; i < VERB_COUNT; i++)
-		if ((rows[i].where == where || rows[i].where == VERB_BOTH) &&
+		if ((rows[i].where == where ||
+		     (rows[i].where == VERB_BOTH && where != VERB_TEXT)) &&
 		    verb_keys((enum verb)i)[0])
 			add_shortcut(shortcuts[where], verb_keys((enum verb)i),
 				     rows[i].action, NULL);

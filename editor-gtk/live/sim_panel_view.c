@@ -176,7 +176,7 @@ static void show_value(LadderSimRowView *view)
 
 static bool look(LadderSimRowView *view, struct live_seen *seen, struct location at)
 {
-	return live_value_look(seen, view->sim, view->row->plant, at);
+	return live_value_look_outside(seen, view->sim, view->row->plant, at);
 }
 
 /* The steps of a chart that are active. */

@@ -70,7 +70,7 @@ static void keep_value(struct live_seen *seen, enum iec_type type, union iec_val
 	seen->value.s = copy;
 }
 
-bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct location at)
+static bool look(struct live_seen *seen, LadderSim *sim, bool plant, struct location at, bool outside)
 {
 	const struct image *image = at.type != IEC_NONE ? live_image(sim, plant) : NULL;
 	const bool known = seen->known, forced = seen->forced;
@@ -80,11 +80,21 @@ bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct 
 	seen->forced = live_value_is_forced(sim, plant, at);
 	if (!seen->known)
 		return known || forced;
-	value = image_get(image, at);
+	value = outside && !plant ? ladder_sim_outside(sim, at) : image_get(image, at);
 	if (known && live_value_is_equal(at.type, seen->value, value))
 		return forced != seen->forced;
 	keep_value(seen, at.type, value);
 	return true;
+}
+
+bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct location at)
+{
+	return look(seen, sim, plant, at, false);
+}
+
+bool live_value_look_outside(struct live_seen *seen, LadderSim *sim, bool plant, struct location at)
+{
+	return look(seen, sim, plant, at, true);
 }
 
 /* ---- set, force, release ---- */

@@ -37,6 +37,9 @@ struct live_seen {
  * false if there is no value. True: something changed. */
 bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct location at);
 
+/** live_value_look_outside - the same as others see it: ladder_sim_outside(). */
+bool live_value_look_outside(struct live_seen *seen, LadderSim *sim, bool plant, struct location at);
+
 /* ---- set, force, release: acts between two scans ---- */
 
 /** live_value_set - a variable that is forced is forced to the new value. */

@@ -12,6 +12,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/limits.h"
+#include "engine/base/name.h"
 #include "engine/compare/compare.h"
 #include "engine/trial/pace.h"
 
@@ -47,6 +48,7 @@ struct _LadderSim {
 	guint64 version;            /* of the document, when that was built     */
 	bool building;
 	guint soon;                 /* source that builds an edit; 0: none      */
+	LadderBreakpoints *points;
 };
 
 enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
@@ -593,6 +595,77 @@ static gboolean notified(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* ---- breakpoints and steps ---- */
+
+LadderBreakpoints *ladder_sim_breakpoints(LadderSim *sim)
+{
+	return sim->points;
+}
+
+/* In the program that the thread has got last. */
+static void give_stops(LadderSim *sim)
+{
+	if (sim->thread)
+		sim_thread_stops(sim->thread, sim_stops_new(sim->newest, sim->document, sim->points));
+}
+
+const struct stops_frame *ladder_sim_stack(LadderSim *sim, int *count)
+{
+	*count = ladder_sim_is_on(sim) && !sim->past ? sim->view.frames : 0;
+	return *count ? sim->view.frame : NULL;
+}
+
+/* A further instance of a program has the text of its POU. */
+int ladder_sim_stack_line(LadderSim *sim, const struct stops_frame *frame, int *pou)
+{
+	const struct project *ran = ladder_project(sim->view.program->ladder);
+	const struct project *project = ladder_document_project(sim->document);
+	const struct pou *of = NULL;
+	const char *name;
+
+	for (int i = 0; ran && i < ran->pou_count; i++) {
+		const struct pou *one = &ran->pou[i];
+
+		if (name_equal(project_text(ran, one->name), frame->at.pou))
+			of = one;
+	}
+	for (int i = 0; ran && !of && i < ran->pou_count; i++)
+		if (ran->pou[i].line <= (int)frame->at.line && !ran->pou[i].included &&
+		    (i + 1 == ran->pou_count || ran->pou[i + 1].line > (int)frame->at.line))
+			of = &ran->pou[i];
+	name = of ? project_text(ran, of->name) : "";
+	*pou = project ? project_find_pou(project, name, strlen(name)) : -1;
+	return *pou < 0 || !frame->at.line ? -1 :
+	       sim_stops_shown(sim->view.program, sim->document, *pou, frame->at.line);
+}
+
+int ladder_sim_reached(LadderSim *sim, int pou, int line)
+{
+	return sim->thread && ladder_sim_is_on(sim) ?
+	       sim_stops_line(sim->view.program, sim->document, pou, line) : line;
+}
+
+static bool goes_out(enum iec_area area)
+{
+	return area == AREA_Q || area == AREA_AQ || area == AREA_XQ || area == AREA_XAQ;
+}
+
+union iec_value ladder_sim_outside(LadderSim *sim, struct location at)
+{
+	const struct image *image = &ladder_sim_twin(sim)->resource.image;
+	const struct areas *areas = &image->program->areas;
+	const bool bit = at.area != AREA_NONE;
+	int count;
+
+	if (!ladder_sim_stack(sim, &count) ||
+	    !goes_out(bit ? at.area : areas_find(areas, at.where)))
+		return image_get(image, at);
+	if (!bit)
+		return iec_load(sim->view.outside + at.where, at.type);
+	return (union iec_value){ .i = sim->view.outside[areas->at[at.area] + at.where / 8] >>
+				       at.where % 8 & 1 };
+}
+
 /* ---- on and off ---- */
 
 static struct sim_program *build(LadderSim *sim,
@@ -656,6 +729,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 		sim_thread_speed(sim->thread, sim->speed);
 	sim_thread_fault_on_error(sim->thread, sim->fault_on_error);
 	sim->version = ladder_document_version(sim->document);
+	give_stops(sim);
 	number_rungs(sim);
 	take(sim);
 	return true;
@@ -853,9 +927,13 @@ static void exchange(LadderSim *sim, struct sim_program *program)
 {
 	if (sim_program_is_same(sim->newest, program))
 		return;
+	if (sim->view.frames)
+		tell(sim, _("The program was changed: the scan that stood ended with the program before"),
+		     false);
 	sim_thread_change(sim->thread, program);
 	sim_program_unref(sim->newest);
 	sim->newest = sim_program_ref(program);
+	give_stops(sim);
 }
 
 static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
@@ -1018,6 +1096,34 @@ void ladder_sim_run(LadderSim *sim)
 		sim_thread_run(sim->thread, true);
 }
 
+static bool may_step(LadderSim *sim)
+{
+	if (!may_order(sim, SIM_WISH_TIME) || !sim->thread)
+		return false;
+	start_if_stopped(sim);
+	return true;
+}
+
+void ladder_sim_step(LadderSim *sim, enum stops_step step)
+{
+	if (may_step(sim))
+		sim_thread_step(sim->thread, step);
+}
+
+bool ladder_sim_run_to(LadderSim *sim, int pou, int line)
+{
+	struct sim_stops *stops = sim->thread ?
+		sim_stops_new(sim->newest, sim->document, sim->points) : NULL;
+
+	if (!stops || !sim_stops_add(stops, sim->document, pou, line) || !may_step(sim)) {
+		sim_stops_free(stops);
+		return false;
+	}
+	sim_thread_stops(sim->thread, stops);
+	sim_thread_step(sim->thread, STOPS_GO);
+	return true;
+}
+
 void ladder_sim_pause(LadderSim *sim)
 {
 	if (sim->thread)
@@ -1167,6 +1273,7 @@ static void ladder_sim_dispose(GObject *object)
 static void ladder_sim_finalize(GObject *object)
 {
 	g_free(LADDER_SIM(object)->plant_path);
+	g_object_unref(LADDER_SIM(object)->points);
 	G_OBJECT_CLASS(ladder_sim_parent_class)->finalize(object);
 }
 
@@ -1194,6 +1301,8 @@ static void ladder_sim_init(LadderSim *sim)
 	sim->rungs = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
 	sim->differs = g_byte_array_new();
 	sim->fault_on_error = true;
+	sim->points = ladder_breakpoints_new();
+	g_signal_connect_swapped(sim->points, "changed", G_CALLBACK(give_stops), sim);
 }
 
 LadderDocument *ladder_sim_document(LadderSim *sim)

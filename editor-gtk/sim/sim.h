@@ -22,8 +22,10 @@
 
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/document/task_rows.h"
+#include "editor-gtk/sim/breakpoints.h"
 
 #include "engine/trial/record.h"
+#include "engine/trial/stops.h"
 
 #define LADDER_TYPE_SIM (ladder_sim_get_type())
 G_DECLARE_FINAL_TYPE(LadderSim, ladder_sim, LADDER, SIM, GObject)
@@ -124,6 +126,29 @@ void ladder_sim_act(LadderSim *sim, const struct act *act);
 void ladder_sim_act_all(LadderSim *sim, const struct act *acts, int count);
 /** ladder_sim_release_all - all forces of the program and of the plant. */
 void ladder_sim_release_all(LadderSim *sim);
+
+/* ---- breakpoints and steps; of a simulation, not of a board ---- */
+
+/** ladder_sim_breakpoints - those of the person, also while it is off. Borrowed. */
+LadderBreakpoints *ladder_sim_breakpoints(LadderSim *sim);
+/** ladder_sim_step - goes on from where it stands; else with the next scan, from STOP with a cold
+ * start. */
+void ladder_sim_step(LadderSim *sim, enum stops_step step);
+/** ladder_sim_run_to - goes on up to line @line, from 0, of the text of POU @pou of the document, or
+ * to a breakpoint. Fails: false, and it does nothing: no statement is there or behind it. */
+bool ladder_sim_run_to(LadderSim *sim, int pou, int line);
+/** ladder_sim_stack - the body that stands in the middle of a scan, then who called it; *count of
+ * them. NULL: it does not stand, or another scan is shown. Borrowed until `shown`. */
+const struct stops_frame *ladder_sim_stack(LadderSim *sim, int *count);
+/** ladder_sim_stack_line - the line, from 0, of the text of *pou of the document where @frame is; -1:
+ * of a rung, or not in the document. *pou: -1: not in the document. */
+int ladder_sim_stack_line(LadderSim *sim, const struct stops_frame *frame, int *pou);
+/** ladder_sim_reached - the line, likewise, before which it stands for a breakpoint in line @line;
+ * -1: none. @line itself while no simulation is on. */
+int ladder_sim_reached(LadderSim *sim, int pou, int line);
+/** ladder_sim_outside - a value of the scan that is shown, as others see it: while the program stands
+ * in a scan, outputs are those of the scan before. */
+union iec_value ladder_sim_outside(LadderSim *sim, struct location at);
 
 /* ---- from the beginning ---- */
 

@@ -136,8 +136,8 @@ static gsize size_of(const struct sim_era *era)
 	       ladder_memory(era->program->ladder) + strlen(era->program->text);
 }
 
-bool sim_eras_change(struct sim_eras *eras, const struct twin *twin,
-		     struct sim_program *program)
+static bool end_era(struct sim_eras *eras, const struct twin *twin,
+		    struct sim_program *program, gint64 us)
 {
 	const guint last = eras->era->len - 1;
 	struct sim_era *before = at(eras, last);
@@ -148,9 +148,20 @@ bool sim_eras_change(struct sim_eras *eras, const struct twin *twin,
 		g_ptr_array_remove_index(eras->era, last);
 		return true;
 	}
-	before->edited_us = g_get_real_time();
+	before->edited_us = us;
 	before->size = size_of(before);
 	eras->ended += before->size;
 	keep_bound(eras);
 	return true;
+}
+
+bool sim_eras_change(struct sim_eras *eras, const struct twin *twin,
+		     struct sim_program *program)
+{
+	return end_era(eras, twin, program, g_get_real_time());
+}
+
+bool sim_eras_break(struct sim_eras *eras, const struct twin *twin)
+{
+	return end_era(eras, twin, newest(eras)->program, 0);
 }

@@ -14,7 +14,7 @@ struct sim_era {
 	struct record *record;
 	struct sim_program *program, *plant; /* references                      */
 	gint64 edited_us;        /* when another program replaced it, as
-				    g_get_real_time(); 0: this one runs        */
+				    g_get_real_time(); 0: this one runs, or was not replaced */
 	gsize size;              /* bytes of record and program, once ended     */
 };
 struct sim_eras;
@@ -35,6 +35,9 @@ gsize sim_eras_bytes(const struct sim_eras *eras);
  * SIM_BYTES, whole eras are dropped, the oldest first. */
 void sim_eras_act(struct sim_eras *eras, const struct twin *twin, const struct act *act);
 void sim_eras_scan(struct sim_eras *eras, const struct twin *twin);
+/** sim_eras_break - @twin has run a scan that cannot be computed again: a person set values in the
+ * middle of it. As sim_eras_change(), of the same program. */
+bool sim_eras_break(struct sim_eras *eras, const struct twin *twin);
 /** sim_eras_change - @program runs from now on, in @twin. An era without a scan is dropped.
  * Fails: false: no memory; nothing has changed. */
 bool sim_eras_change(struct sim_eras *eras, const struct twin *twin,

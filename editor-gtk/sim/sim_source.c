@@ -9,6 +9,8 @@
 void sim_view_clear(struct sim_view *view)
 {
 	twin_free(&view->twin);
+	view->frames = 0;
+	g_clear_pointer(&view->outside, g_free);
 	g_clear_pointer(&view->program, sim_program_unref);
 	g_clear_pointer(&view->plant, sim_program_unref);
 }

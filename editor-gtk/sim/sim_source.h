@@ -10,6 +10,8 @@
 
 #include "editor-gtk/sim/sim_eras.h"
 
+#include "engine/trial/stops.h"
+
 /* The last refusal, and how many there were. */
 enum sim_refused {
 	SIM_REFUSED_PLACE, /* cannot be set or forced, or too many are forced   */
@@ -35,6 +37,10 @@ struct sim_view {
 	bool fault;              /* an operation failed: outputs are safe      */
 	struct sim_refusal refusal;
 	struct sim_events events;
+	struct stops_frame frame[LIMIT_CALLS + 1]; /* the body that stands in mid-scan, and who
+				  * called it                                 */
+	int frames;              /* 0: it does not stand                       */
+	guint8 *outside;         /* while it stands: the areas as of the last whole scan */
 };
 void sim_view_clear(struct sim_view *view);
 

@@ -7,12 +7,14 @@
  */
 #include "editor-gtk/sim/sim_thread.h"
 
+#include <string.h>
+
 #define FRAME_US G_GINT64_CONSTANT(16000)
 #define LATE_STEPS 320 /* of the table of lateness: up to hours              */
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* a longer delay is not caught up      */
 
 enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_FAULT_ON_ERROR, ORDER_ACT,
-		  ORDER_CHANGE, ORDER_PLAY, ORDER_END };
+		  ORDER_CHANGE, ORDER_PLAY, ORDER_STOPS, ORDER_STEP, ORDER_END };
 struct order {
 	enum order_kind kind;
 	int scans;               /* ORDER_RUN, ORDER_FAULT_ON_ERROR: 0 or 1    */
@@ -22,6 +24,8 @@ struct order {
 	struct sim_program *program;
 	GArray *acts;            /* of struct sim_played                       */
 	guint64 until;           /* scan                                       */
+	struct sim_stops *stops;
+	enum stops_step step;
 };
 
 struct sim_thread {
@@ -35,6 +39,13 @@ struct sim_thread {
 	bool run;
 	bool fault_on_error;
 	bool fault;              /* an operation failed                        */
+	struct stops *stops;     /* of the program that runs                   */
+	struct sim_stops *list;  /* the breakpoints in it; NULL: none          */
+	enum stops_step step;    /* how it goes on                             */
+	bool passes;             /* breakpoints: scans are repeated            */
+	bool failed;             /* an operation had failed before this scan   */
+	bool touched;            /* values were set in the middle of this scan */
+	guint8 *outside;         /* the areas before this scan                 */
 	double speed;
 	double due_us;           /* when the next scan is due                  */
 	gint64 told_us;          /* when the last copy went out                */
@@ -49,12 +60,20 @@ struct sim_thread {
 	struct twin out;
 	struct sim_program *program, *plant;
 	bool out_run, out_fault;
+	struct stops_frame out_frame[LIMIT_CALLS + 1];
+	int out_frames;
+	guint8 *out_outside;
 	struct sim_refusal out_refusal;
 	struct sim_events out_events;
 	/* Atomic: */
 	int notified;
 	guint late[LATE_STEPS];  /* scans by lateness, late_step()             */
 };
+
+static gsize areas_size(const struct sim_thread *thread)
+{
+	return thread->twin.resource.image.program->areas.size;
+}
 
 /* ---- out ---- */
 
@@ -65,6 +84,10 @@ static void publish(struct sim_thread *thread, bool must)
 	else if (!g_mutex_trylock(&thread->out_lock))
 		return;
 	twin_copy(&thread->out, &thread->twin);
+	stops_show(thread->stops, &thread->twin, &thread->out);
+	thread->out_frames = stops_stack(thread->stops, &thread->twin, thread->out_frame);
+	if (thread->out_frames)
+		memcpy(thread->out_outside, thread->outside, areas_size(thread));
 	/* Only the copy: the record, and so a scenario, has the outputs of the scan. */
 	if (thread->fault || thread->twin.resource.halted)
 		twin_outputs_safe(&thread->out);
@@ -81,26 +104,74 @@ static void publish(struct sim_thread *thread, bool must)
 
 /* ---- scans ---- */
 
+static bool stands(const struct sim_thread *thread)
+{
+	return thread->twin.resource.stopped;
+}
+
+/* May it stand in this scan? */
+static bool may_stand(const struct sim_thread *thread)
+{
+	return !thread->passes && (thread->step != STOPS_GO || (thread->list && thread->list->stop->len));
+}
+
+static bool walk(struct sim_thread *thread)
+{
+	if (!stands(thread))
+		memcpy(thread->outside, thread->twin.resource.image.memory, areas_size(thread));
+	return stops_scan(thread->stops, &thread->twin, thread->step);
+}
+
+static void record_scan_of(struct sim_thread *thread)
+{
+	g_mutex_lock(&thread->record_lock);
+	if (!thread->touched)
+		sim_eras_scan(thread->eras, &thread->twin);
+	else if (!sim_eras_break(thread->eras, &thread->twin))
+		g_error("out of memory");
+	g_mutex_unlock(&thread->record_lock);
+	thread->touched = false;
+}
+
+/* A scan, or a part of one: it may stand afterwards. */
 static void scan(struct sim_thread *thread)
 {
 	const struct vm *vm = &thread->twin.resource.vm;
-	const uint64_t before = thread->twin.scan;
-	const bool failed = vm->errors != 0, goes_on = twin_scan(&thread->twin);
+	const bool stood = stands(thread);
+	const uint64_t before = thread->twin.scan - stood;
+	bool goes_on;
 
+	if (!stood)
+		thread->failed = vm->errors != 0;
+	goes_on = stood || may_stand(thread) ? walk(thread) : twin_scan(&thread->twin);
+	if (stands(thread)) {
+		thread->run = false;
+		thread->step = STOPS_GO;
+		thread->changed = true;
+		return;
+	}
 	if (!goes_on)
 		thread->run = false; /* FAULT, or the program asked for STOP */
 	if (thread->twin.scan == before)
 		return;
 	thread->fault = false;
 	thread->events.ends += !goes_on;
-	if (!failed && vm->errors) {
+	if (!thread->failed && vm->errors) {
 		thread->events.failures++;
 		thread->events.faulted = false;
 	}
-	g_mutex_lock(&thread->record_lock);
-	sim_eras_scan(thread->eras, &thread->twin);
-	g_mutex_unlock(&thread->record_lock);
+	record_scan_of(thread);
 	thread->changed = true;
+}
+
+/* What comes next needs a whole scan. */
+static void leave_scan(struct sim_thread *thread)
+{
+	if (!stands(thread))
+		return;
+	thread->step = STOPS_LEAVE;
+	scan(thread);
+	thread->step = STOPS_GO;
 }
 
 static double wall_period_us(const struct sim_thread *thread)
@@ -172,10 +243,22 @@ static void refuse(struct sim_thread *thread, enum sim_refused why)
 	thread->refusal.count++;
 }
 
+static bool is_value(const struct act *act)
+{
+	return act->kind == ACT_SET || act->kind == ACT_FORCE || act->kind == ACT_RELEASE ||
+	       act->kind == ACT_RELEASE_ALL;
+}
+
 static void act(struct sim_thread *thread, const struct act *act)
 {
-	if (!twin_act(&thread->twin, act)) {
+	if (!is_value(act))
+		leave_scan(thread);
+	if (!stops_act(thread->stops, &thread->twin, act)) {
 		refuse(thread, SIM_REFUSED_PLACE);
+		return;
+	}
+	if (stands(thread)) {
+		thread->touched = true;
 		return;
 	}
 	if (act->kind == ACT_START || act->kind == ACT_WARM || act->kind == ACT_STOP)
@@ -195,6 +278,31 @@ static void act_of(struct sim_thread *thread, const struct order *order)
 		refuse(thread, SIM_REFUSED_STALE);
 }
 
+/* Of the program that runs from now on. */
+static void begin_stops(struct sim_thread *thread)
+{
+	stops_free(thread->stops);
+	g_clear_pointer(&thread->list, sim_stops_free);
+	thread->stops = stops_new(thread->program->program);
+	if (!thread->stops)
+		g_error("out of memory");
+	thread->step = STOPS_GO;
+	thread->out_frames = 0;
+	thread->outside = g_realloc(thread->outside, areas_size(thread));
+	thread->out_outside = g_realloc(thread->out_outside, areas_size(thread));
+}
+
+static void take_stops(struct sim_thread *thread, struct sim_stops *list)
+{
+	if (list->program != thread->program) {
+		sim_stops_free(list);
+		return;
+	}
+	sim_stops_give(list, thread->stops);
+	sim_stops_free(thread->list);
+	thread->list = list;
+}
+
 /* Replaces the twin by @next, and frees the one before. */
 static void replace_twin(struct sim_thread *thread, const struct twin *next,
 		       struct sim_program *program)
@@ -209,6 +317,7 @@ static void replace_twin(struct sim_thread *thread, const struct twin *next,
 		g_error("out of memory");
 	sim_program_unref(thread->program);
 	thread->program = program;
+	begin_stops(thread);
 	g_mutex_unlock(&thread->out_lock);
 	g_mutex_unlock(&thread->record_lock);
 }
@@ -217,6 +326,7 @@ static void change(struct sim_thread *thread, struct sim_program *program)
 {
 	struct twin next;
 
+	leave_scan(thread);
 	if (twin_init(&next, program->program, thread->plant ?
 		      thread->plant->program : NULL, thread->twin.period_ns) &&
 	    twin_change(&next, &thread->twin)) {
@@ -231,8 +341,22 @@ static void change(struct sim_thread *thread, struct sim_program *program)
 static void scan_some(struct sim_thread *thread, int scans)
 {
 	thread->run = false;
-	while (scans-- > 0)
+	thread->step = STOPS_GO;
+	while (scans-- > 0) {
 		scan(thread);
+		if (stands(thread))
+			break;
+	}
+}
+
+/* The first part is done at once. */
+static void step(struct sim_thread *thread, enum stops_step step)
+{
+	thread->step = step;
+	thread->run = thread->twin.resource.state == STATE_RUN;
+	start_clock(thread);
+	if (thread->run)
+		scan_or_fault(thread);
 }
 
 /* Another order ends it. */
@@ -242,6 +366,7 @@ static void play(struct sim_thread *thread, GArray *acts, guint64 until)
 	guint next = 0;
 
 	thread->run = false;
+	thread->passes = true;
 	act(thread, &start);
 	while (thread->twin.scan < until && g_async_queue_length(thread->orders) <= 0 &&
 	       thread->twin.resource.state == STATE_RUN) {
@@ -258,6 +383,7 @@ static void play(struct sim_thread *thread, GArray *acts, guint64 until)
 		}
 		scan(thread);
 	}
+	thread->passes = false;
 }
 
 /* False: the thread is to end. */
@@ -266,8 +392,11 @@ static bool obey(struct sim_thread *thread, struct order *order)
 	switch (order->kind) {
 	case ORDER_RUN:
 		thread->run = order->scans != 0;
+		thread->step = STOPS_GO;
 		start_clock(thread);
 		break;
+	case ORDER_STOPS: take_stops(thread, g_steal_pointer(&order->stops)); break;
+	case ORDER_STEP: step(thread, order->step); break;
 	case ORDER_SCAN: scan_some(thread, order->scans); break;
 	case ORDER_SPEED:
 		thread->speed = order->speed;
@@ -298,6 +427,7 @@ static void order_free(struct order *order)
 {
 	g_clear_pointer(&order->acts, g_array_unref);
 	g_clear_pointer(&order->program, sim_program_unref);
+	g_clear_pointer(&order->stops, sim_stops_free);
 	g_free(order->text);
 	g_free(order);
 }
@@ -379,6 +509,11 @@ static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 	} else {
 		twin_copy(&view->twin, &thread->out);
 	}
+	view->frames = thread->out_frames;
+	memcpy(view->frame, thread->out_frame, sizeof(view->frame));
+	g_clear_pointer(&view->outside, g_free);
+	if (view->frames)
+		view->outside = g_memdup2(thread->out_outside, thread->program->program->areas.size);
 	view->running = thread->out_run;
 	view->fault = thread->out_fault;
 	view->refusal = thread->out_refusal;
@@ -486,6 +621,7 @@ struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_progra
 	thread->eras = sim_eras_new(&thread->twin, program, plant);
 	if (!thread->eras)
 		g_error("out of memory");
+	begin_stops(thread);
 	g_mutex_init(&thread->record_lock);
 	g_mutex_init(&thread->out_lock);
 	thread->orders = g_async_queue_new_full((GDestroyNotify)order_free);
@@ -503,6 +639,10 @@ void sim_thread_free(struct sim_thread *thread)
 		;
 	g_async_queue_unref(thread->orders);
 	sim_eras_free(thread->eras);
+	stops_free(thread->stops);
+	sim_stops_free(thread->list);
+	g_free(thread->outside);
+	g_free(thread->out_outside);
 	twin_free(&thread->twin);
 	twin_free(&thread->out);
 	sim_program_unref(thread->program);
@@ -536,6 +676,16 @@ void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans)
 {
 	tell(thread, &(struct order){ .kind = ORDER_PLAY, .acts = g_array_ref(acts),
 				      .until = scans });
+}
+
+void sim_thread_stops(struct sim_thread *thread, struct sim_stops *stops)
+{
+	tell(thread, &(struct order){ .kind = ORDER_STOPS, .stops = stops });
+}
+
+void sim_thread_step(struct sim_thread *thread, enum stops_step step)
+{
+	tell(thread, &(struct order){ .kind = ORDER_STEP, .step = step });
 }
 
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program)

@@ -6,6 +6,7 @@
 #define EDITOR_SIM_THREAD_H
 
 #include "editor-gtk/sim/sim_source.h"
+#include "editor-gtk/sim/sim_stops.h"
 
 struct sim_thread;
 /** sim_thread_source - as the source of a simulation. Lives as long as @thread. */
@@ -30,6 +31,11 @@ void sim_thread_speed(struct sim_thread *thread, double scans);
 void sim_thread_fault_on_error(struct sim_thread *thread, bool fault);
 /** sim_thread_play - as ladder_sim_play(); @acts: referenced. */
 void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans);
+/** sim_thread_stops - the breakpoints from now on; taken over. Those of another program than the one
+ * that runs are dropped. */
+void sim_thread_stops(struct sim_thread *thread, struct sim_stops *stops);
+/** sim_thread_step - goes on, from where it stands in a scan or from the next scan on. */
+void sim_thread_step(struct sim_thread *thread, enum stops_step step);
 /** sim_thread_change - @program (referenced) replaces the one that runs. */
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program);
 

@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_named.h"
 #include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/sim/st_formula.h"
 
 #include "engine/base/lex.h"
 #include "engine/ladder.h"
@@ -61,27 +62,6 @@ static GArray *condition_at(const char *text, int line)
 
 /* ---- a part of it ---- */
 
-static char *enumeration_number(const struct asked *asked, const struct token *token)
-{
-	struct names *names = &asked->project->names;
-	const char *sign = memchr(token->text, '#', token->len);
-	const gsize before = sign ? (gsize)(sign - token->text) + 1 : 0;
-	const uint32_t fold = names_fold(names, names_intern(names, token->text + before,
-							     token->len - before));
-	const int type = !sign ? -1 : named_find(asked->project, names_fold(names,
-		names_intern(names, token->text, before - 1)));
-
-	for (int i = 0; i < asked->project->enum_value_count; i++) {
-		const struct enum_value *value = &asked->project->enum_value[i];
-		const struct var *like = type < 0 ? NULL : asked->project->named[type].like.var;
-
-		if (value->fold == fold && (!like || like->enumeration == value->enumeration + 1) &&
-		    (!sign || like))
-			return g_strdup_printf("%" G_GINT64_FORMAT, value->number);
-	}
-	return NULL;
-}
-
 /* A name as the whole program knows it; *@at: where it is. Caller frees. */
 static char *whole_name(const struct asked *asked, const struct token *token, struct location *at)
 {
@@ -109,7 +89,7 @@ static void take_token(const struct asked *asked, const struct token *token, GSt
 		g_string_append_printf(formula, " %.*s", (int)token->len, token->text);
 		return;
 	}
-	number = enumeration_number(asked, token);
+	number = st_formula_number(asked->project, token);
 	name = number ? number : whole_name(asked, token, &at);
 	g_string_append_printf(formula, " %s", name);
 	word = g_strndup(token->text, token->len);

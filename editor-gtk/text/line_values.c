@@ -51,6 +51,8 @@ struct _LadderLineValues {
 	bool lacks;               /* the board could be without a line           */
 	GPtrArray *lines;         /* of struct seen; NULL: not looked at yet      */
 	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
+	char *(*note)(void *context, int line);
+	void *noting;             /* context of it                               */
 	char *spoken;             /* the description of the view                 */
 	gint64 spoken_us;         /* when it was looked at                       */
 };
@@ -584,21 +586,32 @@ static void ladder_line_values_snapshot_layer(GtkTextView *view, GtkTextViewLaye
 
 /* ---- what changes ---- */
 
-/* A screen reader reads the values of the line of the cursor. */
-static void tell_line(LadderLineValues *values)
+static char *values_said(LadderLineValues *values, int line)
 {
-	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
-	const struct seen *seen;
-	GtkTextIter at;
-	char *text;
+	const struct seen *seen = seen_of(values, line);
 
-	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
-	seen = seen_of(values, gtk_text_iter_get_line(&at));
-	text = !seen || !(seen->text[0] || seen->after[0]) ? g_strdup("") :
+	return !seen || !(seen->text[0] || seen->after[0]) ? g_strdup("") :
 	       seen->missing ? g_strdup(seen->after) :
 	       !seen->after[0] ? g_strdup_printf(_("value %s"), seen->text) :
 	       !seen->text[0] ? g_strdup_printf(_("result %s"), seen->after) :
 	       g_strdup_printf(_("value %s, result %s"), seen->text, seen->after);
+}
+
+/* A screen reader reads the values of the line of the cursor. */
+static void tell_line(LadderLineValues *values)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	char *text, *note, *said;
+	GtkTextIter at;
+	int line;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	line = gtk_text_iter_get_line(&at);
+	said = values_said(values, line);
+	note = values->note ? values->note(values->noting, line) : NULL;
+	text = note && *said ? g_strdup_printf("%s · %s", note, said) : g_strdup(note ? note : said);
+	g_free(note);
+	g_free(said);
 	if (g_strcmp0(text, values->spoken) == 0) {
 		g_free(text);
 		return;
@@ -607,6 +620,18 @@ static void tell_line(LadderLineValues *values)
 	values->spoken = text;
 	gtk_accessible_update_property(GTK_ACCESSIBLE(values),
 				       GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text, -1);
+}
+
+void line_values_set_note(LadderLineValues *values, char *(*note)(void *context, int line),
+			  void *context)
+{
+	values->note = note;
+	values->noting = context;
+}
+
+void line_values_tell(LadderLineValues *values)
+{
+	tell_line(values);
 }
 
 static void forget_lines(LadderLineValues *values)

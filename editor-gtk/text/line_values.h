@@ -33,6 +33,12 @@ typedef bool (*LineResult)(void *context, const struct live_map *map, int line,
 			   struct live_result *out);
 /** line_values_set_result - for a list that is not in the file; @context: borrowed. */
 void line_values_set_result(LadderLineValues *values, LineResult result, void *context);
+/** line_values_set_note - what a screen reader says about line @line, from 0, before its values;
+ * allocated, NULL: nothing. @context: borrowed. */
+void line_values_set_note(LadderLineValues *values, char *(*note)(void *context, int line),
+			  void *context);
+/** line_values_tell - the note of the line of the cursor may have changed. */
+void line_values_tell(LadderLineValues *values);
 /** line_values_text - of the operand of a line, from 0: "3.2 s / 5 s"; NULL: none. Borrowed until
  * the list, the program or the scan changes. */
 const char *line_values_text(LadderLineValues *values, int line);

@@ -10,6 +10,7 @@
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/text/text_mend.h"
+#include "editor-gtk/text/text_stops.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/sim/st_why.h"
@@ -37,6 +38,7 @@ struct _LadderTextView {
 	LadderDocument *document;
 	LadderSim *sim;          /* NULL: none                                 */
 	int pou;
+	struct text_stops *stops; /* NULL: it goes                              */
 	LadderLineValues *values; /* the text, with values beside its lines     */
 	GtkSourceView *view;     /* the same                                   */
 	GtkSourceBuffer *buffer;
@@ -128,6 +130,7 @@ static void show_text(LadderTextView *view)
 		view->ours = true;
 		exchange(view, now, text);
 		view->ours = false;
+		text_stops_exchanged(view->stops, now);
 	}
 	g_free(text);
 	g_free(now);
@@ -173,6 +176,8 @@ static void put(LadderTextView *view, LadderDocument *document)
 	}
 	ladder_document_end(document);
 	view->ours = false;
+	if (view->stops)
+		text_stops_taken(view->stops);
 	g_free(key);
 	g_free(text);
 }
@@ -248,6 +253,7 @@ static void name_pou(LadderTextView *view)
 	line_values_set_pou(view->values, !project || view->pou < 0 ||
 			    view->pou >= project->pou_count ? "" :
 			    project_text(project, project->pou[view->pou].name));
+	text_stops_renew(view->stops);
 }
 
 /* Does not replace text typed since. */
@@ -536,23 +542,30 @@ char *ladder_text_view_why(LadderTextView *view)
 	return why;
 }
 
-char *ladder_text_view_tip(LadderTextView *view, int line)
+/* Both are taken over; NULL: nothing. */
+static char *joined(char *above, char *below)
 {
-	char *reasons = reasons_of(view, line - 1), *values = values_of(view, line - 1);
 	char *both;
 
-	if (!reasons || !values)
-		return reasons ? reasons : values;
-	both = g_strdup_printf("%s\n%s", reasons, values);
-	g_free(reasons);
-	g_free(values);
+	if (!above || !below)
+		return above ? above : below;
+	both = g_strdup_printf("%s\n%s", above, below);
+	g_free(above);
+	g_free(below);
 	return both;
+}
+
+char *ladder_text_view_tip(LadderTextView *view, int line)
+{
+	return joined(joined(text_stops_say(view->stops, line - 1), reasons_of(view, line - 1)),
+		      values_of(view, line - 1));
 }
 
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
 {
 	g_set_object(&view->sim, sim);
 	line_values_set_sim(view->values, sim);
+	text_stops_set_sim(view->stops, sim);
 	name_pou(view);
 }
 
@@ -631,9 +644,26 @@ int ladder_text_view_pou(LadderTextView *view)
 
 void ladder_text_view_set_pou(LadderTextView *view, int pou)
 {
+	text_stops_leave(view->stops);
 	view->pou = pou;
 	show_text(view);
 	name_pou(view);
+}
+
+void ladder_text_view_toggle_stop(LadderTextView *view)
+{
+	text_stops_toggle(view->stops, cursor_line(view));
+	line_values_tell(view->values);
+}
+
+void ladder_text_view_ask_stop(LadderTextView *view)
+{
+	text_stops_ask(view->stops, cursor_line(view));
+}
+
+bool ladder_text_view_run_here(LadderTextView *view)
+{
+	return view->sim && ladder_sim_run_to(view->sim, view->pou, cursor_line(view));
 }
 
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)
@@ -728,6 +758,8 @@ static void ladder_text_view_dispose(GObject *object)
 
 	g_clear_handle_id(&view->taking, g_source_remove);
 	g_clear_handle_id(&view->looking, g_source_remove);
+	line_values_set_note(view->values, NULL, NULL);
+	g_clear_pointer(&view->stops, text_stops_free);
 	if (view->document)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	g_clear_object(&view->document);
@@ -784,10 +816,15 @@ static void ladder_text_view_init(LadderTextView *view)
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
 }
 
+static char *say_line(void *view, int line)
+{
+	return text_stops_say(LADDER_TEXT_VIEW(view)->stops, line);
+}
+
 static void build(LadderTextView *view)
 {
 	GtkWidget *scroller = gtk_scrolled_window_new();
-	GtkEventController *leaves;
+	GtkEventController *leaves, *keys;
 
 	make_buffer(view);
 	view->values = line_values_new(view->buffer);
@@ -818,6 +855,11 @@ static void build(LadderTextView *view)
 	leaves = gtk_event_controller_focus_new();
 	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
 	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
+	view->stops = text_stops_new(view->values, view->document, &view->pou);
+	line_values_set_note(view->values, say_line, view);
+	keys = verbs_controller(VERB_TEXT);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	gtk_widget_add_controller(GTK_WIDGET(view->view), keys);
 	text_complete_attach(view->view, view->document, &view->pou);
 	gtk_widget_set_has_tooltip(GTK_WIDGET(view->view), TRUE);
 	g_signal_connect(view->view, "query-tooltip", G_CALLBACK(tell_pointed), view);

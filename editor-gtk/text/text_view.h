@@ -49,6 +49,14 @@ gboolean ladder_text_view_mend(LadderTextView *view);
 /** ladder_text_view_why - why the condition in the line of the cursor is TRUE or FALSE, in
  * Structured Text while simulating; NULL: no condition is there. Caller frees. */
 char *ladder_text_view_why(LadderTextView *view);
+/** ladder_text_view_toggle_stop - a breakpoint in the line of the cursor, or none; of Structured
+ * Text. */
+void ladder_text_view_toggle_stop(LadderTextView *view);
+/** ladder_text_view_ask_stop - asks for the condition of that breakpoint, which is set then. */
+void ladder_text_view_ask_stop(LadderTextView *view);
+/** ladder_text_view_run_here - goes on up to the line of the cursor. Fails: false: no statement is
+ * there or behind it, or nothing is simulated. */
+bool ladder_text_view_run_here(LadderTextView *view);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);

@@ -43,6 +43,7 @@
 #include "editor-gtk/window/properties_dialog.h"
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/window/scenarios.h"
+#include "editor-gtk/window/stand_bar.h"
 #include "editor-gtk/window/status.h"
 #include "editor-gtk/window/tabs.h"
 #include "editor-gtk/window/type_new.h"
@@ -73,6 +74,7 @@ struct _LadderWindow {
 	struct exchange exchange;
 	struct files files;
 	struct sim_bar sim_bar;
+	struct stand_bar stand_bar;
 	struct blockers blockers;
 	struct scenarios scenarios;
 	struct board_bar board_bar;
@@ -497,6 +499,7 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 		if (!do_in_file(window, verb) && !do_project(window, verb) &&
 		    !do_find(window, verb) && !online_bar_do(&window->online_bar, verb) &&
 		    !sim_bar_do(&window->sim_bar, verb) &&
+		    !stand_bar_do(&window->stand_bar, verb) &&
 		    !scenarios_do(&window->scenarios, verb))
 			do_view(window, verb);
 	}
@@ -510,7 +513,7 @@ static void do_verb(LadderWindow *window, enum verb verb)
 
 	if (!taken && (verb == VERB_close || verb == VERB_close_tab))
 		return;
-	if (where == VERB_WINDOW)
+	if (where == VERB_WINDOW || where == VERB_TEXT)
 		do_in_window(window, verb);
 	else if (sheet && where != VERB_CHART)
 		do_on_sheet(window, sheet, verb);
@@ -845,6 +848,7 @@ static void tell_front(LadderWindow *window)
 	core_with(core, WITH_FREE, free);
 	core_with(core, WITH_ENTRY, free || (canvas && !sheet));
 	core_with(core, WITH_LIST, front_list(front) != NULL);
+	core_with(core, WITH_ST, front_list(front) && ladder_text_view_is_st(front_list(front)));
 	core_with(core, WITH_LINES, (canvas && !sheet) || front_has_numbers(front));
 	core_with(core, WITH_ZOOM, canvas || LADDER_IS_PREVIEW_VIEW(page_content(front_tab(front))));
 }
@@ -1024,6 +1028,7 @@ static void add_parts(LadderWindow *window)
 	compare_init(&window->compare, core);
 	help_init(&window->help, core);
 	sim_bar_init(&window->sim_bar, core, &window->origin);
+	stand_bar_init(&window->stand_bar, core, window->front.now);
 	blockers_init(&window->blockers, core);
 	finder_init(&window->finder, core);
 	below_add(&window->below, "problems", N_("Problems"), make_problems, window);
@@ -1130,6 +1135,7 @@ static void ladder_window_dispose(GObject *object)
 	help_clear(&window->help);
 	blockers_clear(&window->blockers);
 	sim_bar_clear(&window->sim_bar);
+	stand_bar_clear(&window->stand_bar);
 	origin_clear(&window->origin);
 	front_clear(&window->front);
 	g_clear_object(&core->paper);

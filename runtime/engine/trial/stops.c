@@ -4,6 +4,8 @@
  */
 #include "engine/trial/stops.h"
 
+#include "engine/trial/formula.h"
+
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>

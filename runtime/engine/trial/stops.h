@@ -10,8 +10,9 @@
 #ifndef TRIAL_STOPS_H
 #define TRIAL_STOPS_H
 
-#include "engine/trial/formula.h"
 #include "engine/trial/twin.h"
+
+struct formula;
 
 enum stops_step {
 	STOPS_GO,              /* up to the next breakpoint                   */

@@ -39,8 +39,15 @@ static bool takes(GHashTable *taken, const char *keys, const char *what)
 	return good;
 }
 
-/* @apart: verbs to leave out: those of ladders, or of charts. */
-static void test_scheme(enum key_scheme scheme, enum verb_where apart)
+/* Do its keys work where the focus is, in a ladder, a chart or a text? */
+static bool works_in(enum verb verb, enum verb_where focus)
+{
+	const enum verb_where where = verb_row(verb)->where;
+
+	return where == VERB_WINDOW || where == focus || (where == VERB_BOTH && focus != VERB_TEXT);
+}
+
+static void test_scheme(enum key_scheme scheme, enum verb_where focus)
 {
 	GHashTable *taken = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
 	bool alone = true, known = true;
@@ -50,12 +57,12 @@ static void test_scheme(enum key_scheme scheme, enum verb_where apart)
 	for (int i = 0; i < VERB_COUNT; i++) {
 		char *of = verb_keys_of((enum verb)i, scheme);
 
-		if (verb_row((enum verb)i)->where != apart)
+		if (works_in((enum verb)i, focus))
 			alone = takes(taken, of, verb_row((enum verb)i)->action) && alone;
 		g_free(of);
 	}
 	for (int i = 0; key_scheme_put(scheme, i, &word, &keys); i++) {
-		if (apart != VERB_SHEET)
+		if (focus == VERB_SHEET)
 			alone = takes(taken, keys, word) && alone;
 		known = known && word_find(word, strlen(word)) != WORD_COUNT;
 	}
@@ -123,6 +130,7 @@ int main(void)
 	for (int i = 0; i < KEY_SCHEMES; i++) {
 		test_scheme((enum key_scheme)i, VERB_CHART);
 		test_scheme((enum key_scheme)i, VERB_SHEET);
+		test_scheme((enum key_scheme)i, VERB_TEXT);
 	}
 	CHECK_TEXT(verb_keys(VERB_contact), "F5");
 	check_accel(VERB_negate, "slash");

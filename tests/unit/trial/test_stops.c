@@ -4,6 +4,7 @@
  * statement; what it called; conditions; values in mid-scan; and that nothing else changes.
  */
 #include "engine/trial/stops.h"
+#include "engine/trial/formula.h"
 #include "tests/unit/rig.h"
 
 #include <stdio.h>
@@ -293,6 +294,32 @@ static void test_ladder(void)
 	close_bench(&bench);
 }
 
+/* An action of a chart. */
+static void test_chart(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n"
+		"PROGRAM Main SFC\n"
+		"  VAR\n    n, k : INT;\n  END_VAR\n"
+		"  INITIAL_STEP Begin:\n    Work(N);\n  END_STEP\n"
+		"  ACTION Work:\n"
+		"    n := n + 1;\n"           /* 10 */
+		"    IF n > 1 THEN\n"
+		"      k := n;\n"
+		"    END_IF;\n"
+		"  END_ACTION\n"
+		"END_PROGRAM\n";
+	struct bench bench;
+
+	open_bench(&bench, text);
+	CHECK_AS(are(lines(&bench, STOPS_INTO), "10 11"), "a branch that is not taken");
+	CHECK_AS(are(lines(&bench, STOPS_OVER), "10 11 12"), "the next scan takes it");
+	CHECK(add(&bench, "Main", 12));
+	CHECK_AS(are(lines(&bench, STOPS_GO), "12"), "a breakpoint in an action");
+	CHECK(get(&bench, "Main.k") == 3);
+	close_bench(&bench);
+}
+
 /* ---- conditions, values ---- */
 
 /* A breakpoint in the first line of Fill. */
@@ -304,7 +331,7 @@ static void add_if(struct bench *bench, struct arena *arena, const char *instanc
 
 	diag_init(diags);
 	CHECK(expr_parse_text(text, strlen(text), expr, diags, (struct diag){ .line = 1 }));
-	formula = formula_new(&bench->twin.resource.image, NULL, expr, arena, text, diags,
+	formula = formula_new(&bench->twin.resource.image, NULL, NULL, expr, arena, text, diags,
 			      (struct diag){ .line = 1 });
 	CHECK(formula && stops_add(bench->stops, pou_of(bench, "Fill"), 15, formula, instance, false));
 }
@@ -519,6 +546,7 @@ int main(void)
 	test_lines();
 	test_calls();
 	test_ladder();
+	test_chart();
 	test_condition();
 	test_show();
 	test_values();

@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""breakpoints - the simulation stands before a line of Structured Text, and goes on step by step."""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import A11Y, Chinese, Editor, main, new_file, sh, until  # noqa: E402
+
+PLANT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Valve AT %QX0.0 : BOOL;
+  Sum   : INT;
+END_VAR
+
+FUNCTION_BLOCK Fill ST
+VAR_INPUT
+  Step : INT;
+END_VAR
+VAR_OUTPUT
+  Level : INT;
+END_VAR
+  Level := Level + Step;
+  IF Level > 100 THEN
+    Level := 0;
+  END_IF;
+END_FUNCTION_BLOCK
+
+PROGRAM Main ST
+VAR
+  A : Fill;
+  B : Fill;
+  n : INT;
+END_VAR
+  Valve := NOT Valve;
+  n := n + 1;
+  A(Step := 1);
+  B(Step := 30);
+  Sum := A.Level + B.Level;
+END_PROGRAM
+'''
+
+
+def said_of(view):
+    """What a screen reader adds to the name of the text."""
+    return str(view.editor.bus.call_blocking(view.editor.name, view.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                             (A11Y + 'Accessible', 'Description')))
+
+
+def text_of(editor, heading):
+    """The text in front, which begins with that heading and has the keys."""
+    def look():
+        found = [n for n in editor.all('Text of the program') if n.has(12) and n.text().startswith(heading)]
+        return found[0] if found else None
+    return until(look, 'the text of ' + heading)
+
+
+def opened(screen, text=PLANT, kind=Editor, **env):
+    """An editor in simulation, and the text of Main, which has the keys."""
+    path = new_file(screen, text)
+    editor = kind(screen, path, **env)
+    editor.click(editor.find('Main, ST'), count=2)
+    view = text_of(editor, 'PROGRAM Main')
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    return editor, path, view
+
+
+def to_line(editor, line):
+    """Moves the cursor to the begin of line @line, from 1."""
+    editor.keys('ctrl+Home', *['Down'] * (line - 1))
+    editor.says('Line %d · column 1' % line)
+
+
+def stands(editor, where):
+    """The bar says that it stands there."""
+    until(lambda: editor.all('Step over', 'push button') and editor.all('Stands before ' + where, 'label'), 'the bar: ' + where)
+
+
+def goes_on(editor):
+    until(lambda: not editor.all('Step over', 'push button'), 'no bar')
+
+
+def stepped(screen):
+    """F9 sets a breakpoint, the scan stands there and outputs wait; F8, F7, Shift+F8, F6 and F5 go on; the bar names line, instance and callers; values are those of now"""
+    editor, path, view = opened(screen)
+    to_line(editor, 8)
+    editor.keys('F9')
+    stands(editor, 'line 8 of Main')
+    until(lambda: 'the program stands before this line' in said_of(view), 'the line that stands')
+    editor.says('PAUSE')
+    editor.find('Valve', 'label')
+    editor.shot('breakpoints-stands')
+    editor.keys('F8')
+    stands(editor, 'line 9 of Main')
+    editor.keys('F7')
+    stands(editor, 'line 8 of Fill (instance A), called from line 9 of Main')
+    fill = text_of(editor, 'FUNCTION_BLOCK Fill')
+    editor.shot('breakpoints-into')
+    editor.keys('F8')
+    stands(editor, 'line 9 of Fill (instance A)')
+    editor.keys('Up')
+    until(lambda: re.search('value [0-9]+ · 1', said_of(fill)), 'the values of now')
+    editor.keys('shift+F8')
+    stands(editor, 'line 10 of Main')
+    text_of(editor, 'PROGRAM Main')
+    editor.keys('Down', 'F6')
+    stands(editor, 'line 11 of Main')
+    editor.keys('F5')
+    stands(editor, 'line 8 of Main')
+    editor.keys('F9')
+    until(lambda: 'breakpoint' not in said_of(view), 'no breakpoint')
+    editor.keys('F5')
+    goes_on(editor)
+
+
+def by_pointer(screen):
+    """a press beside a line sets and clears a breakpoint; the buttons of the bar go on; callers lead to their lines"""
+    editor, path, view = opened(screen)
+    editor.click(editor.find('Fill, ST'), count=2)
+    fill = text_of(editor, 'FUNCTION_BLOCK Fill')
+    to_line(editor, 8)
+    editor.keys('F9')
+    stands(editor, 'line 8 of Fill (instance A), called from line 9 of Main')
+    editor.click(editor.find('Continue', 'push button'))
+    stands(editor, 'line 8 of Fill (instance B), called from line 10 of Main')
+    editor.click(editor.find('Callers'))
+    row = editor.find('line 10 of Main', 'push button')
+    editor.shot('breakpoints-callers')
+    editor.click(row)
+    text_of(editor, 'PROGRAM Main')
+    editor.says('Line 10 ·')
+    editor.shot('breakpoints-caller')
+    editor.click(editor.find('Step out', 'push button'))
+    stands(editor, 'line 11 of Main')
+
+
+def conditional(screen):
+    """Shift+F9 asks for a condition; a wrong one is told at its place; it stands in the instance for which it is TRUE"""
+    editor, path, view = opened(screen)
+    editor.click(editor.find('Fill, ST'), count=2)
+    fill = text_of(editor, 'FUNCTION_BLOCK Fill')
+    to_line(editor, 9)
+    editor.keys('shift+F9')
+    editor.focus_on('Condition of the breakpoint')
+    editor.type('Levl > 50')
+    editor.keys('Return')
+    until(lambda: editor.all('“Levl”', 'label') or editor.all('"Levl"', 'label'), 'the mistake')
+    editor.shot('breakpoints-wrong')
+    editor.keys('ctrl+a')
+    editor.type('Level > 50')
+    editor.keys('Return')
+    until(lambda: 'breakpoint, if Level > 50' in said_of(fill), 'the condition')
+    stands(editor, 'line 9 of Fill (instance ')
+    until(lambda: re.search('value ([6-9][0-9]|5[1-9]|1[0-9][0-9])', said_of(fill)), 'the value')
+    editor.shot('breakpoints-condition')
+    editor.keys('shift+F8')
+    until(lambda: not editor.all('Stands before line 9 of Fill', 'label'), 'the caller')
+    editor.keys('F5')
+    stands(editor, 'line 9 of Fill (instance ')
+
+
+def edited(screen):
+    """breakpoints stay with their lines while the text is edited; an edit ends the scan that stands, with the program before"""
+    editor, path, view = opened(screen)
+    to_line(editor, 8)
+    editor.keys('F9')
+    stands(editor, 'line 8 of Main')
+    editor.keys('ctrl+Home', *['Down'] * 6, 'Home', 'Return', 'Up')
+    editor.type('  Sum := 5;')
+    goes_on(editor)
+    until(lambda: 'Sum := 5;\n  Valve' in view.text(), 'the new line')
+    editor.keys('ctrl+r')
+    stands(editor, 'line 9 of Main')
+    editor.keys('F9')
+    until(lambda: 'breakpoint' not in said_of(view), 'no breakpoint')
+
+
+def looks(screen):
+    """in a dark small window, and in Chinese"""
+    for kind, env in (Editor, {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'}), (Chinese, {}):
+        path = new_file(screen, PLANT)
+        editor = kind(screen, path, **env)
+        sh('xdotool', 'windowsize', '--sync', editor.window, '1024', '600')
+        editor.click(editor.find('Main, ST'), count=2)
+        text_of(editor, 'PROGRAM Main')
+        editor.keys('ctrl+m', 'ctrl+Home', *['Down'] * 8, 'F9')
+        until(lambda: editor.all(kind is Editor and 'Stands before line 9 of Main' or 'Main 第 9 行', 'label'), 'the bar')
+        editor.keys('F7')
+        until(lambda: editor.all(kind is Editor and 'Stands before line 8 of Fill' or 'Fill 第 8 行', 'label'), 'the bar')
+        editor.shot('breakpoints-' + ('dark' if env else 'chinese'))
+        editor.finish()
+
+
+stepped.quick = 'editor-gtk/text'
+main([stepped, by_pointer, conditional, edited, looks])
