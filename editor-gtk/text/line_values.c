@@ -42,6 +42,7 @@ struct _LadderLineValues {
 	char *pou;
 	bool st;                  /* Structured Text                             */
 	struct live_map *map;     /* NULL: not made yet                          */
+	char *instance;           /* of a block: the one that stands; NULL: the first one */
 	int *places;              /* by line: line of the file that runs, from 1; 0: none. NULL:
 				   * of no line */
 	int place_count;
@@ -374,7 +375,7 @@ static struct seen *seen_of(LadderLineValues *values, int line)
 	if (!twin || !values->pou[0] || line >= gtk_text_buffer_get_line_count(buffer))
 		return NULL;
 	if (!values->map) {
-		values->map = live_map_new(&twin->resource, values->pou, NULL);
+		values->map = live_map_new(&twin->resource, values->pou, values->instance);
 		live_map_set_sim(values->map, values->sim);
 	}
 	if (values->lines->len <= (guint)line)
@@ -649,10 +650,40 @@ static void forget(LadderLineValues *values)
 	forget_lines(values);
 }
 
+/* The instance of this block in which the program stands, or which waits; NULL: in none. */
+static const char *standing_instance(LadderLineValues *values)
+{
+	const struct stops_frame *frame;
+	int count;
+
+	frame = ladder_sim_stack(values->sim, &count);
+	for (int i = 0; frame && i < count; i++)
+		if (frame[i].instance[0] && name_equal(frame[i].at.pou, values->pou))
+			return frame[i].instance;
+	return NULL;
+}
+
+static void follow_instance(LadderLineValues *values)
+{
+	const char *instance = standing_instance(values);
+
+	if (g_strcmp0(instance, values->instance) == 0)
+		return;
+	g_free(values->instance);
+	values->instance = g_strdup(instance);
+	forget(values);
+}
+
+const char *line_values_instance(LadderLineValues *values)
+{
+	return values->instance;
+}
+
 static void shown(LadderLineValues *values)
 {
 	const gint64 now = g_get_monotonic_time();
 
+	follow_instance(values);
 	if (!values->pou[0] || !gtk_widget_get_mapped(GTK_WIDGET(values)))
 		return;
 	gtk_widget_queue_draw(GTK_WIDGET(values));
@@ -727,6 +758,7 @@ static void ladder_line_values_finalize(GObject *object)
 	g_clear_object(&values->sim);
 	g_free(values->pou);
 	g_free(values->spoken);
+	g_free(values->instance);
 	G_OBJECT_CLASS(ladder_line_values_parent_class)->finalize(object);
 }
 

@@ -39,6 +39,9 @@ void line_values_set_note(LadderLineValues *values, char *(*note)(void *context,
 			  void *context);
 /** line_values_tell - the note of the line of the cursor may have changed. */
 void line_values_tell(LadderLineValues *values);
+/** line_values_instance - of a block: the instance whose values are shown, because the program stands
+ * in it; NULL: the first one. Borrowed until the next scan is shown. */
+const char *line_values_instance(LadderLineValues *values);
 /** line_values_text - of the operand of a line, from 0: "3.2 s / 5 s"; NULL: none. Borrowed until
  * the list, the program or the scan changes. */
 const char *line_values_text(LadderLineValues *values, int line);

@@ -488,7 +488,7 @@ static char *values_of_parts(GArray *parts, const struct image *image)
 
 /* "Start = TRUE · Level = 12"; NULL: no simulation, or no variable in the line. Names are
  * looked up each time: tooltips are rare. Caller frees. */
-static char *live_line(LadderSim *sim, const char *pou, const char *line)
+static char *live_line(LadderSim *sim, const char *pou, const char *instance, const char *line)
 {
 	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
 	const char *comment = strstr(line, "(*");
@@ -499,7 +499,7 @@ static char *live_line(LadderSim *sim, const char *pou, const char *line)
 	if (!twin)
 		return NULL;
 	code = g_strndup(line, comment ? (gsize)(comment - line) : strlen(line));
-	map = live_map_new(&twin->resource, pou, NULL);
+	map = live_map_new(&twin->resource, pou, instance);
 	live_map_set_sim(map, sim);
 	parts = live_parts(map, code);
 	text = parts ? values_of_parts(parts, &twin->resource.image) : NULL;
@@ -523,7 +523,7 @@ static char *values_of(LadderTextView *view, int line)
 	gtk_text_iter_forward_to_line_end(&end);
 	text = gtk_text_iter_get_text(&start, &end);
 	values = live_line(view->sim, project_text(project,
-		project->pou[view->pou].name), text);
+		project->pou[view->pou].name), line_values_instance(view->values), text);
 	g_free(text);
 	return values;
 }
