@@ -920,7 +920,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = put_order(m, pc, n, order(m, pc + 1));
 			break;
 		case VM_INT:
-			if (HAS_OFTEN && n & MATH_LOOP && step(m, pc, 2, &more)) {
+			if (HAS_OFTEN && JOINS && n & MATH_LOOP && step(m, pc, 2, &more)) {
 				pc += more ? LOOP_JUMP : LOOP_WORDS;
 				if (more)
 					goto jump;
@@ -940,7 +940,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto jump_if;
 			break;
 		case VM_DINT:
-			if (HAS_OFTEN && n & MATH_LOOP && step(m, pc, 4, &more)) {
+			if (HAS_OFTEN && JOINS && n & MATH_LOOP && step(m, pc, 4, &more)) {
 				pc += more ? LOOP_JUMP : LOOP_WORDS;
 				if (more)
 					goto jump;

@@ -170,6 +170,30 @@ static void test_kinds(void)
 	close_bench(&bench);
 }
 
+/* What runs at once without stops is several statements. */
+static void test_joined(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\nPROGRAM Main ST\n  VAR\n    i : INT;\n  END_VAR\n"
+		"  i := 0;\n"
+		"  REPEAT\n"
+		"    i := i + 1;\n"           /* 8 */
+		"  UNTIL i >= 3\n"
+		"  END_REPEAT;\n"
+		"  REPEAT\n"
+		"    i := i - 1;\n"
+		"    i := i + 2;\n"           /* 13 */
+		"  UNTIL NOT (i <= 5)\n"
+		"  END_REPEAT;\nEND_PROGRAM\n";
+	struct bench bench;
+
+	open_bench(&bench, text);
+	CHECK_AS(are(lines(&bench, STOPS_INTO), "6 8 9 8 9 8 9 12 13 14 12 13 14 12 13 14"),
+		 "each statement of short loops");
+	CHECK(get(&bench, "Main.i") == 6);
+	close_bench(&bench);
+}
+
 static void test_lines(void)
 {
 	struct bench bench;
@@ -543,6 +567,7 @@ static void test_copies(void)
 int main(void)
 {
 	test_kinds();
+	test_joined();
 	test_lines();
 	test_calls();
 	test_ladder();
