@@ -170,6 +170,15 @@ put(qq(we"ird\n\x01.rung), $bad);
 ok(eval { decode_json($out) }, 'check --json of a weird name') or diag($@);
 
 # ---- fmt ----
+
+put('words.st', "PROGRAM Main\nVAR\n  By : INT;\n  to : INT;\n  Do : INT;\n  Not_ : BOOL;\nEND_VAR\n  By:=2;to:=by+1;\n"
+	. "  for Do:=to to 3 by by do to:=by mod -do; exit; end_for;\n"
+	. "  if not not_ and_then true or to=-by then do:=do mod 2; end_if;\n  case to of by+0: to:=1; else return; end_case;\nEND_PROGRAM\n");
+is_run(0, 'fmt of Structured Text', ['fmt', 'words.st']);
+like(get('words.st'), qr/\n  By := 2;\n  to := by \+ 1;\n  FOR Do := to TO 3 BY by DO\n    to := by MOD -do;\n    EXIT;\n  END_FOR;\n/,
+	'words of the language are in capitals, variables called like them are not');
+like(get('words.st'), qr/\n  IF NOT not_ AND_THEN TRUE OR to = -by THEN\n    do := do MOD 2;\n  END_IF;\n  CASE to OF\n    by \+ 0:\n/,
+	'operators are, too, and not what stands in the place of an operand');
 my $canonical = get('good.rung');
 ($out) = is_run(1, 'fmt --check', ['fmt', '--check', 'good.rung', 'ugly.rung']);
 is($out, "ugly.rung\n", 'fmt --check names the file');

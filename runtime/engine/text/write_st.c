@@ -11,20 +11,6 @@
 #include "engine/base/ascii.h"
 #include "engine/model/st.h"
 
-static const char *const words[] = {
-	"IF", "THEN", "ELSIF", "ELSE", "END_IF", "CASE", "OF", "END_CASE", "FOR", "TO", "BY", "DO",
-	"END_FOR", "WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT", "EXIT", "CONTINUE",
-	"RETURN", "AND", "OR", "XOR", "NOT", "MOD", "TRUE", "FALSE",
-};
-
-static const char *word_of(const struct lex *lex)
-{
-	for (size_t i = 0; lex->token.kind == TOKEN_NAME && i < sizeof(words) / sizeof(*words); i++)
-		if (lex_is(lex, words[i]))
-			return words[i];
-	return NULL;
-}
-
 static bool is_one_of(const struct token *token, const char *signs)
 {
 	if (token->kind != TOKEN_SYMBOL || token->len != 1)
@@ -36,10 +22,38 @@ static bool is_one_of(const struct token *token, const char *signs)
 
 struct st_style {
 	const struct sink *sink;
+	enum st_kind kind;
+	bool begun;          /* a word was written                            */
 	struct token last;   /* written last; kind TOKEN_END: none            */
 	bool operand;        /* that was an operand, or ) or ]                */
 	bool sign;           /* that was a sign before an operand             */
 };
+
+static const char *word_among(const struct lex *lex, const char *const *words)
+{
+	while (*words && !lex_is(lex, *words))
+		words++;
+	return *words;
+}
+
+/* The word of the language that the token is; NULL: none. `By` and `Mod` may be names, too: such words
+ * stand behind an operand, names do not. */
+static const char *word_of(const struct st_style *style, const struct lex *lex)
+{
+	static const char *const between[] = { "AND", "AND_THEN", "OR", "OR_ELSE", "XOR", "MOD", NULL };
+	static const char *const of_for[] = { "TO", "BY", NULL };
+	static const char *const before[] = { "NOT", "TRUE", "FALSE", NULL };
+	const char *first = st_form(style->kind)->word, *word = NULL;
+
+	if (lex->token.kind != TOKEN_NAME)
+		return NULL;
+	if (!style->begun && *first)
+		return lex_is(lex, first) ? first : NULL;
+	if (!style->operand)
+		return word_among(lex, before);
+	word = word_among(lex, between);
+	return !word && style->kind == ST_FOR ? word_among(lex, of_for) : word;
+}
 
 static bool wants_blank(const struct st_style *style, const struct lex *lex)
 {
@@ -58,7 +72,7 @@ static bool wants_blank(const struct st_style *style, const struct lex *lex)
 static void write_token(struct st_style *style, const struct lex *lex)
 {
 	const struct token *token = &lex->token;
-	const char *word = word_of(lex);
+	const char *word = word_of(style, lex);
 	const bool sign = is_one_of(token, "+-") && !style->operand;
 
 	if (wants_blank(style, lex) && !is_one_of(token, "."))
@@ -71,6 +85,7 @@ static void write_token(struct st_style *style, const struct lex *lex)
 	style->operand = (token->kind != TOKEN_SYMBOL && !word) || is_one_of(token, ")]^") ||
 			 lex_is(lex, "TRUE") || lex_is(lex, "FALSE");
 	style->last = *token;
+	style->begun = true;
 }
 
 static void write_indent(const struct sink *sink, int blanks)
@@ -79,9 +94,10 @@ static void write_indent(const struct sink *sink, int blanks)
 		sink_text(sink, " ");
 }
 
-static void write_statement(const struct sink *sink, const char *text, size_t len, int blanks)
+static void write_statement(const struct sink *sink, enum st_kind kind, const char *text, size_t len,
+			    int blanks)
 {
-	struct st_style style = { .sink = sink };
+	struct st_style style = { .sink = sink, .kind = kind };
 	struct lex lex;
 
 	lex_init(&lex, text, len);
@@ -130,7 +146,7 @@ void text_write_st(const struct project *project, const struct st *st, const str
 			if (item->kind == ST_COMMENT)
 				sink_write(sink, text, len);
 			else
-				write_statement(sink, text, len, blanks);
+				write_statement(sink, (enum st_kind)item->kind, text, len, blanks);
 			write_end(sink, (enum st_kind)item->kind);
 		}
 	}
