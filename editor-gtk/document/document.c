@@ -1664,33 +1664,106 @@ bool ladder_document_needs_rung_file(LadderDocument *document)
 	return drawn || project_has_head(project) || *project_view(project);
 }
 
-/* A file of plain IEC text becomes a rung file with its new name. */
-static void take_form(LadderDocument *document, const char *path)
+/* The text of a rung file, where DWORD_TO_REAL keeps the bits, for one in which it keeps the number. */
+static char *with_number_words(const char *text, gsize *len)
 {
-	struct project *project = document->text ? NULL : ladder_project(document->ladder);
+	GString *out = g_string_new(NULL);
+	const char *from = text;
+	struct lex lex;
 
-	if (project && project->source_count == 1 && g_str_has_suffix(path, ".rung"))
-		project->source[0].plain = false;
+	lex_init(&lex, text, *len);
+	while (lex_next(&lex) != TOKEN_END) {
+		const char *word = lex.token.kind != TOKEN_NAME ? NULL :
+				   words_number(lex.token.text, lex.token.len);
+
+		if (!word)
+			continue;
+		g_string_append_len(out, from, lex.token.text - from);
+		g_string_append(out, word);
+		from = lex.token.text + lex.token.len;
+	}
+	g_string_append_len(out, from, text + *len - from);
+	*len = out->len;
+	return g_string_free(out, FALSE);
+}
+
+static void say_first(const struct diag_list *diags, GError **error)
+{
+	const struct diag *first = diag_first_error(diags);
+	char *why = first ? diag_said_whole(first) : g_strdup("");
+
+	g_set_error(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA, _("It cannot become a rung file: line %d: %s"),
+		    first ? first->line : 0, why);
+	g_free(why);
+}
+
+/* Plain IEC text as a rung file, and the project read from it, where the same words may mean
+ * something else. Caller frees. Fails: NULL, and @error says why. */
+static char *as_rung_file(LadderDocument *document, gsize *len, struct ladder **ladder, GError **error)
+{
+	struct project *project = ladder_project(document->ladder);
+	struct diag_list *diags = g_new(struct diag_list, 1);
+	char *text, *own;
+
+	diag_init(diags);
+	project->source[0].plain = false;
+	text = ladder_document_text(document, len);
+	project->source[0].plain = true;
+	if (project->words.as_numbers) {
+		own = with_number_words(text, len);
+		g_free(text);
+		text = own;
+	}
+	*ladder = read_text(document, text, *len, diags);
+	if (!*ladder) {
+		say_first(diags, error);
+		g_clear_pointer(&text, g_free);
+	}
+	g_free(diags);
+	return text;
+}
+
+/* Earlier steps are of another kind of file: they cannot be undone here. */
+static void become_rung_file(LadderDocument *document, struct ladder *ladder)
+{
+	count_version(document);
+	take_ladder(document, ladder);
+	g_hash_table_remove_all(document->list);
+	history_restart(document->history);
+	tell_whole(document);
+	changed(document);
+}
+
+static bool changes_form(LadderDocument *document, const char *path)
+{
+	const struct project *project = document->text ? NULL : ladder_project(document->ladder);
+
+	return project && project->source_count == 1 && project->source[0].plain &&
+	       g_str_has_suffix(path, ".rung");
 }
 
 bool ladder_document_save(LadderDocument *document, const char *path, GError **error)
 {
+	struct ladder *ladder = NULL;
 	gsize len;
 	char *text;
 	bool good;
 
 	path = path ? path : document->path;
 	g_return_val_if_fail(path != NULL, false);
-	take_form(document, path);
-	text = ladder_document_text(document, &len);
-	good = disk_save(path, text, len, error);
+	text = changes_form(document, path) ? as_rung_file(document, &len, &ladder, error) :
+					      ladder_document_text(document, &len);
+	good = text && disk_save(path, text, len, error);
 	if (good) {
 		set_path(document, path);
 		set_sum(document, sum_of(text, len));
 		document->repaired = 0;
+		if (ladder)
+			become_rung_file(document, g_steal_pointer(&ladder));
 		history_mark_saved(document->history);
 		tell_state(document);
 	}
+	ladder_free(ladder);
 	g_free(text);
 	return good;
 }

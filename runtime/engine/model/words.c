@@ -167,22 +167,22 @@ static enum word find_long(const char *text, size_t len)
 	return used < len && used ? word_find(out, used) : WORD_COUNT;
 }
 
-/* The conversion of a number that a conversion of bits is in the files of other tools. */
-static enum word find_number(struct word_table *table, const char *text, size_t len)
+const char *words_number(const char *text, size_t len)
 {
 	static const char *const pairs[][2] = {
 		{ "DWORD_TO_REAL", "UDINT_TO_REAL" }, { "REAL_TO_DWORD", "REAL_TO_UDINT" },
 		{ "LWORD_TO_LREAL", "ULINT_TO_LREAL" }, { "LREAL_TO_LWORD", "LREAL_TO_ULINT" },
 	};
 
-	for (size_t i = 0; table->as_numbers && i < sizeof(pairs) / sizeof(*pairs); i++)
+	for (size_t i = 0; i < sizeof(pairs) / sizeof(*pairs); i++)
 		if (ascii_is(pairs[i][0], text, len))
-			return find_made(table, pairs[i][1], strlen(pairs[i][1]));
-	return find_made(table, text, len);
+			return pairs[i][1];
+	return NULL;
 }
 
 enum word words_find(struct word_table *table, const char *text, size_t len)
 {
+	const char *number = table->as_numbers ? words_number(text, len) : NULL;
 	enum word word = word_find(text, len);
 	uint16_t found = 0;
 
@@ -196,7 +196,7 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 		return word;
 	word = words_find_short(text, len);
 	if (word == WORD_COUNT)
-		word = find_number(table, text, len);
+		word = number ? find_made(table, number, strlen(number)) : find_made(table, text, len);
 	return word != WORD_COUNT ? word : find_long(text, len);
 }
 

@@ -55,6 +55,9 @@ enum word words_conversion(struct word_table *table, enum iec_type from, enum ie
  * only type it has; WORD_COUNT: none. Scan-safe: no. */
 enum word words_find_short(const char *text, size_t len);
 
+/** words_number - the conversion of a number, "UDINT_TO_REAL", that DWORD_TO_REAL is in the files of other
+ * tools (word_table.as_numbers); NULL: another word. Lives for ever. Scan-safe: yes. */
+const char *words_number(const char *text, size_t len);
 /** words_explain - the explanation of a row; "" for one of the project. Static. */
 const char *words_explain(const struct word_row *row);
 

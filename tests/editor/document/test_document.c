@@ -556,6 +556,41 @@ static void test_gone(void)
 	g_free(folder);
 }
 
+/* In the files of other tools DWORD_TO_REAL keeps the number, in a rung file the bits. */
+static void test_becomes_rung_file(void)
+{
+	static const char text[] = "(* @NESTEDCOMMENTS := 'Yes' *)\n(* @PATH := '' *)\nPROGRAM PLC_PRG\nVAR\n  Bits : DWORD := 1000;\n"
+		"  Number : REAL;\nEND_VAR\n(* @END_DECLARATION := '0' *)\n(* DWORD_TO_REAL *)\n"
+		"Number := Dword_to_Real(Bits) / 4;\nBits := REAL_TO_DWORD(Number * 2);\nEND_PROGRAM\n";
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL), *saved = NULL, *now;
+	char *path = g_build_filename(folder, "a.EXP", NULL);
+	char *rung = g_build_filename(folder, "a.rung", NULL);
+	LadderDocument *document = ladder_document_new();
+	GError *error = NULL;
+
+	CHECK(g_file_set_contents(path, text, -1, NULL));
+	CHECK(ladder_document_open(document, path, NULL));
+	CHECK(ladder_document_put_list(document, 0, "PROGRAM PLC_PRG\nVAR\n  Bits : DWORD := 1000;\n  Number : REAL;\n"
+		"END_VAR\n  Number := ;\nEND_PROGRAM\n"));
+	CHECK_AS(!ladder_document_save(document, rung, &error) && error && strstr(error->message, "It cannot become a rung file: line ") &&
+		 !g_file_test(rung, G_FILE_TEST_EXISTS), "what cannot be read does not become a rung file");
+	g_clear_error(&error);
+	CHECK(strcmp(ladder_document_path(document), path) == 0);
+	CHECK(ladder_document_undo(document) && ladder_document_save(document, rung, NULL));
+	CHECK(g_file_get_contents(rung, &saved, NULL, NULL) && g_str_has_prefix(saved, "RUNGBOARD 1\n"));
+	CHECK_AS(strstr(saved, "Number := UDINT_TO_REAL(Bits) / 4;") && strstr(saved, "Bits := REAL_TO_UDINT(Number * 2);") &&
+		 strstr(saved, "(* DWORD_TO_REAL *)"), "the numbers stay numbers");
+	now = ladder_document_text(document, NULL);
+	CHECK(strcmp(now, saved) == 0 && ladder_document_is_saved(document) && !ladder_document_undo_name(document));
+	CHECK(g_unlink(path) == 0 && g_unlink(rung) == 0 && g_rmdir(folder) == 0);
+	g_object_unref(document);
+	g_free(now);
+	g_free(saved);
+	g_free(rung);
+	g_free(path);
+	g_free(folder);
+}
+
 /* A restored draft differs from the file, which may have changed since. */
 static void test_restored(void)
 {
@@ -628,6 +663,7 @@ int main(void)
 	test_storm();
 	test_files();
 	test_gone();
+	test_becomes_rung_file();
 	test_restored();
 	return tap_done();
 }

@@ -166,7 +166,7 @@ bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, 
 		return no_memory(diags, place);
 	if (exported)
 		codesys_blank(file, *out, *out_len, diags);
-	if (!same || memcmp(*out, bytes, len) != 0)
+	if (exported || !same)
 		return true;
 	free(*out);
 	*out = NULL;

@@ -17,7 +17,8 @@
 /**
  * iec_file_text - the IEC text in a file
  * @file:  its name for diagnostics; must live as long as @diags
- * @out:   gets the text, NUL-ended, @out_len bytes without it; NULL: the bytes are read as they are
+ * @out:   gets the text, NUL-ended, @out_len bytes without it, also if it is the same in a file that
+ *         another tool exported; NULL: the bytes are read as they are
  * @diags: gets what is left out and what cannot be read, with their lines
  *
  * Owns: the caller, free() @out. Scan-safe: no.
