@@ -63,6 +63,9 @@ bool pou_print_il(const struct project *project, const struct pou *pou,
 			    .language = LANGUAGE_IL, .il = *il };
 	struct part part = { .kind = PART_POU };
 	struct project one = { .names = project->names, .words = project->words,
+			       .named = project->named, .named_count = project->named_count,
+			       .enumeration = project->enumeration,
+			       .enumeration_count = project->enumeration_count,
 			       .pou = &only, .pou_count = 1,
 			       .part = &part, .part_count = 1 };
 	char *text = NULL;
@@ -85,6 +88,9 @@ char *pou_print(const struct project *project, const struct pou *pou)
 	struct pou only = *pou;
 	struct part part = { .kind = PART_POU };
 	struct project one = { .names = project->names, .words = project->words,
+			       .named = project->named, .named_count = project->named_count,
+			       .enumeration = project->enumeration,
+			       .enumeration_count = project->enumeration_count,
 			       .pou = &only, .pou_count = 1,
 			       .part = &part, .part_count = 1 };
 	size_t len;

@@ -12,6 +12,7 @@
 #include "engine/translate/lists.h"
 
 #include <limits.h>
+#include <string.h>
 
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
 
@@ -578,6 +579,7 @@ static void begin_statement(struct list *list)
 	if (list->depth > 0 || list->pending_count > 0)
 		return;
 	list->as->scratch_used = 0;
+	memset(list->as->likely, 0, sizeof(list->as->likely));
 	if (list->as->pointed[unit_number(list)] && !(line->mark & IL_WATCHING) && begins(list))
 		place_point(list, line->rung, line->line);
 }

@@ -76,6 +76,8 @@ struct assembler {
 	int open_cmp;              /* of a comparison that ends the code; -1  */
 	int open_bit;              /* word with the slot of the bit that the last
 				      instruction makes; -1: it makes none    */
+	uint32_t likely[4];        /* offsets of BOOLs that are hardly ever FALSE */
+	uint32_t likely_count;     /* noted so far                            */
 	int op_at, op_before;      /* words of the last instruction and the one before it */
 	int open_number;           /* likewise of a number that it always stores  */
 	struct code_place *place;
@@ -225,6 +227,10 @@ void emit(struct assembler *as, uint32_t word);
 void emit_op(struct assembler *as, enum vm_op op, uint32_t n);
 /** emit_block - @size bytes from @from to @to, unless they are the same. */
 void emit_block(struct assembler *as, uint32_t to, uint32_t from, uint32_t size);
+/** likely_note - an instruction with @en tells at @made whether it succeeded: hardly ever not, if it hardly
+ * ever lacks @en. likely_is - was that found out of @en? */
+void likely_note(struct assembler *as, uint32_t en, uint32_t made);
+bool likely_is(const struct assembler *as, uint32_t en);
 uint32_t scratch_new(struct assembler *as);
 
 /* ---- pack_tasks.c ---- */

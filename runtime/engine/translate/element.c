@@ -29,6 +29,7 @@ static void emit_head(struct list *list, enum vm_op op, uint32_t n, uint32_t dim
 	emit_op(list->as, op, n | (dims - 1) << 1);
 	emit(list->as, en);
 	emit(list->as, ok);
+	likely_note(list->as, en, ok);
 }
 
 static void emit_indices(struct list *list, const struct meaning *m,

@@ -87,7 +87,7 @@ void list_emit_fn(struct list *list, const struct fn_code *fn)
 	if (is_short) {
 		emit_op(as, op_of(fn->type), math |
 			(fn->en != CODE_TRUE_AT(as->areas) ?
-			 MATH_ENABLED | (list->pou->st ? MATH_LIKELY : 0) :
+			 MATH_ENABLED | (likely_is(as, fn->en) ? MATH_LIKELY : 0) :
 			 fn->left && !has_always_result(fn->fn, fn->type) ? MATH_LEFT : 0));
 	} else {
 		emit_op(as, VM_FN, (uint32_t)fn->type | fn->count << 8 |
@@ -99,6 +99,7 @@ void list_emit_fn(struct list *list, const struct fn_code *fn)
 	emit(as, is_short ? CODE_OFFSET(fn->to) : fn->to);
 	for (uint32_t i = 0; i < fn->count; i++)
 		emit(as, is_short ? CODE_OFFSET(fn->input[i]) : fn->input[i]);
+	likely_note(as, fn->en, fn->eno);
 }
 
 void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from)

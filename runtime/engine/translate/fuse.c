@@ -38,6 +38,25 @@ void emit_block(struct assembler *as, uint32_t to, uint32_t from, uint32_t size)
 	emit(as, size);
 }
 
+bool likely_is(const struct assembler *as, uint32_t en)
+{
+	for (int i = 0; i < 4; i++)
+		if (as->likely[i] == en)
+			return true;
+	return en == CODE_TRUE_AT(as->areas);
+}
+
+void likely_note(struct assembler *as, uint32_t en, uint32_t made)
+{
+	const bool likely = likely_is(as, en);
+
+	for (int i = 0; i < 4; i++)
+		if (as->likely[i] == made)
+			as->likely[i] = CODE_TRUE_AT(as->areas);
+	if (likely)
+		as->likely[as->likely_count++ % 4] = made;
+}
+
 uint32_t scratch_new(struct assembler *as)
 {
 	uint32_t *slot;

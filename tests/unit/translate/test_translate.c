@@ -570,11 +570,27 @@ static void print_config(const struct project *project, const struct sink *sink)
 	free(whole);
 }
 
+/* The data types, from the text of the whole project. */
+static void print_types(struct project *project, const struct sink *sink)
+{
+	size_t len;
+	char *whole = text_write(project, &len);
+
+	for (const char *from = strstr(whole, "\nTYPE\n"); from; from = strstr(from, "\nTYPE\n")) {
+		const char *end = strstr(from, "\nEND_TYPE\n") + strlen("\nEND_TYPE\n");
+
+		sink_write(sink, from, (size_t)(end - from));
+		from = end - 1;
+	}
+	free(whole);
+}
+
 static bool print_all(struct ladder *ladder, const struct sink *sink)
 {
 	struct project *project = ladder_project(ladder);
 
 	sink_text(sink, "RUNGBOARD 1\n");
+	print_types(project, sink);
 	text_write_vars(project, &project->globals, sink);
 	print_config(project, sink);
 	for (int i = 0; i < project->pou_count; i++) {
