@@ -435,7 +435,7 @@ for my $path (@documents) {
 }
 
 # ---- lists ----
-my @samples = map { basename($_, '.rung') } glob 'ladders/*.rung';
+my @samples = map { basename($_, '.rung') } glob('ladders/*.rung'), map { dirname($_) } glob('ladders/*/main.st');
 list_is('README.md: the samples', [$text{'README.md'} =~ /^\| \[([\w-]+)\]\(ladders\//mg], [grep { !/\.plant$/ } @samples]);
 my @plants = map { s/\.plant$//r } grep { /\.plant$/ } @samples;
 list_is('README.md: the samples with a plant', [$text{'README.md'} =~ /\(ladders\/([\w-]+)\.plant\.rung\)/g], \@plants);

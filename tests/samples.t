@@ -195,6 +195,7 @@ for my $program (@programs) {
 		or diag(join "\n", @{ $missed{chart} }) if $of{chart};
 	cmp_ok(scalar @{ $missed{st} // [] }, '<=', $of{st} * $missed_most, "$name: its scenarios notice changed statements")
 		or diag(join "\n", @{ $missed{st} }) if $of{st};
+	note("$name: of $of{st} changed statements not noticed:\n", join "\n", @{ $missed{st} // [] }) if $of{st};
 	my $of = 0;
 	$of += $_ for values %of;
 	$made += $of;

@@ -476,11 +476,32 @@ static char *project_in(const char *folder, const char *name)
 	return path;
 }
 
+/* The folder or file of plain IEC text with the name of @path, if no rung file has it. */
+static char *plain_of(const char *path)
+{
+	static const char *const endings[] = { ".rung", "", ".st", ".iec", ".il" };
+	char *stem = g_strndup(path, strlen(path) - strlen(strrchr(path, '.')));
+	char *found = NULL;
+
+	for (guint i = 0; i < G_N_ELEMENTS(endings) && !found; i++) {
+		found = g_strconcat(stem, endings[i], NULL);
+		if (!g_file_test(found, *endings[i] ? G_FILE_TEST_IS_REGULAR : G_FILE_TEST_IS_DIR))
+			g_clear_pointer(&found, g_free);
+	}
+	if (found && g_str_has_suffix(found, ".rung"))
+		g_clear_pointer(&found, g_free);
+	g_free(stem);
+	return found;
+}
+
 char *side_file_project(const char *path)
 {
 	char *folder = g_path_get_dirname(path), *name = g_path_get_basename(path);
 	char *last = g_path_get_basename(folder), *above = g_path_get_dirname(folder);
-	char *project = project_in(folder, name);
+	char *project = plain_of(path);
+
+	if (!project)
+		project = project_in(folder, name);
 
 	if (!project && strcmp(last, "boards") == 0)
 		project = project_in(above, name);

@@ -91,7 +91,7 @@ bool side_file_is(const char *path);
 /**
  * side_file_project - the project that the scenario or I/O map @path belongs to
  *
- * The program of its folder that has the longest part of its name, else the only one there
+ * A folder or file of plain IEC text with its name, if there is no rung file with it. Else the program of its folder that has the longest part of its name, else the only one there
  * that is no plant; for a folder `boards`, also of the folder above. Caller: g_free(). NULL:
  * it belongs to no project.
  */

@@ -182,7 +182,7 @@ static LadderWindow *open_beside(AdwApplication *application, LadderWindow *wind
 	LadderWindow *shown = project ? window_of(application, project) : NULL;
 
 	if (project && !shown)
-		shown = open_in(application, window, project, error);
+		shown = open_plain(application, window, project, error);
 	else if (!project)
 		shown = window && (ladder_window_is_untouched(window) ||
 				   is_listed(window, path)) ? window :
@@ -220,7 +220,8 @@ static void open_sample(AdwApplication *application, LadderWindow *window, const
 {
 	LadderDocument *document;
 	gsize len;
-	char *text = disk_read(path, LIMIT_TEXT, &len, error);
+	char *text = g_file_test(path, G_FILE_TEST_IS_DIR) ? plain_file_import(path, &len) :
+		     disk_read(path, LIMIT_TEXT, &len, error);
 
 	if (!text)
 		return;

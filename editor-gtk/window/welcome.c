@@ -5,6 +5,7 @@
 #include "editor-gtk/window/welcome.h"
 
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
@@ -93,6 +94,7 @@ static void add_recent(GtkWidget *groups)
 
 /* ---- samples ---- */
 
+#define FIRST_FILE "main.st" /* of a sample that is a folder                      */
 #define CARD_WIDE 176 /* px of a card's picture                                 */
 #define CARD_HIGH 104
 #define CARD_SCALE 0.5f
@@ -111,6 +113,18 @@ struct _LadderSample {
 
 G_DEFINE_FINAL_TYPE(LadderSample, ladder_sample, GTK_TYPE_WIDGET)
 
+/* Reads a rung file, or a folder of plain IEC text. */
+static bool load_sample(struct ladder *ladder, const char *path)
+{
+	gsize len = 0;
+	char *text = g_file_test(path, G_FILE_TEST_IS_DIR) ? plain_file_import(path, &len) : NULL;
+	const bool good = text ? ladder_load_text(ladder, g_intern_string(path), text, len) :
+			  ladder_load(ladder, g_intern_string(path));
+
+	g_free(text);
+	return good;
+}
+
 static gboolean draw_sample(gpointer data)
 {
 	LadderSample *sample = data;
@@ -118,7 +132,7 @@ static gboolean draw_sample(gpointer data)
 	struct ladder *ladder = ladder_new();
 
 	sample->idle = 0;
-	if (ladder && ladder_load(ladder, g_intern_string(sample->path)) &&
+	if (ladder && load_sample(ladder, sample->path) &&
 	    ladder_project(ladder) && ladder_project(ladder)->pou_count > 0) {
 		sample->lettering = lettering_new(gtk_widget_get_pango_context(
 			GTK_WIDGET(sample)), NULL);
@@ -203,9 +217,14 @@ static struct about about_of(const char *path)
 {
 	static const char head[] = "\nPROJECT \"", comment[] = "\n(*";
 	struct about about = { NULL, NULL };
+	const bool folder = g_file_test(path, G_FILE_TEST_IS_DIR);
+	char *file = folder ? g_build_filename(path, FIRST_FILE, NULL) : g_strdup(path);
 	gsize len;
-	char *text = disk_read(path, LIMIT_TEXT, &len, NULL), *at;
+	char *read = disk_read(file, LIMIT_TEXT, &len, NULL);
+	char *text = read ? g_strconcat("\n", read, NULL) : NULL, *at;
 
+	g_free(read);
+	g_free(file);
 	if (!text)
 		return about;
 	at = strstr(text, head);
@@ -283,10 +302,14 @@ static int by_name(gconstpointer a, gconstpointer b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Plants are opened with their programs. */
-static bool is_sample(const char *name)
+/* A rung file, or a folder of plain IEC text. Plants are opened with their programs. */
+static bool is_sample(const char *path)
 {
-	return g_str_has_suffix(name, ".rung") && !g_str_has_suffix(name, ".plant.rung");
+	char *first = g_build_filename(path, FIRST_FILE, NULL);
+	const bool folder = g_file_test(first, G_FILE_TEST_IS_REGULAR);
+
+	g_free(first);
+	return folder || (g_str_has_suffix(path, ".rung") && !g_str_has_suffix(path, ".plant.rung"));
 }
 
 static void add_samples(GtkWidget *groups)
@@ -297,9 +320,14 @@ static void add_samples(GtkWidget *groups)
 	GtkWidget *cards = dir ? cards_new() : NULL;
 	const char *name;
 
-	while (dir && (name = g_dir_read_name(dir)))
-		if (is_sample(name))
-			g_ptr_array_add(names, g_build_filename(folder, name, NULL));
+	while (dir && (name = g_dir_read_name(dir))) {
+		char *path = g_build_filename(folder, name, NULL);
+
+		if (is_sample(path))
+			g_ptr_array_add(names, path);
+		else
+			g_free(path);
+	}
 	g_ptr_array_sort(names, by_name);
 	for (guint i = 0; i < names->len; i++)
 		gtk_flow_box_append(GTK_FLOW_BOX(cards), card_new(names->pdata[i]));

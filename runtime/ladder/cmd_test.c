@@ -105,11 +105,11 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	return good;
 }
 
-/* NAME.rung, or if there is none a file of plain IEC text or a project of ClassicLadder of that name;
- * NULL: no memory. */
+/* NAME.rung, or if there is none a folder or file of plain IEC text or a project of ClassicLadder of that
+ * name; NULL: no memory. */
 static char *program_of(const char *path)
 {
-	static const char *const ending[] = { ".st", ".iec", ".il", ".exp", ".EXP", ".TcPOU",
+	static const char *const ending[] = { "", ".st", ".iec", ".il", ".exp", ".EXP", ".TcPOU",
 					      ".clprj", ".clp", ".clprjz" };
 	char *program = path_with_ending(path, ".rung");
 	struct stat about;
@@ -117,7 +117,7 @@ static char *program_of(const char *path)
 	for (size_t i = 0; program && i < sizeof(ending) / sizeof(*ending); i++) {
 		char *other = stat(program, &about) ? path_with_ending(path, ending[i]) : NULL;
 
-		if (other && stat(other, &about) == 0) {
+		if (other && stat(other, &about) == 0 && (*ending[i] || S_ISDIR(about.st_mode))) {
 			free(program);
 			return other;
 		}
@@ -148,16 +148,30 @@ static void run_file(struct tap *tap, const char *path)
 	free(program);
 }
 
-enum status cmd_test(struct call *call)
+/* The scenario files of an argument: itself, those in a folder, and NAME.scn beside the folder NAME of a
+ * project or beside its one file. */
+static bool collect(struct paths *paths, const char *arg)
 {
 	static const char *const programs[] = { ".rung", ".st", ".iec", ".il", ".exp", ".EXP",
 						".TcPOU", ".clprj", ".clp", ".clprjz", NULL };
+	char *beside = path_is_folder(arg) ? path_with_ending(arg, ".scn") : NULL;
+	struct stat about;
+	const bool there = beside && stat(beside, &about) == 0;
+	const bool good = (!there || paths_collect(paths, beside, ".scn", programs)) &&
+			  paths_collect(paths, arg, ".scn", programs);
+
+	free(beside);
+	return good;
+}
+
+enum status cmd_test(struct call *call)
+{
 	struct tap tap = { .call = call };
 	struct paths paths = { 0 };
 	enum status status = STATUS_GOOD;
 
 	for (int i = 0; i < call->arg_count; i++)
-		if (!paths_collect(&paths, call->arg[i], ".scn", programs))
+		if (!collect(&paths, call->arg[i]))
 			status = STATUS_WRONG;
 	if (status == STATUS_GOOD && !paths.count)
 		status = report_usage(call, "there are no scenario files");

@@ -131,12 +131,16 @@ static void check_argument(struct operand_check *c, struct callee *callee, const
 		check_part(c, expr, whole ? OPERAND_WHOLE : OPERAND_READ);
 }
 
-/* Is the statement the call of a function, whose result is not used? */
+/* Is the statement the call of a function, whose result is not used? An instance may have the name of one. */
 static bool is_function(struct operand_check *c, const struct expr_node *callee)
 {
-	const enum word word = expr_function(&c->project->words, callee);
+	const struct meaning *m;
+	enum diag_id why;
 
-	return word != WORD_COUNT;
+	if (expr_function(&c->project->words, callee) == WORD_COUNT)
+		return false;
+	m = scope_find(c->scope, c->pou, names_intern(&c->project->names, callee->text, callee->len), &why);
+	return !m || m->kind != MEANING_INSTANCE;
 }
 
 /* A function as a statement: as an expression. */

@@ -55,6 +55,19 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 	return true;
 }
 
+/* A project with one POU, and the types of @project. */
+static struct project project_of(const struct project *project, struct pou *pou, struct part *part)
+{
+	return (struct project){
+		.names = project->names, .words = project->words,
+		.structure = project->structure, .structure_count = project->structure_count,
+		.named = project->named, .named_count = project->named_count,
+		.enumeration = project->enumeration, .enumeration_count = project->enumeration_count,
+		.enum_value = project->enum_value, .enum_value_count = project->enum_value_count,
+		.pou = pou, .pou_count = 1, .part = part, .part_count = 1,
+	};
+}
+
 bool pou_print_il(const struct project *project, const struct pou *pou,
 		   const struct var_table *vars, struct var *const *temps,
 		   int temp_count, const struct il *il, const struct sink *sink)
@@ -62,12 +75,7 @@ bool pou_print_il(const struct project *project, const struct pou *pou,
 	struct pou only = { .name = pou->name, .kind = pou->kind,
 			    .language = LANGUAGE_IL, .il = *il };
 	struct part part = { .kind = PART_POU };
-	struct project one = { .names = project->names, .words = project->words,
-			       .named = project->named, .named_count = project->named_count,
-			       .enumeration = project->enumeration,
-			       .enumeration_count = project->enumeration_count,
-			       .pou = &only, .pou_count = 1,
-			       .part = &part, .part_count = 1 };
+	struct project one = project_of(project, &only, &part);
 	char *text = NULL;
 	size_t len;
 
@@ -87,12 +95,7 @@ char *pou_print(const struct project *project, const struct pou *pou)
 {
 	struct pou only = *pou;
 	struct part part = { .kind = PART_POU };
-	struct project one = { .names = project->names, .words = project->words,
-			       .named = project->named, .named_count = project->named_count,
-			       .enumeration = project->enumeration,
-			       .enumeration_count = project->enumeration_count,
-			       .pou = &only, .pou_count = 1,
-			       .part = &part, .part_count = 1 };
+	struct project one = project_of(project, &only, &part);
 	size_t len;
 	char *text, *begin;
 

@@ -65,7 +65,7 @@ static bool wants_blank(const struct st_style *style, const struct lex *lex)
 	if (is_one_of(token, "["))
 		return false;
 	if (is_one_of(token, "("))
-		return !style->operand || is_one_of(last, ")]");
+		return !style->operand || is_one_of(last, ")");
 	return true;
 }
 

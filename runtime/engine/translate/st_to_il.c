@@ -881,10 +881,20 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 		here(s, call->skip);
 }
 
+/* An instance may have the name of a function. */
+static bool is_function(struct st_il *s, const struct expr_node *callee)
+{
+	const struct meaning *m;
+
+	if (expr_function(&s->translation->project->words, callee) == WORD_COUNT)
+		return false;
+	m = ld_meaning(&s->ld, st_intern(s, callee->text, callee->len));
+	return !m || m->kind != MEANING_INSTANCE;
+}
+
 static void call_statement(struct st_il *s, struct st_walk *walk)
 {
 	struct st_part part;
-	const struct expr_node *root;
 	enum iec_type type = IEC_NONE;
 	uint32_t good;
 
@@ -893,8 +903,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 		s->ld.failed = true;
 		return;
 	}
-	root = &s->ld.expr->node[s->ld.expr->root];
-	if (expr_function(&s->translation->project->words, root) == WORD_COUNT) {
+	if (!is_function(s, &s->ld.expr->node[s->ld.expr->root])) {
 		call_instance(s, walk, ld_target(&s->ld));
 		return;
 	}

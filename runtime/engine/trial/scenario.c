@@ -34,8 +34,11 @@ static void print_time(const struct sink *out, int64_t ns)
 
 static void scan(struct run *run)
 {
-	if (run->plant)
+	if (run->plant) {
+		run->plant->resource.period_ns = run->scenario->period_ns;
 		plant_scan(run->plant, &run->resource->image, run->now_ns);
+	}
+	run->resource->period_ns = run->scenario->period_ns;
 	pace_scan(run->resource, run->now_ns, run->scenario->period_ns);
 }
 

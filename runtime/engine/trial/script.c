@@ -192,8 +192,10 @@ static bool scan(struct script *script)
 {
 	struct plant *plant = script->plant;
 
-	if (plant)
+	if (plant) {
+		plant->resource.period_ns = script->resource->period_ns;
 		plant_scan(plant, &script->resource->image, script->now_ns);
+	}
 	return pace_scan(script->resource, script->now_ns, script->resource->period_ns) &&
 	       (!plant || plant->resource.state != STATE_FAULT);
 }

@@ -310,9 +310,11 @@ bool twin_scan(struct twin *twin)
 	twin->now_ns += twin->period_ns;
 	twin->scan++;
 	resource->period_ns = twin->period_ns;
-	if (has_plant(twin))
+	if (has_plant(twin)) {
+		twin->plant.period_ns = twin->period_ns;
 		plant_turn(&twin->plant, twin->plant_drives, &resource->image,
 			   twin->now_ns);
+	}
 	pace_scan(resource, twin->now_ns, twin->period_ns);
 	return is_running(twin);
 }

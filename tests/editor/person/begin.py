@@ -52,6 +52,7 @@ def cards(screen):
     assert sorted(node.name for node in editor.all('.rung', 'label')) == names
     editor.find('Goods lift. A goods lift for three floors')
     editor.find('Packing bottles into boxes, S7-200 style: all memory by its address. Counts bottles into boxes')
+    editor.find('weigh-sorter. Parcels are weighed on a moving belt and pushed into three boxes')
     picture = editor.find('44B0X board', 'picture')
     x, y, width, height = editor.place(picture)
 
@@ -84,6 +85,22 @@ def in_sight(editor, name):
         sh('xdotool', 'mousemove', '800', '400', 'click', '5')
         return None
     return until(look, '%s in sight' % name)
+
+
+def folder(screen):
+    """a sample that is a folder of .st files opens as one project, with its scenarios"""
+    path = os.path.join(screen.home, 'mine.rung')
+    editor = Editor(screen)
+    editor.click(in_sight(editor, 'shift-report'))
+    editor.find('not saved yet')
+    editor.keys('ctrl+F5')
+    editor.find('shift-report.scn', 'label')
+    editor.find(' passed', 'label')
+    editor.shot('begin-folder')
+    editor.give_path(path, 'ctrl+s')
+    editor.find('Saved, together with the files of the sample: mine.scn', 'label')
+    sh(LADDER, 'test', path, check=True)
+    editor.finish()
 
 
 def belongings(screen):
@@ -352,4 +369,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, cards, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])
+main([sample, cards, folder, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])

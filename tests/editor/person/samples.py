@@ -13,13 +13,17 @@ def samples(screen):
     folder = os.path.join(ROOT, 'ladders')
     paths = [os.path.join(where, name) for where in (folder, os.path.join(folder, 'boards'))
              for name in sorted(os.listdir(where)) if name != 'boards']
+    folders = [path for path in paths if os.path.isdir(path)]
+    assert folders, paths
+    # The scenarios of a folder of plain IEC text open that folder.
+    paths = [path for path in paths if path not in folders]
     texts = [os.path.basename(path) for path in paths if not path.endswith('.rung')]
     maps = [path for path in paths if path.endswith('.io')]
     # A scenario opens in the window of its program.
     programs = [path for path in paths if path.endswith('.rung')]
     assert len(paths) == len(programs) + len(texts) and len(programs) > 20 and len(texts) > 20, paths
     editor = Editor(screen, *paths)
-    until(lambda: len(editor.windows()) == len(programs) + len(maps), 'the windows')
+    until(lambda: len(editor.windows()) == len(programs) + len(maps) + len(folders), 'the windows')
     names = {node.name for node in editor.all()}
     assert not set(texts) - names, set(texts) - names
     told = [name for name in names if 'Text of the file' in name or 'RUNGBOARD' in name]

@@ -108,9 +108,15 @@ def same(wanted, text, why):
     assert text == wanted, '\n'.join([why, *difflib.unified_diff(wanted.splitlines(), text.splitlines(), lineterm='')])
 
 
+def draws(folder, name):
+    """Is its first program drawn?"""
+    with open(os.path.join(folder, name)) as text:
+        return not re.search(r'^PROGRAM .*', text.read(), re.MULTILINE).group().endswith(' ST')
+
+
 def storm(screen, number):
     folder = os.path.join(ROOT, 'ladders')
-    names = sorted(name for name in os.listdir(folder) if name.endswith('.rung') and 'plant' not in name)
+    names = sorted(name for name in os.listdir(folder) if name.endswith('.rung') and 'plant' not in name and draws(folder, name))
     name = names[number % len(names)]
     with open(os.path.join(folder, name)) as text:
         first = text.read()

@@ -30,6 +30,8 @@ static void check_svg(void)
 	CHECK(render(SHAPES " --show addresses -o OUT/c.svg --rung 1") == 0 &&
 	      !has("c.svg", "启动") && has("c.svg", "%IX0.0"));
 	CHECK(render("ladders/mixer.rung -o OUT/il.svg") == 0 && has("il.svg", "JMPCN"));
+	/* Types of the project are named in a program that is drawn. */
+	CHECK(render("ladders/roadworks.rung -o OUT/st.svg") == 0 && has("st.svg", "Phase"));
 }
 
 static void check_png(void)
