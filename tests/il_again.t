@@ -92,6 +92,21 @@ sub lists_of {
 	return $? ? "il: $said" : '';
 }
 
+# An image does not know the names of values: `Phase : (Empty, Go := 5)` of a text.
+sub values_of {
+	my ($text) = @_;
+	my %number;
+	while ($text =~ /^  \w+ : (?:\w+ )?\((\w[\w, :=]*)\)/mg) {
+		my $next = 0;
+		for (split /, /, $1) {
+			my ($name, $is) = split / := /;
+			$next = $is if defined $is;
+			$number{$name} = $next++;
+		}
+	}
+	return %number;
+}
+
 for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $name = basename($sample);
 	next if $name =~ /plant/;
@@ -103,6 +118,8 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $text = slurp($scenario);
 	my %flat = map { $_ => 1 } $list =~ /^  (\w+_\w+) /mg;
 	$text =~ s/\b(\w+)\.(\w+)\b/$flat{"$1_$2"} ? "$1_$2" : "$1.$2"/ge;
+	my %value = values_of(slurp($sample));
+	$text =~ s/^\s*scenario.*(*SKIP)(*FAIL)|'[^']*'(*SKIP)(*FAIL)|\b(?:\w+#)?(\w+)\b/$value{$1} \/\/ $&/gme if %value;
 	copy($_, "$dir/" . basename($_)) for glob "$tests/../ladders/*.plant.rung";
 	spew("$dir/image-" . basename($scenario), $text);
 	(my $plant = $name) =~ s/rung$/plant.rung/;
