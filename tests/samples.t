@@ -229,7 +229,7 @@ for my $plant (@plants) {
 	unlike($text, qr/ error LD\d/, "$name: and it is not the file") or diag($text);
 }
 cmp_ok(@plants, '>=', 3, 'samples with a plant');
-cmp_ok(@programs, '>=', 26, 'the samples were found');
+cmp_ok(@programs, '>=', 33, 'the samples were found');
 cmp_ok($noticed, '>=', $noticed_least * $made,
        "broken contacts are noticed: $noticed of $made");
 done_testing();
