@@ -373,8 +373,13 @@ static bool take_statement(struct st_reader *s, enum st_kind kind, const struct 
 	if (kind == ST_UNTIL) { /* END_REPEAT; */
 		struct lex ahead = *lex;
 
-		if (lex_next(&ahead) == TOKEN_SYMBOL && lex_is(&ahead, ";"))
+		if (lex_next(&ahead) == TOKEN_SYMBOL && lex_is(&ahead, ";")) {
+			struct lex closing = *lex;
+
+			closing.comments = true;
+			add_inner_comments(s, closing, ahead.token.text);
 			*lex = ahead;
+		}
 	}
 	go_behind(s, lex);
 	return true;
