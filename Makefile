@@ -436,7 +436,7 @@ pictures: $(BUILD)/ladder-editor ## draw docs/tutorial/*.svg again, from the run
 screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, and docs/editor.png, the windows of the tutorial and the pictures of charts
 	$(BUILD)/ladder-editor --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
 	$(BUILD)/ladder-editor --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
-	$(foreach p,editor tutorial/empty tutorial/sealed,BUILD=$(BUILD) tests/editor/screenshot.py docs/$p.png &&) :
+	$(foreach p,editor tutorial/empty tutorial/sealed tutorial/states,BUILD=$(BUILD) tests/editor/screenshot.py docs/$p.png &&) :
 .PHONY: pictures screenshots
 # The editor with the fake chips of the HAL tests, for the lines of a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2

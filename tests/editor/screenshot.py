@@ -5,6 +5,7 @@
 What is in a picture follows from its name: SCENES.
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -52,7 +53,24 @@ def sealed(screen):
     editor.element('Rung 1, COIL', ', on')
 
 
-SCENES = {'editor': (door, 1280, 800), 'empty': (empty, 1024, 640), 'sealed': (sealed, 1280, 640)}
+def states(screen):
+    """The machine of docs/flow-chart-to-st.md fills a bag."""
+    path = os.path.join(screen.home, 'bags.rung')
+    with open(os.path.join(desk.ROOT, 'docs', 'flow-chart-to-st.md'), encoding='utf-8') as page:
+        program = re.search(r'^```rung bags.rung\n(.*?)^```', page.read(), re.DOTALL | re.MULTILINE).group(1)
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(program)
+    editor = desk.Editor(screen, path)
+    desk.until(lambda: editor.all('no problems', 'label'), 'the check')
+    editor.keys('ctrl+r')
+    for name in 'Bag', 'Start':
+        editor.click(editor.find('Input %s, ' % name, 'check box'))
+    desk.sh('sleep', '1.5')
+    editor.keys('ctrl+r')
+    editor.says('PAUSE')
+
+
+SCENES = {'editor': (door, 1280, 800), 'empty': (empty, 1024, 640), 'sealed': (sealed, 1280, 640), 'states': (states, 1280, 900)}
 
 
 def main(out):
