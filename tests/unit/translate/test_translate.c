@@ -637,6 +637,15 @@ static bool does_the_same(struct ladder *a, struct ladder *b)
 	return same;
 }
 
+/* Its list may be translated to other instructions than the text. */
+static bool has_st(const struct project *project)
+{
+	for (int i = 0; i < project->pou_count; i++)
+		if (project->pou[i].st)
+			return true;
+	return false;
+}
+
 static bool same_as_list(const char *path)
 {
 	struct ladder *from = ladder_new(), *back = ladder_new();
@@ -653,7 +662,7 @@ static bool same_as_list(const char *path)
 	    ladder_build(back)) {
 		code_identity(ladder_program(from), a);
 		code_identity(ladder_program(back), b);
-		own = ladder_project(from)->words.count > 0 &&
+		own = (ladder_project(from)->words.count > 0 || has_st(ladder_project(from))) &&
 		      does_the_same(from, back);
 	}
 	rig_say_why(back);
