@@ -213,6 +213,7 @@ static char *trace_of(const char *script)
 	sink_memory_init(&text);
 	sink = sink_to_memory(&text);
 	trace_init(&trace, &resource.image, &sink, TRACE_LINES, false);
+	trace.project = ladder_project(ladder_sim_ladder(sim));
 	script_run("clicks", script, strlen(script), ladder_sim_period(sim), &resource, NULL,
 		   &trace, &diags);
 	for (int i = 0; i < diags.count && diags.diag[i].id != DIAG_FAULT; i++)
