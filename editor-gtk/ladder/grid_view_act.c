@@ -196,11 +196,25 @@ static void asked_free(gpointer data)
 	g_free(data);
 }
 
+/* Caller frees. */
+static char *bad_value(enum iec_type of, enum diag_id fault, const char *text)
+{
+	const struct iec_type_row *type = iec_type_row(of);
+	char *said = diag_said_of(fault, text), *why;
+
+	if (type->low < type->high && type->class & (ANY_INT | CLASS_BITS) && !iec_is_wide(of))
+		why = g_strdup_printf(_("%s: %s, %lld to %lld"), said, type->word,
+				      (long long)type->low, (long long)type->high);
+	else
+		why = g_strdup_printf(_("%s: %s"), said, type->word);
+	g_free(said);
+	return why;
+}
+
 /* Why @line is no value; NULL: it is one. Caller frees. */
 static char *read_value(const struct asked *asked, const char *line, struct iec_text *room,
 			union iec_value *value)
 {
-	const struct iec_type_row *type = iec_type_row(asked->at.type);
 	const char *refused = why_not(asked->view, is_held(asked->view, asked->at));
 	enum diag_id fault = DIAG_BAD_LITERAL;
 	char *plain = g_strstrip(g_strdup(line)), *why = NULL;
@@ -210,16 +224,10 @@ static char *read_value(const struct asked *asked, const char *line, struct iec_
 	} else if (live_named_parse(names_of(asked->view, asked->name), plain, value)) {
 		why = NULL;
 	} else if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &fault)) {
-		char *said = diag_said_of(fault, plain);
-
-		if (type->low < type->high && type->class & (ANY_INT | CLASS_BITS) &&
-		    !iec_is_wide(asked->at.type))
-			why = g_strdup_printf(_("%s: %s, %lld to %lld"), said,
-					      type->word, (long long)type->low,
-					      (long long)type->high);
-		else
-			why = g_strdup_printf(_("%s: %s"), said, type->word);
-		g_free(said);
+		why = fault == DIAG_BAD_LITERAL ? live_named_wrong(names_of(asked->view, asked->name)) :
+						  NULL;
+		if (!why)
+			why = bad_value(asked->at.type, fault, plain);
 	} else if (!value_has_room(image_of(asked->view), asked->at, *value)) {
 		why = g_strdup(_("the text is too long"));
 	}

@@ -291,9 +291,11 @@ static struct live_named names_here(const LadderSimRowView *view)
 
 static void mark_bad(LadderSimRowView *view, bool bad)
 {
-	const char *type = live_named_type(names_here(view), place_of(view).type);
-	char *why = bad ? g_strdup_printf(_("Not a value of type %s"), type) : NULL;
+	char *why = bad ? live_named_wrong(names_here(view)) : NULL;
 
+	if (bad && !why)
+		why = g_strdup_printf(_("Not a value of type %s"),
+				      iec_type_row(place_of(view).type)->word);
 	mark(view, why);
 	g_free(why);
 }

@@ -92,6 +92,9 @@ bool watch_row_parse(const LadderWatchRow *row, const struct image *image,
 			  DIAG_LITERAL_RANGE;
 	if (fault == DIAG_COUNT)
 		return true;
+	*why = fault == DIAG_BAD_LITERAL ? live_named_wrong(row->named) : NULL;
+	if (*why)
+		return false;
 	*why = diag_said_of(fault, fault == DIAG_UNKNOWN_NAME || fault == DIAG_WRITE_CONSTANT ?
 				   row->line->name : row->typed);
 	return false;

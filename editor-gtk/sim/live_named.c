@@ -4,12 +4,15 @@
  */
 #include "editor-gtk/sim/live_named.h"
 
+#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include "engine/base/name.h"
 #include "engine/model/named.h"
 
 #include <string.h>
+
+#define TOLD 6 /* values in a message */
 
 static struct project *project_of(LadderSim *sim, bool plant)
 {
@@ -120,4 +123,24 @@ bool live_named_parse(struct live_named named, const char *text, union iec_value
 	}
 	g_free(plain);
 	return found;
+}
+
+char *live_named_wrong(struct live_named named)
+{
+	const struct project *project;
+	int count;
+	const struct enum_value *own = values_of(named, &project, &count);
+	GString *values = g_string_new(NULL);
+	char *what, *text = NULL;
+
+	for (int i = 0; i < count && i <= TOLD; i++)
+		g_string_append_printf(values, "%s%s", i ? ", " : "",
+				       i == TOLD ? "…" : project_text(project, own[i].name));
+	if (own) {
+		what = g_strdup_printf(_("Not a value of type %s"), live_named_type(named, IEC_INT));
+		text = g_strdup_printf(_("%s: %s"), what, values->str);
+		g_free(what);
+	}
+	g_string_free(values, TRUE);
+	return text;
 }

@@ -38,5 +38,8 @@ void live_named_print(struct live_named named, enum iec_type type, union iec_val
 char *live_named_literal(struct live_named named, enum iec_type type, union iec_value value);
 /** live_named_parse - the value called @text: `Filling`, `Phase#Filling`. False: there is none. */
 bool live_named_parse(struct live_named named, const char *text, union iec_value *out);
+/** live_named_wrong - why a text is no value of the enumeration, with the values that there are; NULL:
+ * it has none. Caller frees. */
+char *live_named_wrong(struct live_named named);
 
 #endif

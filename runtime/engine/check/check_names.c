@@ -331,6 +331,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	const struct var *var = &table->var[index];
 	const char *name = text_of(c, var->name);
 	const struct mark *mark = mark_of(c, var->fold);
+	const struct diag place = place_of(c, DIAG_COUNT, pou, var->line);
 	struct iec_addr addr;
 
 	if (twice >= 0)
@@ -347,16 +348,16 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
 	if (has_address(c, var))
-		check_address(c, var, place_of(c, DIAG_COUNT, pou, var->line));
+		check_address(c, var, place);
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
 	if (var->points)
 		check_points(c, pou, var);
-	check_range(c, var, place_of(c, DIAG_COUNT, pou, var->line));
+	check_range(c, var, place);
 	if (init_has_parts(var))
 		c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,
-				      place_of(c, DIAG_COUNT, pou, var->line));
+				      place);
 }
 
 static void print_type(const struct project *project, const struct var *var, char *out, size_t size)

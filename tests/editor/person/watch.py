@@ -148,7 +148,7 @@ def named(screen):
     editor.into('Now, New value')
     editor.type('Warm')
     editor.keys('Return')
-    editor.find('"Warm" is not a valid constant')
+    editor.find('Not a value of type Phase: Idle, Hot, Cold')
     editor.keys('ctrl+a', 'BackSpace')
     editor.click(editor.middle(editor.element('Rung 1, [ ]', 'Hot = Hot')), count=2)
     until(lambda: [node for node in editor.asked() if node.text() == 'Hot'], 'the entry with the name')
