@@ -309,7 +309,7 @@ static bool has_address(const struct names_check *c, const struct var *var)
 {
 	const char *text = text_of(c, var->at_text);
 
-	return var->at.area != AREA_NONE && *text && text[strlen(text) - 1] != '*';
+	return var->at.area != AREA_NONE && !(*text && text[strlen(text) - 1] == '*');
 }
 
 /* VAR_CONFIG */
