@@ -6,7 +6,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import A11Y, Chinese, Editor, main, new_file, sh, until  # noqa: E402
+from desk import A11Y, Chinese, Editor, main, new_file, until  # noqa: E402
 
 PLANT = '''RUNGBOARD 1
 
@@ -186,7 +186,6 @@ def looks(screen):
     for kind, env in (Editor, {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'}), (Chinese, {}):
         path = new_file(screen, PLANT)
         editor = kind(screen, path, **env)
-        sh('xdotool', 'windowsize', '--sync', editor.window, '1024', '600')
         editor.click(editor.find('Main, ST'), count=2)
         text_of(editor, 'PROGRAM Main')
         editor.keys('ctrl+m', 'ctrl+Home', *['Down'] * 8, 'F9')
@@ -197,5 +196,6 @@ def looks(screen):
         editor.finish()
 
 
+looks.size = '1024x600x24'
 stepped.quick = 'editor-gtk/text'
 main([stepped, by_pointer, conditional, edited, looks])
