@@ -697,6 +697,7 @@ struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
 
 static void drop_source(LadderSim *sim)
 {
+	g_clear_handle_id(&sim->soon, g_source_remove);
 	if (sim->source)
 		sim->source->free(sim->source);
 	sim->source = NULL;
@@ -1257,7 +1258,6 @@ static void ladder_sim_dispose(GObject *object)
 {
 	LadderSim *sim = LADDER_SIM(object);
 
-	g_clear_handle_id(&sim->soon, g_source_remove);
 	drop_source(sim);
 	forget_replay(sim);
 	g_clear_pointer(&sim->plant, sim_program_unref);

@@ -631,7 +631,7 @@ static bool said_number(struct st_reader *s, const struct lex *first, const stru
 	char right[40];
 	struct token at = lex->token;
 
-	if ((*sign != ',' && *sign != '.') || to >= lex->end || !is_digit(*to))
+	if (to >= lex->end || (*sign != ',' && *sign != '.') || !is_digit(*to))
 		return false;
 	while (from > first->token.text && is_digit(from[-1]))
 		from--;

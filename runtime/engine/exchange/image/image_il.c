@@ -1918,10 +1918,23 @@ static void put_addresses(struct maker *m)
 
 /* ---- VAR_ACCESS ---- */
 
+/* As the list calls the program that the image calls @pou; NULL: it has none. */
+static const char *name_of_program(const struct maker *m, const char *pou)
+{
+	for (uint32_t i = 0; i < m->program->entry_count; i++) {
+		const char *text = entry_text(m, i);
+
+		if (text && m->entry_name[i] && name_equal(text, pou))
+			return m->entry_name[i];
+	}
+	return NULL;
+}
+
 /* The path of what operators may read and write; false: it has none. */
 static bool print_path(struct maker *m, const struct declared_name *access, char *text)
 {
 	const struct location at = access->at;
+	const char *pou = NULL;
 	struct object *o;
 	char *name = room(m);
 	bool good;
@@ -1945,14 +1958,16 @@ static bool print_path(struct maker *m, const struct declared_name *access, char
 	m->within = o->pou;
 	good = operand(m, at.type, at.where, name);
 	m->within = NULL;
-	if (!good)
+	if (o->pou)
+		pou = name_of_program(m, o->pou);
+	if (!good || (o->pou && !pou))
 		return false;
 	if (access->array.count && (o->array.count != access->array.count ||
 				    o->array.low != access->array.low))
 		return false;
 	if (access->array.count)
 		name[strcspn(name, "[")] = '\0';
-	snprintf(text, ROOM, "%s%s%.1000s", o->pou ? o->pou : "", o->pou ? "." : "", name);
+	snprintf(text, ROOM, "%s%s%.1000s", pou ? pou : "", pou ? "." : "", name);
 	return true;
 }
 
