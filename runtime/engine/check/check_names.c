@@ -239,8 +239,21 @@ static void note_text(struct names_check *c, const struct pou *pou, uint32_t id)
 	}
 }
 
+/* Numbers of an enumeration: (Red := Base, Green := Base + 1). */
+static void note_values(struct names_check *c, const struct pou *pou, const struct var *var)
+{
+	const struct project *project = c->project;
+	const struct enumeration *list = &project->enumeration[var->enumeration - 1];
+
+	for (int i = list->first; i < list->first + list->count; i++)
+		if (project->enum_value[i].written && project->enum_value[i].text)
+			note_text(c, pou, project->enum_value[i].text);
+}
+
 static void note_declaration(struct names_check *c, const struct pou *pou, const struct var *var)
 {
+	if (var->enumeration && !var->named)
+		note_values(c, pou, var);
 	if (!var->written)
 		return;
 	note_text(c, pou, var->written->bound[0]);

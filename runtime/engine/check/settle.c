@@ -2,8 +2,8 @@
  *
  * settle - the constant expressions of declarations, from their texts to numbers.
  *
- * First all bounds, lengths and plain values, each after the constants that it names, without
- * recursion; then lists and structures, which no expression names.
+ * First the numbers of enumerations, then all bounds, lengths and plain values, each after the
+ * constants that it names, without recursion; then lists and structures, which no expression names.
  */
 #include "engine/check/settle.h"
 
@@ -55,6 +55,8 @@ static struct settle *settle_new(struct project *project, struct arena *scratch,
 	s->fn = (struct fn_check){ .scope = s->scope, .diags = diags };
 	return s->scope ? s : NULL;
 }
+
+#define VALUES (-1) /* the table of the values of all enumerations */
 
 static struct var_table *table_of(struct project *project, int table)
 {
@@ -109,18 +111,51 @@ static bool is_constant(const struct meaning *m)
 	return m->kind == MEANING_VARIABLE && m->constant && m->var->has_init;
 }
 
+/* A value of the enumeration that is wanted, which another one may have, too; NULL: none. */
+static const struct enum_value *wanted_value(const struct settle *s, const struct expr_node *node)
+{
+	struct names *names = &s->project->names;
+
+	return s->values ? named_value(s->project, s->values - 1, names_fold(names,
+			   names_intern(names, node->text, node->len))) : NULL;
+}
+
+/* The value of an enumeration that a node names, unless a variable has the name; NULL: none. */
+static const struct enum_value *value_named(struct settle *s, const struct expr_node *node,
+					    const struct meaning *m)
+{
+	const struct enum_value *value = wanted_value(s, node);
+	size_t head;
+	int at;
+
+	if (value || (m && m->kind != MEANING_LITERAL))
+		return value;
+	at = scope_value(s->scope, node->text, node->len, &head);
+	return at < 0 ? NULL : &s->project->enum_value[at];
+}
+
+static bool is_open(const struct var_written *written)
+{
+	return written && written->state <= STATE_WORKING;
+}
+
 /* The first constant in the expression that is not computed yet; NULL: none. */
 static struct var_written *find_open(struct settle *s)
 {
 	for (int i = 0; i < s->expr.count; i++) {
+		const struct expr_node *node = &s->expr.node[i];
+		const struct enum_value *value;
 		const struct meaning *m;
 		enum diag_id why;
 
-		if (s->expr.node[i].op != EXPR_NAME)
+		if (node->op != EXPR_NAME && !(node->op == EXPR_LITERAL &&
+					       literal_is_named(node->text, node->len)))
 			continue;
-		m = mean(s, &s->expr.node[i], &why);
-		if (m && is_constant(m) && m->var->written &&
-		    m->var->written->state <= STATE_WORKING)
+		m = mean(s, node, &why);
+		value = value_named(s, node, m);
+		if (value && is_open(value->written))
+			return value->written;
+		if (m && is_constant(m) && is_open(m->var->written))
 			return m->var->written;
 	}
 	return NULL;
@@ -145,19 +180,11 @@ static struct il_result take_parsed(const struct literal *literal)
 	return out;
 }
 
-/* A value of the enumeration that is wanted, which another one may have, too; NULL: none. */
-static const struct enum_value *wanted_value(const struct settle *s, const struct expr_node *node)
+/* The scope may know the number of before it was computed. */
+static struct il_result take_value(struct settle *s, const struct enum_value *value,
+				   struct literal *literal)
 {
-	struct names *names = &s->project->names;
-
-	return s->values ? named_value(s->project, s->values - 1, names_fold(names,
-			   names_intern(names, node->text, node->len))) : NULL;
-}
-
-static struct il_result take_wanted(struct settle *s, const struct enum_value *value,
-				    struct literal *literal)
-{
-	*literal = (struct literal){ .type = s->project->enumeration[s->values - 1].type,
+	*literal = (struct literal){ .type = s->project->enumeration[value->enumeration].type,
 				     .value.i = value->number };
 	return take_parsed(literal);
 }
@@ -168,12 +195,12 @@ static struct il_result take_name(struct settle *s, int i)
 	struct literal *literal = &s->literal[i];
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = mean(s, node, &why);
-	const struct enum_value *value = wanted_value(s, node);
+	const struct enum_value *value = value_named(s, node, m);
 	struct il_result out = unknown();
 	char text[2 * LIMIT_ARG], name[LIMIT_ARG];
 
 	if (value)
-		return take_wanted(s, value, literal);
+		return take_value(s, value, literal);
 	if (!m) {
 		snprintf(name, sizeof(name), "%.*s", node->len, node->text);
 		/* What another tool calls so is no constant. */
@@ -620,6 +647,19 @@ static struct var *var_of(struct settle *s, const struct var_written *written)
 	return &table_of(s->project, written->table)->var[written->index];
 }
 
+/* The value of an enumeration that @written is of; NULL: of a variable. */
+static struct enum_value *value_of(struct settle *s, const struct var_written *written)
+{
+	return written->table == VALUES ? &s->project->enum_value[written->index] : NULL;
+}
+
+static const char *name_of(struct settle *s, const struct var_written *written)
+{
+	const struct enum_value *value = value_of(s, written);
+
+	return project_text(s->project, value ? value->name : var_of(s, written)->name);
+}
+
 #define CIRCLE_MOST 8 /* names of a circle that a message shows */
 
 /* "A -> B -> A": @again is needed again. */
@@ -633,13 +673,13 @@ static void report_circle(struct settle *s, const struct var_written *again)
 	for (const struct var_written *at = s->top; at && at != again; at = at->below)
 		chain[count++ % CIRCLE_MOST] = at;
 	used = (size_t)snprintf(text, sizeof(text), "%.40s",
-				project_text(s->project, var_of(s, again)->name));
+				name_of(s, again));
 	for (int i = count - 1; i >= 0 && i > count - 1 - CIRCLE_MOST && used < LIMIT_ARG; i--)
 		used += (size_t)snprintf(text + used, sizeof(text) - used, " -> %.40s",
-			project_text(s->project, var_of(s, chain[i % CIRCLE_MOST])->name));
+			name_of(s, chain[i % CIRCLE_MOST]));
 	if (used < LIMIT_ARG)
 		snprintf(text + used, sizeof(text) - used, " -> %.40s",
-			 project_text(s->project, var_of(s, again)->name));
+			 name_of(s, again));
 	il_report(&s->fn, &s->line, DIAG_CONSTANT_CIRCLE, text);
 }
 
@@ -785,12 +825,56 @@ static enum outcome settle_plain(struct settle *s, struct var_written *w, struct
 	return GOOD;
 }
 
+/* The table in which the list of an enumeration stands; 0: none of a POU. */
+static int table_with(const struct project *project, int enumeration)
+{
+	for (int i = 0; !project->enumeration[enumeration].name && i < project->pou_count; i++)
+		for (int k = 0; k < project->pou[i].vars.count; k++)
+			if (project->pou[i].vars.var[k].enumeration == enumeration + 1)
+				return i + 1;
+	return 0;
+}
+
+/* The number of a value of an enumeration. */
+static enum outcome settle_number(struct settle *s, struct var_written *w, struct enum_value *value)
+{
+	const enum iec_type type = s->project->enumeration[value->enumeration].type;
+	struct init_value number = { .type = type };
+	enum outcome outcome;
+
+	enter(s, table_with(s->project, value->enumeration), w->file);
+	s->values = value->enumeration + 1;
+	if (value->text) {
+		outcome = open_text(s, w, WRITTEN_INITIAL, value->text);
+		if (outcome != GOOD)
+			return outcome;
+		if (!compute_value(s, &number))
+			return FAILED;
+		value->number = number.value.i;
+	} else if (is_open(value[-1].written)) {
+		return need(s, value[-1].written) ? WAITS : FAILED;
+	} else if (value[-1].written && value[-1].written->state == STATE_FAILED) {
+		return FAILED;
+	} else {
+		value->number = value[-1].number + 1;
+	}
+	if (value->number >= iec_type_row(type)->low && value->number <= iec_type_row(type)->high)
+		return GOOD;
+	s->line.line = (uint32_t)w->at[WRITTEN_INITIAL].line;
+	s->line.col = (uint16_t)w->at[WRITTEN_INITIAL].column;
+	il_report(&s->fn, &s->line, DIAG_LITERAL_RANGE, project_text(s->project, value->name));
+	return FAILED;
+}
+
 static enum outcome settle_one(struct settle *s, struct var_written *w)
 {
-	struct var *var = var_of(s, w);
+	struct var *var = value_of(s, w) ? NULL : var_of(s, w);
 	enum outcome outcome = GOOD;
 
-	if (w->type && w->type->state <= STATE_WORKING)
+	if (!var)
+		return settle_number(s, w, value_of(s, w));
+
+	if (is_open(w->type))
 		return need(s, w->type) ? WAITS : FAILED;
 	if (w->type && w->type->state == STATE_FAILED)
 		return FAILED;
@@ -832,11 +916,11 @@ static void settle_with(struct settle *s, struct var_written *w)
 	need(s, w);
 	while (s->top) {
 		struct var_written *top = s->top;
-		struct var *var = var_of(s, top);
-		struct var_written *before = top->again && top->index ? var[-1].written : NULL;
+		struct var *var = top->again ? var_of(s, top) : NULL;
+		struct var_written *before = var && top->index ? var[-1].written : NULL;
 		enum outcome outcome = GOOD;
 
-		if (before && before->state <= STATE_WORKING)
+		if (is_open(before))
 			outcome = need(s, before) ? WAITS : FAILED;
 		else if (!before)
 			outcome = settle_one(s, top);
@@ -1010,6 +1094,33 @@ static bool inherit_one(struct settle *s, struct var *var, int table, int index)
 	return !var->named || !var->inherits || named_take(s->project, var);
 }
 
+/* Has an enumeration numbers that are expressions? */
+static bool has_numbers(const struct project *project)
+{
+	for (int i = 0; i < project->enum_value_count; i++)
+		if (project->enum_value[i].written)
+			return true;
+	return false;
+}
+
+/* The numbers of enumerations; variables that begin with one of them get it again. */
+static bool settle_numbers(struct settle *s)
+{
+	struct project *project = s->project;
+	const int errors = s->fn.diags->errors;
+
+	for (int i = 0; i < project->enum_value_count; i++)
+		if (project->enum_value[i].written) {
+			project->enum_value[i].written->state = STATE_OPEN;
+			project->enum_value[i].written->table = VALUES;
+			project->enum_value[i].written->index = i;
+		}
+	for (int i = 0; i < project->enum_value_count; i++)
+		if (project->enum_value[i].written)
+			settle_with(s, project->enum_value[i].written);
+	return s->fn.diags->errors == errors && project_resolve(project, s->fn.diags);
+}
+
 static bool has_any(struct project *project)
 {
 	const int tables = last_table(project);
@@ -1021,7 +1132,7 @@ static bool has_any(struct project *project)
 			if (table->var[k].written)
 				return true;
 	}
-	return false;
+	return has_numbers(project);
 }
 
 static bool no_memory(struct project *project, struct diag_list *diags)
@@ -1040,6 +1151,8 @@ bool settle_project(struct project *project, struct arena *scratch, struct diag_
 	if (!s)
 		return no_memory(project, diags);
 	each(s, name_one);
+	if (has_numbers(project) && !settle_numbers(s))
+		return false;
 	each(s, number_one);
 	if (diags->errors == errors && s->shapes && !shape_make(project, diags))
 		return false;
@@ -1063,6 +1176,8 @@ bool settle_var(struct project *project, int table, int index, struct arena *scr
 	if (!s)
 		return no_memory(project, diags);
 	each(s, name_one);
+	if (has_numbers(project) && !settle_numbers(s))
+		return false;
 	each(s, number_one);
 	if (diags->errors == errors)
 		list_one(s, var, table, index);

@@ -101,6 +101,7 @@ struct enum_value {
 	uint32_t text;          /* string id: the number as written; 0: one more than before */
 	int64_t number;
 	int enumeration;        /* index in the project                        */
+	struct var_written *written; /* it needs an expression: check/settle.c; NULL: a number */
 };
 
 /* ( Red, Green := 5, Blue ) */

@@ -34,23 +34,41 @@ struct named_type *reader_add_named(struct reader *r, uint32_t name)
 	return type;
 }
 
-/* `:= 5` behind a value; @number is the next one without it. */
+/* Marks @value as one that check/settle.c computes; the place is the token. */
+static bool write_down(struct reader *r, struct enum_value *value)
+{
+	value->written = arena_alloc(&r->project->arena, sizeof(*value->written));
+	if (!value->written)
+		return r->no_memory = true, false;
+	value->written->file = r->place.file;
+	value->written->at[WRITTEN_INITIAL].line = r->lex.token.line;
+	value->written->at[WRITTEN_INITIAL].column = r->lex.token.column;
+	return true;
+}
+
+/* `:= 5` or `:= Red + 1` behind a value; @number is the next one without it. */
 static bool read_number(struct reader *r, enum iec_type type, struct enum_value *value)
 {
-	union iec_value number;
+	union iec_value number = { .i = 0 };
 
 	if (!lex_is(&r->lex, ":="))
 		return true;
 	reader_step(r);
 	buffer_clear(&r->text);
-	if (!read_constant(r, type, &number))
+	value->written = NULL;
+	if (reader_begins_expression(r, type)) {
+		if (!write_down(r, value) || !reader_expression_text(r))
+			return false;
+	} else if (!read_constant(r, type, &number)) {
 		return false;
+	}
 	value->text = buffer_take(r, &r->text);
 	value->number = number.i;
 	return true;
 }
 
-static bool read_value(struct reader *r, enum iec_type type, int64_t *next)
+/* @open: the one before it is an expression. */
+static bool read_value(struct reader *r, enum iec_type type, int64_t *next, bool *open)
 {
 	struct project *project = r->project;
 	struct enum_value value = { .number = *next, .enumeration = project->enumeration_count - 1 };
@@ -61,9 +79,12 @@ static bool read_value(struct reader *r, enum iec_type type, int64_t *next)
 	value.fold = names_fold(&project->names, value.name);
 	if (named_value(project, value.enumeration, value.fold))
 		return reader_fail_token(r, DIAG_DUPLICATE_NAME);
+	if (*open && !write_down(r, &value))
+		return false;
 	reader_step(r);
 	if (!read_number(r, type, &value))
 		return false;
+	*open = value.written != NULL;
 	if (value.number < iec_type_row(type)->low || value.number > iec_type_row(type)->high)
 		return reader_fail_word(r, DIAG_LITERAL_RANGE, names_text(&project->names, value.name));
 	out = arena_push(&project->arena, &project->enum_value, &project->enum_value_count,
@@ -76,11 +97,30 @@ static bool read_value(struct reader *r, enum iec_type type, int64_t *next)
 	return true;
 }
 
+/* The integer type behind the list at the cursor, as TwinCAT writes it: (Red, Green) UINT. */
+static enum iec_type type_behind(const struct reader *r)
+{
+	struct lex lex = r->lex;
+	enum iec_type type = IEC_NONE;
+	int open = 0;
+
+	lex.newlines = lex.comments = false;
+	do {
+		open += lex_is(&lex, "(");
+		open -= lex_is(&lex, ")");
+	} while (lex_next(&lex) != TOKEN_END && open > 0);
+	if (lex.token.kind == TOKEN_NAME)
+		type = iec_type_find(lex.token.text, lex.token.len);
+	return iec_type_row(type)->class & (ANY_INT | CLASS_BITS) ? type : IEC_NONE;
+}
+
 /* `(Red, Green := 5)`; the cursor stands on the (. @name: of the type; 0: of a variable. */
 static bool read_enumeration(struct reader *r, struct var *var, uint32_t name)
 {
 	struct project *project = r->project;
+	const enum iec_type behind = var->type == IEC_NONE ? type_behind(r) : IEC_NONE;
 	struct enumeration *list;
+	bool open = false;
 	int64_t next = 0;
 
 	if (project->enumeration_count == LIMIT_OWN_WORDS)
@@ -92,17 +132,23 @@ static bool read_enumeration(struct reader *r, struct var *var, uint32_t name)
 	*list = (struct enumeration){ .first = project->enum_value_count, .name = name,
 				      .based = var->type != IEC_NONE };
 	var->enumeration = (uint16_t)project->enumeration_count;
-	if (var->type == IEC_NONE)
+	if (behind != IEC_NONE) {
+		var->type = behind;
+		list->based = true;
+	} else if (var->type == IEC_NONE) {
 		var->type = IEC_INT;
+	}
 	list->type = var->type;
 	do {
 		reader_step(r);
-		if (!read_value(r, var->type, &next))
+		if (!read_value(r, var->type, &next, &open))
 			return false;
 	} while (reader_is(r, ','));
 	if (!reader_is(r, ')'))
 		return reader_fail_word(r, DIAG_EXPECTED, ")");
 	reader_step(r);
+	if (behind != IEC_NONE)
+		reader_step(r);
 	return true;
 }
 
@@ -170,10 +216,6 @@ static bool is_enumeration(const struct reader *r)
 
 bool reader_own_type(struct reader *r, struct var *var, uint32_t name)
 {
-	const struct token *token = &r->lex.token;
-	struct enumeration *list;
-	enum iec_type base;
-
 	if (!reader_is(r, '('))
 		return true;
 	if (var->type != IEC_NONE && !(iec_type_row(var->type)->class & ANY_INT) &&
@@ -181,16 +223,7 @@ bool reader_own_type(struct reader *r, struct var *var, uint32_t name)
 		return true;
 	if (var->type != IEC_NONE && !is_enumeration(r))
 		return read_range(r, var);
-	if (!read_enumeration(r, var, name))
-		return false;
-	base = token->kind == TOKEN_NAME ? iec_type_find(token->text, token->len) : IEC_NONE;
-	list = &r->project->enumeration[var->enumeration - 1];
-	if (list->based || !(iec_type_row(base)->class & ANY_INT))
-		return true;
-	var->type = list->type = base; /* as TwinCAT writes it: (Red, Green) UINT */
-	list->based = true;
-	reader_step(r);
-	return true;
+	return read_enumeration(r, var, name);
 }
 
 /* ---- TYPE ---- */

@@ -151,13 +151,11 @@ static void add_tokens(struct reader *r, const char *end)
 	}
 }
 
-bool reader_expression(struct reader *r, struct var *var, enum written_place where)
+bool reader_expression_text(struct reader *r)
 {
 	struct diag place = r->place;
 	struct lex lex = r->lex;
 
-	if (!reader_written(r, var, where))
-		return false;
 	lex.newlines = lex.comments = false;
 	place.id = DIAG_BAD_EXPRESSION;
 	place.line = lex.token.line;
@@ -167,6 +165,11 @@ bool reader_expression(struct reader *r, struct var *var, enum written_place whe
 		return false;
 	add_tokens(r, lex.token.text);
 	return !r->no_memory;
+}
+
+bool reader_expression(struct reader *r, struct var *var, enum written_place where)
+{
+	return reader_written(r, var, where) && reader_expression_text(r);
 }
 
 /* STRING[20]; without a number the usual capacity. */

@@ -183,6 +183,8 @@ bool reader_begins_expression(const struct reader *r, enum iec_type type);
  * @var: of the declaration; @where: the place of the expression in it, for diagnostics
  */
 bool reader_expression(struct reader *r, struct var *var, enum written_place where);
+/** reader_expression_text - the same without a record of it. */
+bool reader_expression_text(struct reader *r);
 /** read_constant - appends a constant of @type to r->text and steps behind it. */
 bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
 /** read_array - `ARRAY[low..high] OF`, if it stands here. Clears r->text. */

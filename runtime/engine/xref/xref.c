@@ -520,9 +520,14 @@ static void walk_values(struct xref_walk *walk, const struct var_table *table, i
 	    (index && !var[-1].named && var[-1].enumeration == var->enumeration))
 		return;
 	list = &project->enumeration[var->enumeration - 1];
-	for (int i = list->first; i < list->first + list->count; i++)
+	for (int i = list->first; i < list->first + list->count; i++) {
 		xref_whole(walk, &project->enum_value[i].name,
 			   (struct xref_target){ .what = XREF_VALUE, .index = i }, XREF_DECLARED);
+		walk->values = var->enumeration;
+		if (project->enum_value[i].written && project->enum_value[i].text)
+			xref_all(walk, &project->enum_value[i].text, XREF_READ);
+		walk->values = 0;
+	}
 }
 
 /* ---- declarations ---- */
