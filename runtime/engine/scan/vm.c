@@ -259,6 +259,9 @@ static bool poke(struct vm *vm, const uint32_t *at)
 #define INLINE inline __attribute__((always_inline))
 #endif
 
+/* The marks of the most frequent one. */
+#define SHAPE(n) ((n) & (CODE_SHORT | CODE_LONG | CODE_WIDE))
+
 /* Is it such an element, at *@where? False: there is none, or it is another kind. No element has
  * a number above 2^24, so a difference that wraps is none. */
 static INLINE bool find_short(const uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *where)
@@ -276,35 +279,32 @@ static INLINE bool find_short(const uint8_t *m, const uint32_t *at, uint32_t n, 
 	return LIKELY(m[at[EN]]) && LIKELY(element < at[ELEMENT + COUNT]);
 }
 
-static INLINE void copy_short(uint8_t *to, const uint8_t *from, uint32_t n)
+static INLINE void copy_short(uint8_t *m, uint32_t to, uint32_t from, uint32_t n)
 {
 	if (n & CODE_LONG)
-		memcpy(to, from, 4);
+		memcpy(m + to, m + from, 4);
 	else
-		memcpy(to, from, 2);
+		memcpy(m + to, m + from, 2);
 }
 
-/* AGET and APUT of it; false: it is another one, or there is none. */
-static INLINE bool get_short(uint8_t *m, const uint32_t *at, uint32_t n)
+/* AGET or APUT of it; false: it is another one, or there is none. */
+static INLINE bool run_shape(uint8_t *m, const uint32_t *at, uint32_t n, bool put)
 {
+	const uint32_t value = CODE_OFFSET(at[VALUE]);
 	uint32_t where;
 
 	if (!find_short(m, at, n, &where))
 		return false;
-	copy_short(m + CODE_OFFSET(at[VALUE]), m + where, n);
+	copy_short(m, put ? where : value, put ? value : where, n);
 	m[at[OK]] = 1;
 	return true;
 }
 
-static INLINE bool put_short(uint8_t *m, const uint32_t *at, uint32_t n)
+/* INT is the most frequent one, as value and as index. */
+static INLINE bool run_short(uint8_t *m, const uint32_t *at, uint32_t n, bool put)
 {
-	uint32_t where;
-
-	if (!find_short(m, at, n, &where))
-		return false;
-	copy_short(m + where, m + CODE_OFFSET(at[VALUE]), n);
-	m[at[OK]] = 1;
-	return true;
+	return LIKELY(SHAPE(n) == CODE_SHORT) ? run_shape(m, at, CODE_SHORT, put) :
+						run_shape(m, at, n, put);
 }
 
 static inline void clear_value(uint8_t *m, const uint32_t *at)
@@ -633,20 +633,38 @@ static INLINE uint32_t run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, siz
 	uint32_t some = compute_whole(MATH_OF(n), a, whole(m + pc[4], size), low, &out);
 	uint32_t good = some & fits(out, size), en;
 
-	if (runs_straight(m, pc, n)) {
-		m[pc[1]] = (uint8_t)good;
-		if (LIKELY(some))
-			memcpy(m + pc[2], &out, size); /* its low bytes: little-endian */
-		else if (n & MATH_LEFT)
-			memcpy(m + pc[2], &a, size);
-		return good ^ 1u;
-	}
 	en = m[pc[0]];
 	old = whole(m + pc[n & MATH_LEFT ? 3 : 2], size);
 	bits = old ^ ((old ^ (int32_t)out) & -(int32_t)(en & some));
 	memcpy(m + pc[2], &bits, size);
 	m[pc[1]] = (uint8_t)(en & good);
 	return en & (good ^ 1u);
+}
+
+/* The usual way: it is enabled and its result fits. False: nothing was done. */
+static INLINE bool run_quick(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
+{
+	const int64_t a = whole(m + pc[3], size), b = whole(m + pc[4], size);
+	int64_t out;
+
+	if (!runs_straight(m, pc, n))
+		return false;
+	if (LIKELY(MATH_OF(n) == MATH_ADD)) {
+		out = a + b;
+	} else if (LIKELY(MATH_OF(n) == MATH_MUL)) {
+		out = a * b;
+	} else if (LIKELY(MATH_OF(n) == MATH_SUB)) {
+		out = a - b;
+	} else {
+		if (b == 0 || b == -1)
+			return false;
+		out = MATH_OF(n) == MATH_DIV ? (int32_t)a / (int32_t)b : (int32_t)a % (int32_t)b;
+	}
+	if (!LIKELY(fits(out, size)))
+		return false;
+	m[pc[1]] = 1;
+	memcpy(m + pc[2], &out, size); /* its low bytes: little-endian */
+	return true;
 }
 
 /* How two values compare: bit 0: a >= b, bit 1: a <= b; neither: not a number. */
@@ -926,7 +944,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 					goto jump;
 				break;
 			}
-			if (!LIKELY(!run_whole(m, pc + 1, n, 2)))
+			if (!run_quick(m, pc + 1, n, 2) && run_whole(m, pc + 1, n, 2))
 				count_error(vm, pc, base);
 			pc += 6;
 			n = *pc >> 8;
@@ -946,7 +964,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 					goto jump;
 				break;
 			}
-			if (!LIKELY(!run_whole(m, pc + 1, n, 4)))
+			if (!run_quick(m, pc + 1, n, 4) && run_whole(m, pc + 1, n, 4))
 				count_error(vm, pc, base);
 			pc += 6;
 			n = *pc >> 8;
@@ -1011,6 +1029,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			/* fall through */
 		case VM_JMP:
 		jump:
+			if (HAS_OFTEN && base + pc[1] > pc) {
+				pc = base + pc[1];
+				break;
+			}
 			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
@@ -1025,7 +1047,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc = choose(m, pc, base);
 			break;
 		case VM_AGET:
-			if (LIKELY(get_short(m, pc + 1, n))) {
+			if (LIKELY(run_short(m, pc + 1, n, false))) {
 				pc += 9;
 				break;
 			}
@@ -1041,7 +1063,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 9 + 4 * (n >> 1);
 			break;
 		case VM_APUT:
-			if (LIKELY(put_short(m, pc + 1, n))) {
+			if (LIKELY(run_short(m, pc + 1, n, true))) {
 				pc += 9;
 				break;
 			}

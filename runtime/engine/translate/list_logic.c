@@ -339,12 +339,25 @@ void list_tick(struct list *list)
 	emit(list->as, offset_of(list, line[3].operand));
 }
 
+/* Where a jump to @at really leads: not to another jump further down. While listing, the simulation can
+ * stand at that one. */
+static uint32_t leads_to(const struct assembler *as, uint32_t at)
+{
+	const uint32_t *code = as->text->word;
+
+	while (!(as->listing && as->text == &as->watch) && at < (uint32_t)as->text->count &&
+	       code[at] == VM_JMP && code[at + 1] > at)
+		at = code[at + 1];
+	return at;
+}
+
+/* From behind, so that what a jump leads to is known. */
 void list_patch(struct list *list, uint32_t end)
 {
-	for (int i = 0; i < list->fixup_count; i++) {
-		uint32_t at = list->fixup[i].fold ?
+	for (int i = list->fixup_count; i-- > 0;) {
+		const uint32_t at = list->fixup[i].fold ?
 			list->label[list->fixup[i].fold] - 1 : end;
 
-		list->as->text->word[list->fixup[i].word] = at;
+		list->as->text->word[list->fixup[i].word] = leads_to(list->as, at);
 	}
 }

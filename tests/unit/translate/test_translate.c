@@ -196,6 +196,43 @@ static void stores_numbers_at_once(void)
 	}
 }
 
+static int jumps_to_jumps(const struct program *program)
+{
+	int count = 0;
+
+	for (const uint32_t *code = program->text, *end = code + program->text_words; code < end;
+	     code += code_words(code)) {
+		uint32_t targets;
+		const uint32_t *target = code_targets(code, &targets);
+
+		for (uint32_t i = 0; i < targets; i++)
+			count += (program->text[target[i]] & 0xff) == VM_JMP;
+	}
+	return count;
+}
+
+/* A jump to a jump further down leads to where that one leads; a jump back stays one. */
+static void jumps_once(void)
+{
+	static const struct { const char *lines; int chained; int64_t n; } row[] = {
+		{ "LD A\nJMPC One\nLD 1\nST N\nOne:\nJMP Two\nLD 2\nST N\nTwo:\n", 0, 1 },
+		{ "LD A\nJMPCN One\nLD 1\nST N\nOne:\nJMP Two\nLD 2\nST N\nTwo:\nJMP Three\n"
+		  "LD 3\nST N\nThree:\nLD N\nADD 1\nST N\n", 0, 8 },
+		{ "Back:\nLD N\nADD 1\nST N\nLT 20\nJMPC Low\nRET\nLow:\nJMP Back\n", 1, 20 },
+	};
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
+		struct rig rig;
+
+		CHECK_AS(list(&rig, row[i].lines), row[i].lines);
+		rig_set(&rig, "N", 7);
+		rig_scan(&rig);
+		CHECK_AS(jumps_to_jumps(rig.resource.image.program) == row[i].chained, row[i].lines);
+		CHECK_AS(rig_get(&rig, "N") == row[i].n, row[i].lines);
+		rig_close(&rig);
+	}
+}
+
 /* One parenthesis in another for each column, as deep as a rung allows: contacts beside each
  * other in each column, and in each column one that leads there from the rail. */
 static void nests_as_deep_as_columns(void)
@@ -714,6 +751,7 @@ int main(void)
 	shares_power();
 	stores_eno_at_once();
 	stores_numbers_at_once();
+	jumps_once();
 	nests_as_deep_as_columns();
 	writes_flow_and_boxes();
 	keeps_old_values();
