@@ -63,7 +63,7 @@ static const char globals[] =
 	"  ap : ARRAY[1..3] OF Percent;\n"
 	"  pt1 : Point;\n  pt2 : Point;\n  pts : ARRAY[1..3] OF Point;\n"
 	"  wait : TON;\n  late : TOF;\n  pulse : TP;\n  down : CTD;\n  latch : SR;\n  clear : RS;\n  fall : F_TRIG;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
-	"  mix1 : Mix;\n  mix2 : Mix;\n"
+	"  mix1 : Mix;\n  mix2 : Mix;\n  mixes : ARRAY[0..1, 1..2] OF Mix;\n"
 	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
 	"  g1 : INT;\n  g2 : INT;\n  g3 : INT;\n  g4 : INT;\n"
 	"END_VAR\n\n";
@@ -196,6 +196,10 @@ static bool element(struct maker *m, enum type type, int depth)
 		say(m, "ab[");
 		index_of(m, 2, 4, depth);
 		say(m, "]");
+	} else if (type == T_TIME && m->room >= ROOM_ROUTINE) {
+		say(m, "waits[");
+		index_of(m, 1, 2, depth);
+		say(m, "].PT");
 	} else {
 		return false;
 	}
@@ -696,7 +700,11 @@ static void call_of(struct maker *m)
 		say(m, ", Q => b2);\n");
 		break;
 	case 3:
-		say(m, "waits[%d](IN := nb, PT := T#3ms, Q => b3);\n", 1 + (int)below(m, 2));
+		say(m, "waits[");
+		index_of(m, 1, 2, 2);
+		say(m, "](IN := ");
+		expr(m, T_BOOL, 1);
+		say(m, ", PT := T#3ms, Q => %s);\n", chance(m, 50) ? "b3" : "ab[k1]");
 		break;
 	case 4:
 		if (m->room == ROOM_MAIN) {
@@ -706,7 +714,16 @@ static void call_of(struct maker *m)
 		say(m, "wait();\n");
 		break;
 	default:
-		say(m, "mix%d(%s", 1 + (int)below(m, 2), chance(m, 30) ? "EN := b2, " : "");
+		if (chance(m, 50)) {
+			say(m, "mix%d", 1 + (int)below(m, 2));
+		} else {
+			say(m, "mixes[");
+			index_of(m, 0, 1, 2);
+			say(m, chance(m, 50) ? ", " : "][");
+			index_of(m, 1, 2, 2);
+			say(m, "]");
+		}
+		say(m, "(%s", chance(m, 30) ? "EN := b2, " : "");
 		say(m, "Add := ");
 		expr(m, T_INT, 2);
 		say(m, ", Both := ");

@@ -201,11 +201,13 @@ static bool is_enable(const struct slot *callee, const struct tree *arg)
 static void call_instance(struct frame_of *f, const struct stmt *stmt)
 {
 	struct chain_state chain = { .on = true };
-	struct slot *callee = tree_slot(f, stmt->place, &chain);
+	struct slot *callee = tree_first(f, stmt->place);
+	struct value index[INDICES_MAX] = { { 0 } };
 	struct given given = { .count = 0 };
 	const struct tree *rest = stmt->args;
 
-	if (!callee)
+	target_begin(f, stmt->place, &chain, index);
+	if (!chain.on)
 		return;
 	if (rest && is_enable(callee, rest)) {
 		if (!is_true(f, rest))
@@ -215,6 +217,11 @@ static void call_instance(struct frame_of *f, const struct stmt *stmt)
 	read_arguments(f, rest, callee, &chain, &given);
 	if (!chain.on)
 		return;
+	callee = target_slot(f, stmt->place, index);
+	if (!callee) {
+		f->world->errors++;
+		return;
+	}
 	give_arguments(callee, &given);
 	if (callee->kind == SLOT_BLOCK) {
 		callee->block->called = true;

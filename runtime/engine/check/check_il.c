@@ -96,8 +96,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 	if (m)
 		return m;
 	/* The index may be a temporary that is never written. */
-	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDEX_PLAIN ||
-	     why == DIAG_INDICES_MANY) && c->fn.pou->language == LANGUAGE_LD) {
+	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDICES_MANY) && c->fn.pou->language == LANGUAGE_LD) {
 		const char *text = il_operand_text(c, line);
 
 		snprintf(array, sizeof(array), "%.*s", (int)strcspn(text, "["),

@@ -447,6 +447,8 @@ static void check_instance(struct operand_check *c, struct operand_spot at,
 		return;
 	if (m->kind != MEANING_INSTANCE || m->word != (enum word)cell->word)
 		refuse_instance(c, at, cell, m);
+	else if (meaning_is_indexed(m)) /* the cells of a box have one instance */
+		operand_refuse(c, DIAG_INDEX_PLAIN, at, cell->operand, m);
 	else if (uses_add(c->uses, m, USE_CALLED))
 		operand_report(c, DIAG_INSTANCE_TWICE, at, name);
 }
@@ -516,7 +518,7 @@ static void use_element(struct operand_check *c, struct operand_spot at, uint32_
 	if (!m)
 		return;
 	if (m->kind == MEANING_INSTANCE)
-		operand_refuse(c, DIAG_INDEX_PLAIN, at, id, m);
+		operand_refuse(c, DIAG_INSTANCE_AS_VALUE, at, id, m);
 	else if (m->kind == MEANING_ARRAY && !whole)
 		operand_refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
 	else if (write && m->constant)
@@ -886,6 +888,19 @@ bool check_said(struct operand_check *c, enum diag_id id, const char *arg)
 	return operand_report(c, id, (struct operand_spot){ 0, 0 }, arg);
 }
 
+/* The text of the first element of a place that the expression is; its indices are read. */
+static uint32_t use_path(struct operand_check *c, struct expr *expr)
+{
+	const struct operand_spot at = { 0, 0 };
+	struct expr_node *root = &expr->node[expr->root];
+
+	if (root->op != EXPR_INDEX)
+		return operand_intern(c, root->text, root->len);
+	root->written = true;
+	use_expression(c, at, expr);
+	return use_indices(c, at, expr, expr->root);
+}
+
 /* A variable or element that stands alone and is written. */
 static void use_place(struct operand_check *c, struct expr *expr, enum operand_use use)
 {
@@ -894,10 +909,14 @@ static void use_place(struct operand_check *c, struct expr *expr, enum operand_u
 	uint32_t id;
 
 	if (root->op == EXPR_INDEX) {
-		for (int i = 0; i < expr->count; i++)
-			if (expr->node[i].op == EXPR_NAME)
-				operand_read(c, at, operand_intern(c, expr->node[i].text, expr->node[i].len));
-		use_element(c, at, use_indices(c, at, expr, expr->root), true, true);
+		const struct meaning *m;
+
+		id = use_path(c, expr);
+		m = id && use == OPERAND_CHANGED ? operand_find(c, at, id) : NULL;
+		if (m && m->kind == MEANING_INSTANCE)
+			uses_add(c->uses, m, USE_READ | USE_WRITTEN);
+		else
+			use_element(c, at, id, true, true);
 		return;
 	}
 	if (root->op != EXPR_NAME) {
@@ -913,12 +932,13 @@ static void use_place(struct operand_check *c, struct expr *expr, enum operand_u
 		operand_write(c, at, id, false);
 }
 
-static void use_called(struct operand_check *c, const struct expr_node *node)
+static void use_called(struct operand_check *c, struct expr *expr)
 {
 	const struct operand_spot at = { 0, 0 };
-	const uint32_t id = operand_intern(c, node->text, node->len);
-	const struct meaning *m = operand_find(c, at, id);
+	const uint32_t id = use_path(c, expr);
+	const struct meaning *m = id ? operand_find(c, at, id) : NULL;
 
+	c->spot = expr->node[expr->root].text;
 	if (m && m->kind != MEANING_INSTANCE)
 		operand_refuse(c, DIAG_NOT_INSTANCE, at, id, m);
 	else if (m)
@@ -933,7 +953,7 @@ bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use
 	c->good = true;
 	c->spot = expr->node[0].text;
 	if (use == OPERAND_CALLED) {
-		use_called(c, root);
+		use_called(c, expr);
 	} else if (use == OPERAND_WRITTEN || use == OPERAND_CHANGED) {
 		use_place(c, expr, use);
 	} else {

@@ -53,8 +53,7 @@ static bool is_subroutine(const struct pou *pou)
 /* True: an instance or a subroutine, whose arguments follow. */
 static bool check_callee(struct operand_check *c, struct expr *expr, struct callee *callee)
 {
-	const struct expr_node *root = root_of(expr);
-	const uint32_t id = names_intern(&c->project->names, root->text, root->len);
+	const uint32_t id = scope_first_of(c->scope, c->pou, expr, root_of(expr));
 	const struct meaning *m;
 	enum diag_id why;
 
@@ -137,7 +136,7 @@ static bool is_function(struct operand_check *c, const struct expr_node *callee)
 	const struct meaning *m;
 	enum diag_id why;
 
-	if (expr_function(&c->project->words, callee) == WORD_COUNT)
+	if (callee->op != EXPR_NAME || expr_function(&c->project->words, callee) == WORD_COUNT)
 		return false;
 	m = scope_find(c->scope, c->pou, names_intern(&c->project->names, callee->text, callee->len), &why);
 	return !m || m->kind != MEANING_INSTANCE;
@@ -170,7 +169,7 @@ static bool said_call(struct operand_check *c, enum diag_id id, const struct st_
 static bool is_callable(struct operand_check *c, bool open, const struct st_part *part)
 {
 	const struct expr_node *root = root_of(c->expr);
-	const uint32_t id = names_intern(&c->project->names, part->text, root->len);
+	const uint32_t id = scope_first_of(c->scope, c->pou, c->expr, root);
 	const enum word word = words_find(&c->project->words, root->text, root->len);
 	const struct meaning *m;
 	enum diag_id why;

@@ -8,6 +8,7 @@
 #include "engine/check/scope.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/expr.h"
 #include "engine/model/named.h"
 #include "engine/model/shape.h"
 
@@ -838,19 +839,16 @@ static bool scope_keep_open(struct scope *scope, struct meaning *m,
 	return true;
 }
 
-/* An instance behind a computed index cannot be called: it has no fixed place. */
 static bool finish(struct path *path, struct meaning *out)
 {
 	struct meaning *m = &path->m;
 
-	if (m->through && m->kind == MEANING_STRUCT)
+	if (m->through && (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE))
 		return refuse(path, DIAG_THROUGH_WHOLE);
 	m->index_of = path->index_of;
 	if (m->through)
 		path->open[path->opens++] = (struct open_index){ .of = path->pointer };
 	if (path->opens) {
-		if (m->kind == MEANING_INSTANCE)
-			return refuse(path, DIAG_INDEX_PLAIN);
 		if (!meaning_is_whole(m))
 			m->kind = MEANING_ELEMENT;
 		if (!scope_keep_open(path->scope, m, path->open, path->opens))
@@ -1082,4 +1080,25 @@ uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 			(long)outer(m).low, (int)len, tail);
 	return size < 0 || (size_t)size >= sizeof(text) ? 0 :
 	       names_intern(names, text, (size_t)size);
+}
+
+uint32_t scope_first_of(struct scope *scope, const struct pou *pou, const struct expr *expr,
+			const struct expr_node *node)
+{
+	int16_t chain[LIMIT_INDICES];
+	int count = 0, at = (int)(node - expr->node);
+	uint32_t id = 0;
+
+	for (; node->op == EXPR_INDEX && at >= 0 && count < LIMIT_INDICES; at = expr->node[at].right)
+		chain[count++] = (int16_t)at;
+	if (!count)
+		return names_intern(&scope_project(scope)->names, node->text, node->len);
+	while (count-- > 0) {
+		const struct expr_node *part = &expr->node[chain[count]];
+
+		if (part->right < 0)
+			id = names_intern(&scope_project(scope)->names, part->text, part->len);
+		id = scope_first(scope, pou, id, part->tail.text, part->tail.len);
+	}
+	return id;
 }

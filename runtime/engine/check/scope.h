@@ -72,6 +72,8 @@ struct meaning {
 };
 
 struct scope;
+struct expr;
+struct expr_node;
 
 /** scope_new - the names of a project. Owns: @arena. NULL: no memory. */
 struct scope *scope_new(struct project *project, struct arena *arena);
@@ -82,7 +84,7 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  * @text: string id of the operand as written
  * @why:  when it has none: DIAG_UNKNOWN_NAME, DIAG_NO_PIN, DIAG_BAD_ADDRESS,
  *        DIAG_BAD_LITERAL, DIAG_LITERAL_RANGE, DIAG_NOT_ARRAY,
- *        DIAG_INDEX_TYPE, DIAG_INDEX_RANGE or DIAG_INDEX_PLAIN
+ *        DIAG_INDEX_TYPE or DIAG_INDEX_RANGE
  *
  * Remembered by POU and id: asking again is one look into a hash.
  * Owns: the arena of scope_new().   Scan-safe: no.
@@ -103,6 +105,10 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
  * it is no array, or too long. */
 uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 		     const char *tail, size_t len);
+/** scope_first_of - the same of a path with indices that are expressions, an EXPR_NAME or EXPR_INDEX with
+ * LIMIT_INDICES at most: that of its first element. Scan-safe: no. Fails: 0. */
+uint32_t scope_first_of(struct scope *scope, const struct pou *pou, const struct expr *expr,
+			const struct expr_node *node);
 /** meaning_is_indexed - behind an index that is computed in the scan, or a pointer? Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {

@@ -56,6 +56,7 @@ struct parser {
 	int called;        /* ( of functions not closed yet                  */
 	int pending_count;
 	int value_count;
+	bool alone;        /* one operand: what is behind it stays            */
 	struct expr_tail bit;     /* behind the path that was read last; len 0: none */
 	uint8_t pending[PENDING];
 	int16_t value[PENDING + 1];
@@ -603,14 +604,14 @@ static bool parse(struct parser *parser)
 			return false;
 		if (more)
 			continue;
-		which = binary_at(parser->lex);
+		which = parser->alone && !parser->opened ? -1 : binary_at(parser->lex);
 		if (which < 0)
 			break;
 		if (!reduce_to(parser, operators[which].strength) ||
 		    !push(parser, which))
 			return false;
 	}
-	if (parser->opened || lex_is(parser->lex, "("))
+	if (parser->opened || (!parser->alone && lex_is(parser->lex, "(")))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!reduce_to(parser, 1))
 		return false;
@@ -630,6 +631,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	parser->shift = 0;
 	parser->opened = parser->nested = parser->indexed = parser->called = 0;
 	parser->pending_count = parser->value_count = 0;
+	parser->alone = false;
 	out->count = 0;
 	out->root = -1;
 	out->target = NULL;
@@ -647,6 +649,16 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 	struct parser parser;
 
 	parser_init(&parser, lex, out, diags, &place);
+	return parse(&parser);
+}
+
+bool expr_parse_place(struct lex *lex, struct expr *out, struct diag_list *diags,
+		      struct diag place)
+{
+	struct parser parser;
+
+	parser_init(&parser, lex, out, diags, &place);
+	parser.alone = true;
 	return parse(&parser);
 }
 

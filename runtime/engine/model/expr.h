@@ -83,6 +83,10 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 /** expr_parse_cell - `expression` or `target := expression` at the lexer. */
 bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
 		     struct diag place);
+/** expr_parse_place - the path at the lexer, `Delay[i + 1]`: an EXPR_NAME or EXPR_INDEX, unless it names a
+ * bit. A parenthesis may follow. As expr_parse(). */
+bool expr_parse_place(struct lex *lex, struct expr *out, struct diag_list *diags,
+		      struct diag place);
 /**
  * expr_begins - whether an expression begins at the lexer, not a constant alone: a name, a sign
  * before a parenthesis, a constant with an operator behind it

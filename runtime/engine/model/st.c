@@ -184,32 +184,26 @@ static void take_pin(struct st_walk *walk, struct st_part *part)
 	walk->lex = ahead;
 }
 
-/* `Delay`, `Motor[3].Delay`: as one name. */
+/* `Delay`, `Motor[i + 1].Delay` */
 static bool take_callee(struct st_walk *walk, struct st_part *part, struct expr *expr,
 			struct diag_list *diags, struct diag place)
 {
-	struct lex *lex = &walk->lex;
-	const char *end = lex->token.text + lex->token.len;
+	struct lex *lex = &walk->lex, ahead = *lex;
+	const struct token name = lex->token;
 
-	part->text = lex->token.text;
-	if (lex->token.kind != TOKEN_NAME)
+	part->text = name.text;
+	if (name.kind != TOKEN_NAME)
 		return st_fail(walk, diags, place, DIAG_EXPECTED, "statement");
-	lex_next(lex);
-	while (lex_is(lex, "[")) {
-		while (!lex_is(lex, "]") && lex->token.kind != TOKEN_END)
-			lex_next(lex);
-		end = lex->token.text + lex->token.len;
-		lex_next(lex);
-		if (!lex_is(lex, ".") || lex_next(lex) != TOKEN_NAME)
-			break;
-		end = lex->token.text + lex->token.len;
-		lex_next(lex);
+	lex_next(&ahead);
+	if (lex_is(&ahead, "[") || lex_is(&ahead, "^")) {
+		walk->missing = !expr_parse_place(lex, expr, diags, place);
+		return !walk->missing;
 	}
-	if (end - part->text > 2 * LIMIT_NAME)
+	*lex = ahead;
+	if (name.len > 2 * LIMIT_NAME)
 		return st_fail(walk, diags, place, DIAG_NAME_TOO_LONG, "");
-	expr->node[0] = (struct expr_node){ .op = EXPR_NAME, .text = part->text,
-					    .len = (uint16_t)(end - part->text), .left = -1,
-					    .right = -1 };
+	expr->node[0] = (struct expr_node){ .op = EXPR_NAME, .text = name.text,
+					    .len = (uint16_t)name.len, .left = -1, .right = -1 };
 	expr->count = 1;
 	expr->root = 0;
 	expr->target = NULL;

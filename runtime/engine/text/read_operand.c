@@ -195,7 +195,7 @@ bool reader_instance(struct reader *r, uint32_t *id)
 		return true;
 	buffer_clear(&r->text);
 	buffer_add(r, &r->text, token->text, token->len);
-	if (!add_index(r))
+	if (!add_path(r))
 		return false;
 	*id = buffer_take(r, &r->text);
 	return true;

@@ -183,6 +183,19 @@ static bool in_block(struct st_reader *s, enum st_kind kind)
 
 /* ---- statements ---- */
 
+/* From a [ to the ] that closes it, or to the end of the statement. */
+static void to_bracket(struct lex *lex)
+{
+	int open = 0;
+
+	for (; !lex_is(lex, ";") && lex->token.kind != TOKEN_END; lex_next(lex)) {
+		open += lex_is(lex, "[");
+		open -= lex_is(lex, "]");
+		if (open == 0)
+			return;
+	}
+}
+
 /* Is `name[…].name (` or a name alone with ; here? */
 static bool is_call(struct lex lex)
 {
@@ -190,8 +203,7 @@ static bool is_call(struct lex lex)
 		return false;
 	lex_next(&lex);
 	while (lex_is(&lex, "[")) {
-		while (!lex_is(&lex, "]") && !lex_is(&lex, ";") && lex.token.kind != TOKEN_END)
-			lex_next(&lex);
+		to_bracket(&lex);
 		if (lex_next(&lex) == TOKEN_SYMBOL && lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
 			lex_next(&lex);
 	}

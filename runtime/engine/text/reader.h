@@ -154,7 +154,7 @@ uint32_t reader_intern(struct reader *r, const char *text, size_t len);
  * a comment that follows. */
 /** reader_name - a plain name. Fails: false and a diagnostic. */
 bool reader_name(struct reader *r, const char *wanted, uint32_t *id);
-/** reader_instance - the name of an instance, or of one of an array: `Motor[3]`; it
+/** reader_instance - the name of an instance, or of one of an array: `Motor[i, 3]`; it
  * leaves the cursor on its last token, and clears r->text. */
 bool reader_instance(struct reader *r, uint32_t *id);
 /** reader_string - the text inside a string, escapes resolved. */

@@ -499,8 +499,15 @@ void list_call(struct list *list)
 
 /* ---- function blocks ---- */
 
+/* @base: where the instance is called; 0: where it lies. */
+static uint32_t pin_at(struct list *list, const struct meaning *pin, const struct word_row *row,
+		       uint32_t base)
+{
+	return base ? base + row->pin[pin->pin].offset : layout_spot(list->as, pin).offset;
+}
+
 /* PIN := value, stored as LD value, ST Instance.PIN would. */
-static void feed_pin(struct list *list, const struct meaning *instance,
+static void feed_pin(struct list *list, const struct meaning *instance, uint32_t base,
 		     const struct il_line *arg, uint32_t fetched)
 {
 	const struct word_row *row = list_row(list, instance->word);
@@ -515,8 +522,8 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 	pin.pin = word_pin_find(row, name, strlen(name));
 	pin.type = row->pin[pin.pin].type;
 	pin.offset += row->pin[pin.pin].offset;
-	to = layout_spot(list->as, &pin).offset;
-	if (m->kind == MEANING_LITERAL && list->straight &&
+	to = pin_at(list, &pin, row, base);
+	if (m->kind == MEANING_LITERAL && list->straight && !base &&
 	    layout_only_stored(list->as, &pin)) {
 		if (list->as->text == &list->as->code && pin.type == IEC_STRING)
 			layout_init_text(list->as, to, WORD_TEXT, m->literal);
@@ -537,7 +544,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 }
 
 /* PIN => variable. */
-static void take_pin(struct list *list, const struct meaning *instance,
+static void take_pin(struct list *list, const struct meaning *instance, uint32_t base,
 		     const struct il_line *arg)
 {
 	const struct word_row *row = list_row(list, instance->word);
@@ -545,24 +552,24 @@ static void take_pin(struct list *list, const struct meaning *instance,
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
 	struct bits bits;
-	struct spot spot;
+	uint32_t from;
 
 	pin.kind = MEANING_PIN;
 	pin.pin = word_pin_find(row, name, strlen(name));
 	pin.type = row->pin[pin.pin].type;
 	pin.offset += row->pin[pin.pin].offset;
-	spot = layout_spot(list->as, &pin);
+	from = pin_at(list, &pin, row, base);
 	if (pin.type == IEC_BOOL) {
-		bits = bits_leaf(list->as, spot.offset);
+		bits = bits_leaf(list->as, from);
 		list_write_bits(list, m, &bits);
 		return;
 	}
 	if (meaning_is_checked(m))
 		list_deposit(list, m, TRUE_SLOT,
-			     CODE_OPERAND(pin.type, spot.offset));
+			     CODE_OPERAND(pin.type, from));
 	else
 		list_copy(list, list_number(list, m, m->type),
-			  CODE_OPERAND(pin.type, spot.offset));
+			  CODE_OPERAND(pin.type, from));
 }
 
 /* A jump over the call; returns the word of its target. Waiting values must be stored before:
@@ -656,6 +663,48 @@ void list_end_skip(struct list *list, int skip)
 	list->as->text->word[skip] = (uint32_t)list->as->text->count;
 }
 
+/* The parameters and the block itself. */
+static void call_at(struct list *list, const struct meaning *instance, uint32_t base,
+		    const uint32_t fetched[LIMIT_ARGS])
+{
+	for (int i = list->at + 1; is_arg(list, i); i++)
+		if (list->il->line[i].kind == IL_ARG_IN)
+			feed_pin(list, instance, base, &list->il->line[i],
+				 fetched[i - list->at - 1]);
+	list_place(list);
+	emit_op(list->as, VM_FB, (uint32_t)instance->word);
+	emit(list->as, base ? base : layout_spot(list->as, instance).offset);
+}
+
+static void take_outputs(struct list *list, const struct meaning *instance, uint32_t base)
+{
+	for (int i = list->at + 1, at = list->at; is_arg(list, i); i++)
+		if (list->il->line[i].kind == IL_ARG_OUT) {
+			list->at = i;
+			take_pin(list, instance, base, &list->il->line[i]);
+			list->at = at;
+		}
+}
+
+int list_skip_unborrowed(struct list *list, uint32_t ok)
+{
+	return jump_over(list, bits_not(bits_leaf(list->as, ok)));
+}
+
+/* An instance behind a computed index is called in a place of its own. */
+static void call_element(struct list *list, const struct meaning *instance,
+			 const uint32_t fetched[LIMIT_ARGS])
+{
+	const uint32_t base = layout_like(list->as, instance);
+	struct indices indices;
+	const int skip = list_skip_unborrowed(list, list_borrow(list, instance, base, &indices));
+
+	call_at(list, instance, base, fetched);
+	list_give_back(list, instance, base, &indices);
+	take_outputs(list, instance, base);
+	list_end_skip(list, skip);
+}
+
 /* A missing element at an input jumps over the call, too. */
 void list_cal(struct list *list)
 {
@@ -663,9 +712,8 @@ void list_cal(struct list *list)
 	const struct pou *routine = scope_pou(list->as->translation->scope, list->pou,
 					      line->operand);
 	const struct meaning *instance;
-	enum word fb;
-	uint32_t offset;
 	uint32_t fetched[LIMIT_ARGS];
+	bool element;
 	int unless = -1, missing;
 
 	if (routine) {
@@ -673,31 +721,27 @@ void list_cal(struct list *list)
 		return;
 	}
 	instance = list_meaning(list, line->operand);
-	fb = instance->word;
-	offset = layout_spot(list->as, instance).offset;
-	if (word_is_own(fb)) {
+	element = meaning_is_indexed(instance);
+	if (word_is_own(instance->word)) {
 		list_own_cal(list);
 		return;
 	}
 	if (!(line->modifiers & MOD_C))
 		list->now.kind = RESULT_NONE; /* read for the last time here */
-	list_protect(list, offset, list_row(list, fb)->size);
+	if (!element)
+		list_protect(list, layout_spot(list->as, instance).offset,
+			     list_row(list, instance->word)->size);
 	if (line->modifiers & MOD_C)
 		unless = list_skip_call(list, line);
-	missing = list_skip_missing(list, unless >= 0, fetched);
-	for (int i = list->at + 1; is_arg(list, i); i++)
-		if (list->il->line[i].kind == IL_ARG_IN)
-			feed_pin(list, instance, &list->il->line[i],
-				 fetched[i - list->at - 1]);
-	list_place(list);
-	emit_op(list->as, VM_FB, (uint32_t)fb);
-	emit(list->as, offset);
-	for (int i = list->at + 1, at = list->at; is_arg(list, i); i++)
-		if (list->il->line[i].kind == IL_ARG_OUT) {
-			list->at = i;
-			take_pin(list, instance, &list->il->line[i]);
-			list->at = at;
-		}
+	else if (element)
+		list_keep_all(list);
+	missing = list_skip_missing(list, element || unless >= 0, fetched);
+	if (element) {
+		call_element(list, instance, fetched);
+	} else {
+		call_at(list, instance, 0, fetched);
+		take_outputs(list, instance, 0);
+	}
 	list_end_skip(list, unless);
 	list_end_skip(list, missing);
 	list->now.kind = RESULT_NONE;

@@ -169,13 +169,59 @@ static void keep_power(struct list *list, const struct meaning *instance,
 			   frame->power_size);
 }
 
+/* The same of an instance behind computed indices, which lies in an array of its own. */
+static void keep_power_of(struct list *list, const struct meaning *instance,
+			  const struct frame *frame, const struct indices *indices)
+{
+	struct assembler *as = list->as;
+	const uint32_t to = as->text == &as->watch && frame->power_size ?
+		as->power[layout_table(as, instance)][instance->index] : 0;
+
+	if (to && instance->var->fb == (enum word)instance->word)
+		list_keep_power(list, instance, indices, &(struct element_power){
+			.to = to, .from = frame->power, .size = frame->power_size,
+			.unit = list_row(list, instance->word)->size });
+}
+
+/* An element's frame is filled from it before the inputs. */
+static void call_element(struct list *list, const struct meaning *instance,
+			 const uint32_t fetched[LIMIT_ARGS])
+{
+	const struct word_row *row = list_row(list, instance->word);
+	uint32_t entry;
+	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
+	struct indices indices;
+	const int skip = list_skip_unborrowed(list, list_borrow(list, instance, frame->offset,
+								&indices));
+
+	feed_all(list, row, frame->offset, fetched);
+	emit_call(list, entry);
+	list_give_back(list, instance, frame->offset, &indices);
+	keep_power_of(list, instance, frame, &indices);
+	take_all(list, row, frame->offset);
+	list_end_skip(list, skip);
+}
+
+static void call_instance(struct list *list, const struct meaning *instance,
+			  const uint32_t fetched[LIMIT_ARGS])
+{
+	const struct word_row *row = list_row(list, instance->word);
+	const uint32_t base = layout_spot(list->as, instance).offset;
+	uint32_t entry;
+	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
+
+	feed_all(list, row, base, fetched);
+	emit_block(list->as, frame->offset, base, row->size);
+	emit_call(list, entry);
+	emit_block(list->as, base, frame->offset, row->size);
+	keep_power(list, instance, frame);
+	take_all(list, row, base);
+}
+
 void list_own_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 	const struct meaning *instance = list_meaning(list, line->operand);
-	const struct word_row *row = list_row(list, instance->word);
-	uint32_t base = layout_spot(list->as, instance).offset, entry;
-	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
 	uint32_t fetched[LIMIT_ARGS];
 	int skip = -1, missing = -1;
 
@@ -185,12 +231,10 @@ void list_own_cal(struct list *list)
 		list_keep_all(list);
 	list->now.kind = RESULT_NONE;
 	missing = list_skip_missing(list, true, fetched);
-	feed_all(list, row, base, fetched);
-	emit_block(list->as, frame->offset, base, row->size);
-	emit_call(list, entry);
-	emit_block(list->as, base, frame->offset, row->size);
-	keep_power(list, instance, frame);
-	take_all(list, row, base);
+	if (meaning_is_indexed(instance))
+		call_element(list, instance, fetched);
+	else
+		call_instance(list, instance, fetched);
 	list_end_skip(list, skip);
 	list_end_skip(list, missing);
 }

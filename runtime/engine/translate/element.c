@@ -9,11 +9,9 @@
 
 /* Operands of the indices. They are computed before the instruction, because a bit of an area
  * may have to be fetched. */
-struct indices { uint32_t operand[LIMIT_INDICES]; };
-
 static struct indices indices_of(struct list *list, const struct meaning *m)
 {
-	struct indices out;
+	struct indices out = { { 0 } };
 
 	for (int i = 0; i < m->opens; i++)
 		out.operand[i] = list_number(list, m->open[i].of,
@@ -110,18 +108,25 @@ static void emit_value(struct list *list, enum vm_op op, uint32_t flags, const s
 
 /* ---- a whole ---- */
 
-/* @put: from @at into the element; else out of it. */
-static void emit_whole(struct list *list, const struct meaning *m, bool put,
-		       const uint32_t operand[3])
+/* ABLOCK: @put: from @at into the element; else out of it. */
+static void emit_copy(struct list *list, const struct meaning *m, const struct indices *indices,
+		      bool put, const uint32_t operand[3])
 {
-	struct indices indices = indices_of(list, m);
 	uint32_t base = layout_spot(list->as, m).offset;
 
 	emit_head(list, VM_ABLOCK, put, m->opens, operand[0], operand[1]);
 	emit(list->as, put ? base : operand[2]);
 	emit(list->as, put ? operand[2] : base);
 	emit(list->as, scope_size(list->as->translation->scope, m));
-	emit_indices(list, m, &indices, false);
+	emit_indices(list, m, indices, false);
+}
+
+static void emit_whole(struct list *list, const struct meaning *m, bool put,
+		       const uint32_t operand[3])
+{
+	struct indices indices = indices_of(list, m);
+
+	emit_copy(list, m, &indices, put, operand);
 }
 
 uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
@@ -210,4 +215,48 @@ void list_keep_range(struct list *list, const struct var_range *range, uint32_t 
 	emit(list->as, from);
 	emit(list->as, to);
 	emit_range(list, range, from);
+}
+
+/* ---- an instance that is called ---- */
+
+uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, struct indices *out)
+{
+	const uint32_t ok = scratch_new(list->as);
+
+	*out = indices_of(list, m);
+	for (int i = 0; i < m->opens; i++) {
+		const enum iec_type type = (enum iec_type)CODE_TYPE(out->operand[i]);
+		const uint32_t kept = CODE_OPERAND(type, layout_tail(list->as, RUN_VALUES, type));
+
+		list_copy(list, kept, out->operand[i]);
+		out->operand[i] = kept;
+	}
+	list_protect(list, to, scope_size(list->as->translation->scope, m));
+	emit_copy(list, m, out, false, (uint32_t[]){ CODE_TRUE_AT(list->as->areas), ok, to });
+	return ok;
+}
+
+void list_give_back(struct list *list, const struct meaning *m, uint32_t from,
+		    const struct indices *indices)
+{
+	list_protect(list, layout_spot(list->as, m).offset,
+		     scope_span(list->as->translation->scope, m));
+	emit_copy(list, m, indices, true, (uint32_t[]){ CODE_TRUE_AT(list->as->areas),
+		  list_sink(list->as, IEC_BOOL), from });
+}
+
+void list_keep_power(struct list *list, const struct meaning *m, const struct indices *indices,
+		     const struct element_power *power)
+{
+	emit_head(list, VM_ABLOCK, 1, m->opens, CODE_TRUE_AT(list->as->areas),
+		  list_sink(list->as, IEC_BOOL));
+	emit(list->as, power->to + m->offset / power->unit * power->size);
+	emit(list->as, power->from);
+	emit(list->as, power->size);
+	for (int i = 0; i < m->opens; i++) {
+		emit(list->as, indices->operand[i]);
+		emit(list->as, (uint32_t)m->open[i].array.low);
+		emit(list->as, m->open[i].array.count);
+		emit(list->as, m->open[i].stride / power->unit * power->size);
+	}
 }

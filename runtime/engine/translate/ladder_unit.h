@@ -134,8 +134,9 @@ uint32_t ld_value(struct ld *ld, enum iec_type *type, uint32_t *good);
 /** ld_test - the result is its value, a BOOL: FALSE if it could not be computed. Returns its
  * type. */
 enum iec_type ld_test(struct ld *ld);
-/** ld_target - the operand of a variable, an element or a whole structure or array. */
-uint32_t ld_target(struct ld *ld);
+/** ld_target - the operand of a variable, an element or a whole structure, array or instance. @good gets the
+ * BOOL that tells whether its indices could be computed; 0: they can. */
+uint32_t ld_target(struct ld *ld, uint32_t *good);
 /** ld_call - begins a formal call; ld_arg adds to it. */
 void ld_call(struct ld *ld, enum word function);
 void ld_arg(struct ld *ld, bool output, uint32_t pin, uint32_t operand);

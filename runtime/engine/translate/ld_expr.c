@@ -81,20 +81,10 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	return m ? m->type : IEC_NONE;
 }
 
-/* The text after an index that is an expression, for the first element. check_operand keeps
- * LIMIT_INDICES. */
-static uint32_t first_element(struct chain *c, const struct expr_node *node)
-{
-	uint32_t id = node->right < 0 ? chain_intern(c, node->text, node->len) :
-		      first_element(c, &c->expr->node[node->right]);
-
-	return scope_first(c->ld->translation->scope, c->ld->unit->pou, id,
-			   node->tail.text, node->tail.len);
-}
-
+/* check_operand keeps LIMIT_INDICES. */
 static enum iec_type type_of_element(struct chain *c, const struct expr_node *node)
 {
-	return type_of(c, first_element(c, node));
+	return type_of(c, scope_first_of(c->ld->translation->scope, c->ld->unit->pou, c->expr, node));
 }
 
 static bool is_bits(enum iec_type type)
@@ -1455,10 +1445,13 @@ enum iec_type ld_test(struct ld *ld)
 	return value.type;
 }
 
-uint32_t ld_target(struct ld *ld)
+uint32_t ld_target(struct ld *ld, uint32_t *good)
 {
 	struct chain c = statement(ld);
+	struct value value;
 
 	chain_at(&c, ld->expr->node[ld->expr->root].text);
-	return chain_place(&c, ld->expr->root).operand;
+	value = chain_place(&c, ld->expr->root);
+	*good = c.can_fail ? c.en : 0;
+	return value.operand;
 }

@@ -140,6 +140,20 @@ void list_keep_range(struct list *list, const struct var_range *range, uint32_t 
 uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
 			  uint32_t to);
 
+/* Operands of the computed indices of a path. */
+struct indices { uint32_t operand[LIMIT_INDICES]; };
+/** list_borrow - an instance behind such an index goes to @to, where it is called; @out gets the indices in places
+ * that no body writes. Returns the BOOL that tells whether there is one. */
+uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, struct indices *out);
+/** list_give_back - the instance at @from goes back to its element. */
+void list_give_back(struct list *list, const struct meaning *m, uint32_t from,
+		    const struct indices *indices);
+/* The power of the cells of a body, @size bytes, goes to the element's part of @to; an instance
+ * has @unit bytes. */
+struct element_power { uint32_t to, from, size, unit; };
+void list_keep_power(struct list *list, const struct meaning *m, const struct indices *indices,
+		     const struct element_power *power);
+
 /* ---- whole.c: structures and arrays as a whole ---- */
 /** list_copy_whole - @size bytes, what waits for them stored before. */
 void list_copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size);
@@ -224,6 +238,9 @@ int list_skip_call(struct list *list, const struct il_line *line);
 /** list_skip_kept - the same where all values have been kept: a jump that leads over this place must
  * not lead over stores of them. */
 int list_skip_kept(struct list *list, const struct il_line *line);
+/** list_skip_unborrowed - a jump over the call of an instance that list_borrow() did not find; all values have
+ * been kept. */
+int list_skip_unborrowed(struct list *list, uint32_t ok);
 void list_end_skip(struct list *list, int skip);
 
 /* ---- call_own.c: functions and blocks of the project ---- */

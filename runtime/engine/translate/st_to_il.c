@@ -321,6 +321,15 @@ static enum iec_type st_type_of(struct st_il *s, uint32_t operand)
 	return m ? m->type : IEC_NONE;
 }
 
+/* A part that cannot be computed ends the loop before its first round. */
+static void leave_unless(struct st_il *s, const struct st_open *open, uint32_t good)
+{
+	if (!good)
+		return;
+	ld_emit(&s->ld, OP_LD, 0, good);
+	jump(s, MOD_C | MOD_N, open->out);
+}
+
 /* The next part of FOR as a value that the body cannot change. */
 static uint32_t for_value(struct st_il *s, struct st_open *open, enum iec_type type)
 {
@@ -328,10 +337,7 @@ static uint32_t for_value(struct st_il *s, struct st_open *open, enum iec_type t
 	uint32_t good, operand = ld_value(&s->ld, &is, &good);
 
 	want_integer(s, is);
-	if (good) {
-		ld_emit(&s->ld, OP_LD, 0, good);
-		jump(s, MOD_C | MOD_N, open->out);
-	}
+	leave_unless(s, open, good);
 	return keep(s, operand, is == IEC_NONE ? type : is);
 }
 
@@ -496,13 +502,15 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 	struct st_open *open = push_block(s, ST_FOR);
 	enum iec_type type = IEC_NONE;
 	struct st_part part;
+	uint32_t good;
 	int64_t by;
 
 	begins(s);
 	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		if (part.role == ST_VARIABLE) {
-			open->variable = ld_target(&s->ld);
+			open->variable = ld_target(&s->ld, &good);
+			leave_unless(s, open, good);
 			type = st_type_of(s, open->variable);
 			open->bits = mixed_is_bits(type);
 		} else if (part.role == ST_FROM) {
@@ -816,8 +824,9 @@ static uint32_t argument(struct st_il *s, const struct word_pin *pin)
 	uint32_t good, operand;
 
 	if (pin && place && (pin->dir == PIN_IN_OUT || pin->elements || pin->type == IEC_NONE))
-		return ld_target(&s->ld);
-	operand = ld_value(&s->ld, &type, &good);
+		operand = ld_target(&s->ld, &good);
+	else
+		operand = ld_value(&s->ld, &type, &good);
 	skip_unless(s, good);
 	return operand;
 }
@@ -828,6 +837,7 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 	const char *name = pin && !part->pin.len ? pin->name : part->pin.text;
 	const size_t len = pin && !part->pin.len ? strlen(pin->name) : part->pin.len;
 	struct il_line line = { .kind = part->role == ST_OUTPUT ? IL_ARG_OUT : IL_ARG_IN };
+	uint32_t good = 0;
 
 	if (call->count == LIMIT_ARGS) {
 		st_report(s, DIAG_TOO_MANY, part->text, "parameters");
@@ -835,7 +845,8 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 	}
 	if (!pin && !part->pin.len)
 		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
-	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld) : argument(s, pin);
+	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
+	skip_unless(s, good);
 	line.pin = len ? st_intern(s, name, len) : 0;
 	line.row = s->ld.row;
 	line.line = (uint32_t)s->ld.line;
@@ -849,7 +860,8 @@ static bool is_enable(const struct word_row *row, const struct st_part *part)
 	       (part->pin.text[0] | 32) == 'e' && (part->pin.text[1] | 32) == 'n';
 }
 
-static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instance)
+/* @good: tells whether its indices could be computed; 0: they can. */
+static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instance, uint32_t good)
 {
 	const struct meaning *m = ld_meaning(&s->ld, instance);
 	const struct word_row *row = m && m->kind == MEANING_INSTANCE ?
@@ -859,6 +871,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 	int last = -1;
 
 	*call = (struct st_call){ .count = 0 };
+	skip_unless(s, good);
 	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		if (is_enable(row, &part)) {
@@ -886,7 +899,8 @@ static bool is_function(struct st_il *s, const struct expr_node *callee)
 {
 	const struct meaning *m;
 
-	if (expr_function(&s->translation->project->words, callee) == WORD_COUNT)
+	if (callee->op != EXPR_NAME ||
+	    expr_function(&s->translation->project->words, callee) == WORD_COUNT)
 		return false;
 	m = ld_meaning(&s->ld, st_intern(s, callee->text, callee->len));
 	return !m || m->kind != MEANING_INSTANCE;
@@ -904,7 +918,9 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 		return;
 	}
 	if (!is_function(s, &s->ld.expr->node[s->ld.expr->root])) {
-		call_instance(s, walk, ld_target(&s->ld));
+		const uint32_t instance = ld_target(&s->ld, &good);
+
+		call_instance(s, walk, instance, good);
 		return;
 	}
 	/* A function: its result is not used. */

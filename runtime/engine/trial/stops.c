@@ -144,13 +144,34 @@ static void drop_once(struct stops *stops)
 
 /* ---- who called ---- */
 
+/* Where the element of ABLOCK is. The indices of a call keep their values while the body runs. */
+static uint32_t element_of(const uint32_t *code, uint32_t base, const uint8_t *memory)
+{
+	const uint32_t *dim = code + 6;
+
+	for (uint32_t i = 0; i <= code[0] >> 9; i++, dim += CODE_DIMENSION) {
+		const union iec_value index = iec_load(memory + CODE_OFFSET(dim[0]),
+						       (enum iec_type)CODE_TYPE(dim[0]));
+
+		base += (uint32_t)(index.i - (int32_t)dim[1]) * dim[3];
+	}
+	return base;
+}
+
 /* What the call copies to the frame of a block, and where; size 0: nothing, as of a function. */
 static void find_copied(const struct program *program, uint32_t caller, uint32_t call,
-			struct stops_frame *frame)
+			const uint8_t *memory, struct stops_frame *frame)
 {
 	const struct code_program *at = &program->entry[caller];
 	const uint32_t *pc = program->watch + at->watch, *end = program->watch + call, *last = NULL;
+	const uint32_t *back = end + 2; /* END at least stands behind a call */
 
+	if ((*back & 0xff) == VM_ABLOCK && *back >> 8 & 1) {
+		frame->frame = back[4];
+		frame->kept = element_of(back, back[3], memory);
+		frame->size = back[5];
+		return;
+	}
 	for (; pc < end; pc += code_words(pc))
 		last = pc;
 	if (!last || (*last & 0xff) != VM_BLOCK)
@@ -200,11 +221,11 @@ static const struct code_watched *find_watched(const struct program *program,
 
 /* A block in a block is in the frame of that one while it runs. */
 static void find_instance(const struct program *program, struct stops_frame *frame,
-			  const struct stops_frame *caller, uint32_t call)
+			  const struct stops_frame *caller, uint32_t call, const uint8_t *memory)
 {
 	const struct code_watched *watched;
 
-	find_copied(program, caller->pou, call, frame);
+	find_copied(program, caller->pou, call, memory, frame);
 	if (caller->size && is_in(frame->kept, caller->frame, caller->size))
 		frame->kept += caller->kept - caller->frame;
 	watched = frame->size ? find_watched(program, frame) : NULL;
@@ -235,8 +256,8 @@ static struct stops_frame frame_at(const struct program *program, uint32_t word)
 	return frame;
 }
 
-/* From the outermost body inwards. */
-static void find_stack(struct stops *stops)
+/* From the outermost body inwards. @memory: of the twin. */
+static void find_stack(struct stops *stops, const uint8_t *memory)
 {
 	const struct vm_stand *stand = &stops->stand;
 	struct stops_frame *out = stops->frame;
@@ -249,7 +270,7 @@ static void find_stack(struct stops *stops)
 		out[last - i] = frame_at(stops->program, word);
 		if (i > 0)
 			find_instance(stops->program, &out[last - i], &out[last - i + 1],
-				      stand->back[i - 1] - 2);
+				      stand->back[i - 1] - 2, memory);
 	}
 	stops->frames = last + 1;
 }
@@ -258,7 +279,7 @@ int stops_stack(struct stops *stops, const struct twin *twin, struct stops_frame
 {
 	if (!twin->resource.stopped)
 		return 0;
-	find_stack(stops);
+	find_stack(stops, twin->resource.image.memory);
 	memcpy(out, stops->frame, (size_t)stops->frames * sizeof(*out));
 	return stops->frames;
 }
@@ -300,7 +321,7 @@ bool stops_act(struct stops *stops, struct twin *twin, const struct act *act)
 		return false;
 	if (!twin->resource.stopped || act->plant || (act->kind != ACT_SET && act->kind != ACT_FORCE))
 		return true;
-	find_stack(stops);
+	find_stack(stops, twin->resource.image.memory);
 	now.kind = ACT_SET;
 	now.at = now_at(stops, act->at);
 	return now.at.where == act->at.where || twin_act(twin, &now);
@@ -324,7 +345,7 @@ void stops_show(struct stops *stops, const struct twin *twin, struct twin *copy)
 
 	if (!twin->resource.stopped)
 		return;
-	find_stack(stops);
+	find_stack(stops, twin->resource.image.memory);
 	for (int i = stops->frames - 1; i >= 0; i--) {
 		const struct stops_frame *frame = &stops->frame[i];
 
@@ -344,7 +365,7 @@ static bool holds(struct stops *stops, const struct stop *stop, const struct ima
 
 	if (!formula)
 		return true;
-	find_stack(stops);
+	find_stack(stops, image->memory);
 	if (stop->instance && strcmp(stop->instance, stops->frame[0].instance) != 0)
 		return false;
 	for (int i = 0; i < formula->count; i++) {

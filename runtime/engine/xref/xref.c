@@ -1127,8 +1127,7 @@ static void walk_part(struct xref_walk *walk, const struct st_part *part, const 
 /* The word of the instance that is called; WORD_COUNT: none. */
 static enum word word_called(struct xref_walk *walk, const struct expr *expr)
 {
-	const struct expr_node *root = &expr->node[expr->root];
-	const uint32_t id = names_intern(&walk->project->names, root->text, root->len);
+	const uint32_t id = scope_first_of(walk->scope, walk->pou, expr, &expr->node[expr->root]);
 	enum diag_id why;
 	const struct meaning *m = scope_find(walk->scope, walk->pou, id, &why);
 
@@ -1140,7 +1139,7 @@ static void walk_callee(struct xref_walk *walk, const struct st_part *part, cons
 {
 	const struct expr_node *root = &expr->node[expr->root];
 	const char *text = project_text(walk->project, walk->item->text);
-	const uint32_t id = names_intern(&walk->project->names, root->text, root->len);
+	const uint32_t id = scope_first_of(walk->scope, walk->pou, expr, root);
 	const struct pou *pou = scope_pou(walk->scope, walk->pou, id);
 
 	*word = pou && pou->kind == POU_FUNCTION ? pou->word : word_called(walk, expr);

@@ -293,6 +293,54 @@ static void test_calls(void)
 	close_bench(&bench);
 }
 
+/* Blocks of an array by an index that their bodies and the loop change. */
+static void test_indexed(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n"
+		"VAR\n  i : INT;\nEND_VAR\n" /* 4 */
+		"FUNCTION_BLOCK Fill ST\n"
+		"  VAR_INPUT\n    Step : INT;\n  END_VAR\n"
+		"  VAR_OUTPUT\n    Level : INT;\n  END_VAR\n"
+		"  i := 7;\n"                 /* 12 */
+		"  Level := Level + Step;\n"
+		"END_FUNCTION_BLOCK\n"
+		"FUNCTION_BLOCK Line ST\n"
+		"  VAR\n    Tank : ARRAY[0..1, 1..3] OF Fill;\n    k : INT;\n  END_VAR\n"
+		"  FOR k := 1 TO 2 DO\n"      /* 20 */
+		"    i := 2 * k - 1;\n"
+		"    Tank[k - 1, i](Step := k);\n"
+		"  END_FOR;\n"
+		"END_FUNCTION_BLOCK\n"
+		"PROGRAM Main ST\n"
+		"  VAR\n    A : ARRAY[3..4] OF Line;\n  END_VAR\n"
+		"  A[4 - i / 99]();\n"        /* 29 */
+		"END_PROGRAM\n";
+	struct bench bench;
+	struct twin copy;
+
+	open_bench(&bench, text);
+	CHECK(twin_clone(&copy, &bench.twin));
+	step(&bench, STOPS_INTO, "Main 29");
+	step(&bench, STOPS_INTO, "Line 20 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Line 21 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Line 22 A[4], Main 29");
+	step(&bench, STOPS_INTO, "Fill 12 A[4].Tank[0][1], Line 22 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Fill 13 A[4].Tank[0][1], Line 22 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Line 23 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Line 21 A[4], Main 29");
+	step(&bench, STOPS_OVER, "Line 22 A[4], Main 29");
+	step(&bench, STOPS_INTO, "Fill 12 A[4].Tank[1][3], Line 22 A[4], Main 29");
+	twin_copy(&copy, &bench.twin);
+	stops_show(bench.stops, &bench.twin, &copy);
+	CHECK(image_get(&copy.resource.image, image_find(&copy.resource.image, "A[4].Tank[1][3].Step", 20)).i == 2);
+	step(&bench, STOPS_OUT, "Line 23 A[4], Main 29");
+	step(&bench, STOPS_OUT, "");
+	CHECK(get(&bench, "A[4].Tank[0][1].Level") == 1 && get(&bench, "A[4].Tank[1][3].Level") == 2);
+	twin_free(&copy);
+	close_bench(&bench);
+}
+
 /* A ladder has no statements: the next one is that of the next call. */
 static void test_ladder(void)
 {
@@ -570,6 +618,7 @@ int main(void)
 	test_joined();
 	test_lines();
 	test_calls();
+	test_indexed();
 	test_ladder();
 	test_chart();
 	test_condition();
