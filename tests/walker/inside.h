@@ -47,7 +47,7 @@ struct frame {
 #define SHOWN_MAX 1500
 
 /* Where an operand is read and written. */
-enum place_kind { PLACED_NOWHERE, PLACED_VALUE, PLACED_AREA, PLACED_LITERAL };
+enum place_kind { PLACED_NOWHERE, PLACED_VALUE, PLACED_AREA, PLACED_LITERAL, PLACED_PART };
 struct placed {
 	enum place_kind kind;
 	enum iec_type type;         /* IEC_NONE: an untyped literal          */
@@ -62,6 +62,9 @@ struct placed {
 	int32_t low;
 	struct placed *index;       /* NULL: the array itself                */
 	struct placed *choice;      /* its elements, if they are not in a row */
+	/* For bits of a number, Word.3: the number as it is named, and as it was found last. */
+	struct placed *number, *found;
+	unsigned int first, width;  /* lowest bit, how many                   */
 };
 
 /* A value to compare, and its name. */

@@ -8,6 +8,7 @@
 #include "tests/walker/inside.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -74,13 +75,95 @@ struct placed placed_index(struct walker *walker, const struct frame *frame,
 	return array;
 }
 
+/* `.3`, `.%X3`, `.%B1` at the end of a text: how many bits, and the lowest of them. 0: none. */
+static unsigned int part_at(const char *text, size_t len, size_t *head, unsigned int *first)
+{
+	static const char letter[] = "XBWD";
+	static const unsigned int bits[] = { 1, 8, 16, 32 };
+	size_t at = len;
+	const char *found;
+	unsigned int width = 1;
+
+	while (at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9')
+		at--;
+	if (at < 2 || at == len)
+		return 0;
+	*first = (unsigned int)strtoul(text + at, NULL, 10);
+	found = at > 3 && text[at - 2] == '%' ? strchr(letter, text[at - 1]) : NULL;
+	if (found) {
+		width = bits[found - letter];
+		at -= 2;
+	} else if (*text == '%' && !memchr(text, '[', len)) {
+		return 0; /* %MX0.1 is an address */
+	}
+	*head = at - 1;
+	*first *= width;
+	return text[at - 1] == '.' ? width : 0;
+}
+
+static struct placed part_place(struct walker *walker, const struct frame *frame,
+				const char *text, size_t len)
+{
+	struct placed placed = { .kind = PLACED_NOWHERE }, number;
+	size_t head;
+
+	placed.width = part_at(text, len, &head, &placed.first);
+	if (!placed.width)
+		return placed;
+	number = walker_place(walker, frame, text, head);
+	placed.number = arena_alloc(&walker->arena, sizeof(number));
+	placed.found = arena_alloc(&walker->arena, sizeof(number));
+	if (!placed.number || !placed.found || number.kind == PLACED_LITERAL ||
+	    number.kind == PLACED_NOWHERE ||
+	    !(iec_type_row(number.type)->class & (ANY_INT | CLASS_BITS)))
+		return placed;
+	*placed.number = *placed.found = number;
+	placed.index = number.index;
+	placed.type = placed.width == 1 ? IEC_BOOL : placed.width == 8 ? IEC_BYTE :
+		      placed.width == 16 ? IEC_WORD : IEC_DWORD;
+	placed.kind = PLACED_PART;
+	return placed;
+}
+
+static uint64_t part_mask(const struct placed *placed)
+{
+	return ((UINT64_C(1) << placed->width) - 1) << placed->first;
+}
+
+static struct value read_part(const struct placed *placed)
+{
+	const uint64_t all = (uint64_t)placed_read(placed->found, IEC_NONE).i;
+	struct value value = { .type = placed->type };
+
+	value.i = (int64_t)((all & part_mask(placed)) >> placed->first);
+	return value;
+}
+
+static void write_part(const struct placed *placed, struct value value)
+{
+	const struct iec_type_row *row = iec_type_row(placed->found->type);
+	struct value all = placed_read(placed->found, IEC_NONE);
+	uint64_t bits = (uint64_t)all.i & ~part_mask(placed);
+
+	bits |= (uint64_t)value.i << placed->first & part_mask(placed);
+	if (row->size < 8)
+		bits &= (UINT64_C(1) << 8 * row->size) - 1;
+	if (row->low < 0 && row->size < 8 && bits >> (8 * row->size - 1))
+		bits |= ~UINT64_C(0) << 8 * row->size;
+	all.i = (int64_t)bits;
+	placed_write(placed->found, all);
+}
+
 struct placed walker_place(struct walker *walker, const struct frame *frame,
 			   const char *text, size_t len)
 {
-	struct placed placed = frame_place(walker, frame, text, len);
+	struct placed placed = part_place(walker, frame, text, len);
 	const char *open = memchr(text, '[', len);
 	struct iec_addr addr;
 
+	if (placed.kind != PLACED_NOWHERE)
+		return placed;
+	placed = frame_place(walker, frame, text, len);
 	if (placed.kind != PLACED_NOWHERE)
 		return placed;
 	placed = of_system(walker, text, len);
@@ -129,6 +212,10 @@ bool placed_find(struct walker *walker, const struct placed *placed,
 	struct value index;
 
 	*out = *placed;
+	if (placed->kind == PLACED_PART) {
+		out->index = NULL;
+		return placed_find(walker, placed->number, placed->found);
+	}
 	if (!placed->index)
 		return true;
 	index = placed_read(placed->index, IEC_NONE);
@@ -219,6 +306,9 @@ struct value placed_read(const struct placed *placed, enum iec_type type)
 	case PLACED_LITERAL:
 		value = read_literal(placed, type);
 		break;
+	case PLACED_PART:
+		value = read_part(placed);
+		break;
 	case PLACED_NOWHERE:
 		break;
 	}
@@ -237,4 +327,6 @@ void placed_write(const struct placed *placed, struct value value)
 		*placed->value = value;
 	else if (placed->kind == PLACED_AREA)
 		write_area(placed, value);
+	else if (placed->kind == PLACED_PART)
+		write_part(placed, value);
 }

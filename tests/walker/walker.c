@@ -125,6 +125,12 @@ static struct value read_input(const struct parameter *from, const struct placed
 	return from->inverse ? value_bool(!value_is_true(value)) : value;
 }
 
+/* Elements and bits of numbers are read before anything else goes to the block. */
+static bool is_looked_up(const struct placed *placed)
+{
+	return placed->index || placed->kind == PLACED_PART;
+}
+
 static bool call_block(struct walker *walker, struct walked_rung *walked,
 		       struct walked *at, bool power)
 {
@@ -139,7 +145,7 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 		if (from->output || from->net >= 0)
 			continue;
 		all = placed_find(walker, &from->placed, &here);
-		if (all && from->placed.index)
+		if (all && is_looked_up(&from->placed))
 			given[from->pin] = read_input(from, &here,
 						      pin[from->pin].type);
 	}
@@ -151,7 +157,7 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 			pin[from->pin] = value_bool(net_power(walked,
 							      from->net));
 		else if (!from->output && all)
-			pin[from->pin] = from->placed.index ? given[from->pin] :
+			pin[from->pin] = is_looked_up(&from->placed) ? given[from->pin] :
 				read_input(from, &from->placed,
 					   pin[from->pin].type);
 	}

@@ -177,6 +177,33 @@ const char *variable(struct random_source *source, const char *type,
 	}
 }
 
+/* Bits, bytes and words of numbers; not in expressions, which the walker knows without them. */
+static const struct { const char *name, *type; bool input; } part[] = {
+	{ "word_a.15", "BOOL", 0 }, { "word_a.%X0", "BOOL", 0 }, { "int_b.0", "BOOL", 0 },
+	{ "byte_a.7", "BOOL", 0 }, { "dword_a.31", "BOOL", 0 }, { "lword_b.63", "BOOL", 0 },
+	{ "sint_a.7", "BOOL", 0 }, { "word_m.3", "BOOL", 0 }, { "int_i.4", "BOOL", 1 },
+	{ "%MW0.%X9", "BOOL", 0 }, { "%MB1.%X3", "BOOL", 0 }, { "arr_i[4].15", "BOOL", 0 },
+	{ "arr_i[int_b].3", "BOOL", 0 }, { "recs[usint_b].n.%X2", "BOOL", 0 },
+	{ "rec_a.low.d.31", "BOOL", 0 }, { "ctu_a.CV.0", "BOOL", 1 },
+	{ "ctd_a.PV.2", "BOOL", 0 }, { "arr_d[dint_b].5", "BOOL", 0 },
+	{ "usint_m.2", "BOOL", 0 }, { "ulint_b.1", "BOOL", 0 }, { "inner_b.int_b.2", "BOOL", 1 },
+	{ "%MD0[usint_b].4", "BOOL", 0 }, { "arr_c[usint_b].1", "BOOL", 1 },
+	{ "word_a.%B1", "BYTE", 0 }, { "int_b.%B0", "BYTE", 0 }, { "%MD4.%B3", "BYTE", 0 },
+	{ "arr_d[dint_b].%B2", "BYTE", 0 }, { "lword_b.%B7", "BYTE", 0 },
+	{ "recs[int_b].n.%B1", "BYTE", 0 }, { "dword_a.%W1", "WORD", 0 },
+	{ "lint_b.%W3", "WORD", 0 }, { "dint_m.%W0", "WORD", 0 }, { "lword_a.%D1", "DWORD", 0 },
+};
+
+/* A variable, or a part of one. */
+const char *operand(struct random_source *source, const char *type, bool write)
+{
+	const size_t i = random_below(source, (uint32_t)(sizeof(part) / sizeof(*part)));
+
+	if (random_chance(source, 25) && strcmp(part[i].type, type) == 0 && !(write && part[i].input))
+		return part[i].name;
+	return variable(source, type, write);
+}
+
 /* The same inside an expression. */
 const char *term(struct random_source *source, const char *type, bool write)
 {
@@ -352,7 +379,7 @@ void random_series(struct random_source *source, char *out, size_t size)
 		words_put(&builder, " ]");
 	} else {
 		words_put(&builder, "%s %s", contact[random_below(source, 5)],
-		    variable(source, "BOOL", false));
+		    operand(source, "BOOL", false));
 	}
 }
 
@@ -403,7 +430,7 @@ void random_last(struct random_source *source, int later, char *out, size_t size
 		assignment(&builder);
 	else
 		words_put(&builder, "%s %s", coil[random_below(source, 8)],
-		    variable(source, "BOOL", true));
+		    operand(source, "BOOL", true));
 }
 
 /* AND OR XOR NOT as boxes: the last input of BOOLs may be inverted. */
@@ -419,17 +446,17 @@ static void logic(struct builder *builder)
 
 	if (*fn == 'N') {
 		words_put(builder, "NOT IN:=%s%s", is_bool && random_chance(source, 30) ? "/" :
-		    "", variable(source, of, false));
+		    "", operand(source, of, false));
 	} else {
-		words_put(builder, "%s IN1:=%s", fn, variable(source, of, false));
+		words_put(builder, "%s IN1:=%s", fn, operand(source, of, false));
 		for (int i = 2; i <= count; i++)
 			if (is_bool && random_chance(source, 40))
-				words_put(builder, " IN%d:=/%s", i, variable(source, of, false));
+				words_put(builder, " IN%d:=/%s", i, operand(source, of, false));
 			else
 				words_put(builder, " IN%d:=%s", i, beside(source, of));
 	}
 	if (!is_bool || random_chance(source, 50))
-		words_put(builder, " OUT=>%s", variable(source, of, true));
+		words_put(builder, " OUT=>%s", operand(source, of, true));
 }
 
 /* MIN and MAX. */
@@ -443,7 +470,7 @@ static void choice(struct builder *builder)
 	    variable(source, type, false));
 	for (int i = 2; i <= count; i++)
 		words_put(builder, " IN%d:=%s", i, beside(source, type));
-	words_put(builder, " OUT=>%s", variable(source, type, true));
+	words_put(builder, " OUT=>%s", operand(source, type, true));
 }
 
 static void function(struct builder *builder)
@@ -470,7 +497,7 @@ static void function(struct builder *builder)
 		type = random_chance(source, 40) ? "WORD" :
 		       random_chance(source, 50) ? "LWORD" : "BOOL";
 	if (strcmp(fn, "MOVE") == 0) {
-		words_put(builder, "MOVE IN:=%s", variable(source, type, false));
+		words_put(builder, "MOVE IN:=%s", operand(source, type, false));
 	} else {
 		words_put(builder, "%s IN1:=%s", fn, variable(source, type, false));
 		for (int i = 2; i <= count; i++)
@@ -481,9 +508,9 @@ static void function(struct builder *builder)
 	    strcmp(type, narrower[wide][1]) == 0)
 		type = narrower[wide][0];
 	if (!compare)
-		words_put(builder, " OUT=>%s", variable(source, type, true));
+		words_put(builder, " OUT=>%s", operand(source, type, true));
 	else if (random_chance(source, 30))
-		words_put(builder, " OUT=>%s", variable(source, "BOOL", true));
+		words_put(builder, " OUT=>%s", operand(source, "BOOL", true));
 }
 
 int random_box(struct random_source *source, char *out, size_t size,
@@ -496,7 +523,7 @@ int random_box(struct random_source *source, char *out, size_t size,
 		return 0;
 	}
 	if (random_chance(source, 5)) {
-		words_put(&builder, "EQ OUT=>%s", variable(source, "BOOL", true));
+		words_put(&builder, "EQ OUT=>%s", operand(source, "BOOL", true));
 		pin[0] = "IN1";
 		pin[1] = "IN2";
 		return 2;

@@ -17,6 +17,8 @@ struct builder {
 void words_put(struct builder *builder, const char *format, ...);
 /** variable - one of exactly this type that may be read, or written. */
 const char *variable(struct random_source *source, const char *type, bool write);
+/** operand - a variable, or a bit, byte or word of one; not for an expression. */
+const char *operand(struct random_source *source, const char *type, bool write);
 /** term - a variable, or an element with a computed index: for expressions. */
 const char *term(struct random_source *source, const char *type, bool write);
 /** number - a value of exactly @type; @tight: in parentheses if it has operators. */

@@ -46,7 +46,7 @@ static int bool_pin(struct builder *builder, const char *name,
 		pin[fed++] = name;
 	else if (random_chance(source, 60))
 		words_put(builder, " %s:=%s%s", name, random_chance(source, 30) ? "/" : "",
-		    variable(source, "BOOL", false));
+		    operand(source, "BOOL", false));
 	return fed;
 }
 
@@ -103,7 +103,7 @@ static int any_block(struct builder *builder, const char *const *which,
 		else if (at->dir == PIN_OUT && at->type != IEC_LWORD &&
 			 random_chance(source, 10))
 			words_put(builder, " %s=>%s", at->name,
-			    variable(source, iec_type_row(at->type)->word, true));
+			    operand(source, iec_type_row(at->type)->word, true));
 	}
 	return fed;
 }
@@ -141,7 +141,7 @@ static int block(struct builder *builder, const char *pin[3])
 	if (random_chance(source, 15))
 		words_put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
 		    strncmp(fb, "CTUD", 4) == 0 ? "QU" : "Q",
-		    variable(source, "BOOL", true));
+		    operand(source, "BOOL", true));
 	return fed;
 }
 

@@ -90,7 +90,7 @@ static void call_inner(struct builder *builder, const char *instance)
 	maybe(builder, 40, "usint_i", "USINT", false);
 	if (random_chance(source, 50))
 		words_put(builder, " in_b:=%s%s", random_chance(source, 30) ? "/" : "",
-		    variable(source, "BOOL", false));
+		    operand(source, "BOOL", false));
 	maybe(builder, 20, "out_a", "BOOL", true);
 	maybe(builder, 20, "int_b", "INT", true);
 }
@@ -107,7 +107,7 @@ static void call_reckon(struct builder *builder)
 	struct random_source *source = builder->source;
 
 	words_put(builder, "Reckon int_i:=%s in_a:=%s dint_b:=%s", variable(source, "INT", false),
-	    variable(source, "BOOL", false), variable(source, "DINT", true));
+	    operand(source, "BOOL", false), variable(source, "DINT", true));
 	maybe(builder, 40, "usint_i", "USINT", false);
 	maybe(builder, 30, "bool_c", "BOOL", true);
 	maybe(builder, 60, "OUT", "INT", true);

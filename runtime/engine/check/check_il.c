@@ -80,7 +80,7 @@ static void report_unknown(struct il_check *c, const struct il_line *line,
 	} else {
 		char told[2 * LIMIT_ARG];
 
-		named_tell(scope_project(c->fn.scope), why, il_operand_text(c, line), told,
+		scope_tell(c->fn.scope, c->fn.pou, why, line->operand, told,
 			   sizeof(told));
 		il_report(&c->fn, line, why, told);
 	}

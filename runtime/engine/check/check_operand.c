@@ -93,7 +93,7 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 	if (why != DIAG_UNKNOWN_NAME) {
 		char told[2 * LIMIT_ARG];
 
-		named_tell(c->project, why, name, told, sizeof(told));
+		scope_tell(c->scope, c->pou, why, id, told, sizeof(told));
 		operand_report(c, why, at, told);
 		return;
 	}

@@ -449,6 +449,7 @@ struct path {
 	const struct meaning *index_of, *pointer;
 	enum diag_id why;
 	bool raw;                /* a REFERENCE is meant, not what it leads to */
+	bool done;               /* a part was named: nothing can follow it   */
 };
 
 static bool refuse(struct path *path, enum diag_id why)
@@ -518,6 +519,8 @@ static const struct var *declares(const struct scope *scope, uint16_t word, int 
 	return table && index < table->count ? &table->var[index] : NULL;
 }
 
+static bool step_part(struct path *path, struct expr_tail tail);
+
 /* `.Speed`. Inner variables of a block cannot be named from outside. */
 static bool step_into(struct path *path)
 {
@@ -529,6 +532,8 @@ static bool step_into(struct path *path)
 
 	path->at++;
 	len = take(path, ".[^", &name);
+	if (len && (*name == '%' || ascii_digit(*name)))
+		return step_part(path, (struct expr_tail){ name, (uint16_t)len });
 	if (!has_parts(m)) /* the name itself has no dots behind it */
 		return refuse(path, m->kind == MEANING_VARIABLE ?
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
@@ -818,6 +823,8 @@ static bool begin(struct path *path)
 		return false;
 	if (scope_mean_name(path->scope, path->table, text, len, &path->m))
 		return follow(path);
+	if (*text == '%' && path->at[0] == '.' && path->end - path->at > 1 && path->at[1] == '%')
+		return scope_mean_address(path->scope, text, len, &path->m, &path->why); /* %MW0.%X3 */
 	path->at = start;
 	len = take(path, "[", &text); /* %MX0.0[3] */
 	return path->at < path->end && begin_address(path, text, len);
@@ -862,6 +869,52 @@ static bool finish(struct path *path, struct meaning *out)
 	return true;
 }
 
+/* ---- parts ---- */
+
+/* @out is the number that it is a part of. Of an address it is another address. */
+static void mean_part(const struct meaning *number, unsigned int bits, unsigned int first,
+		      struct meaning *out)
+{
+	*out = *number;
+	out->type = bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD :
+		    bits == 32 ? IEC_DWORD : IEC_LWORD;
+	out->offset += first / 8;
+	out->like = NULL;
+	out->kind = number->kind == MEANING_ADDRESS ? MEANING_ADDRESS : MEANING_ELEMENT;
+	if (number->addr.area == AREA_NONE || number->opens || number->through) {
+		out->part = true;
+		out->first = (uint8_t)first;
+		out->number = number;
+		return;
+	}
+	out->addr.byte += first / 8;
+	out->addr.bit = first % 8;
+	out->addr.bits = (uint8_t)bits;
+}
+
+/* `.3`, `.%X3`, `.%B1`: which bits of the number before it. */
+static bool step_part(struct path *path, struct expr_tail tail)
+{
+	unsigned int bits, number;
+	struct meaning *of;
+
+	if (path->done || !follow(path))
+		return refuse(path, DIAG_NO_SUCH_PART);
+	if (path->m.kind == MEANING_LITERAL || meaning_fault(&path->m) != DIAG_COUNT ||
+	    !(iec_type_row(path->m.type)->class & (ANY_INT | CLASS_BITS)) ||
+	    (path->m.like && path->m.like->target) || !expr_part(tail, &bits, &number) ||
+	    bits * (number + 1) > 8u * iec_type_row(path->m.type)->size)
+		return refuse(path, DIAG_NO_SUCH_PART);
+	of = arena_alloc(path->scope->arena, sizeof(*of));
+	if (!of)
+		return refuse(path, DIAG_NO_MEMORY);
+	if (!finish(path, of))
+		return false;
+	path->done = true;
+	mean_part(of, bits, number * bits, &path->m);
+	return true;
+}
+
 /* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`, with or without blanks inside
  * brackets. Scan-safe: no. Fails: false with @why; @out is unchanged. */
 static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
@@ -882,7 +935,10 @@ static bool scope_mean_path(struct scope *scope, uint32_t table, const char *tex
 		       *path.at == '^' ? step_through(&path) :
 					 refuse(&path, DIAG_UNKNOWN_NAME);
 	}
-	good = good && follow(&path) && finish(&path, out);
+	if (good && path.done)
+		*out = path.m;
+	else
+		good = good && follow(&path) && finish(&path, out);
 	*why = path.why;
 	return good;
 }
@@ -957,15 +1013,18 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	}
 	if (ascii_is("NULL", text, len))
 		return mean_literal("LWORD#0", 7, out, why);
-	return mean_system(text, len, out) ||
-	       (memchr(text, '.', len) &&
-		scope_mean_path(scope, table, text, len, raw, out, why)) ||
-	       mean_literal(text, len, out, why) ||
-	       scope_mean_address(scope, text, len, out, why);
+	if (mean_system(text, len, out) ||
+	    (memchr(text, '.', len) && scope_mean_path(scope, table, text, len, raw, out, why)))
+		return true;
+	return *why != DIAG_NO_SUCH_PART && (mean_literal(text, len, out, why) ||
+					     scope_mean_address(scope, text, len, out, why));
 }
 
 bool meaning_same(const struct meaning *a, const struct meaning *b)
 {
+	if (a->part || b->part)
+		return a->part && b->part && a->first == b->first && a->type == b->type &&
+		       meaning_same(a->number, b->number);
 	if (meaning_is_indexed(a) || meaning_is_indexed(b))
 		return false;
 	if (a->addr.area != AREA_NONE || b->addr.area != AREA_NONE)
@@ -1042,6 +1101,21 @@ uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)
 const char *scope_text(const struct scope *scope, uint32_t id)
 {
 	return names_text(&scope->project->names, id);
+}
+
+void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,
+		char *out, size_t size)
+{
+	const char *name = scope_text(scope, text), *dot = strrchr(name, '.');
+	const struct meaning *m;
+
+	named_tell(scope->project, why, name, out, size);
+	if (why != DIAG_NO_SUCH_PART || !dot)
+		return;
+	m = scope_find(scope, pou, names_intern(&scope->project->names, name, (size_t)(dot - name)), &why);
+	snprintf(out, size, "%.24s" DIAG_AND "%s", dot + 1, !m ? "" :
+		 m->kind == MEANING_ARRAY ? "ARRAY" : m->type == IEC_NONE ?
+		 scope_row(scope, (enum word)m->word)->word : iec_type_row(m->type)->word);
 }
 
 const struct meaning *scope_index(struct scope *scope, const struct pou *pou,

@@ -19,7 +19,7 @@ enum meaning_kind {
 	MEANING_STRUCT,    /* table, index, offset: a whole structure         */
 	MEANING_PIN,       /* table, index, pin of its FB, offset; a member   */
 	MEANING_ARRAY,     /* table, index, offset, stride: a whole array     */
-	MEANING_ELEMENT,   /* table, index, offset; var NULL: behind an address */
+	MEANING_ELEMENT,   /* table, index, offset; var NULL: behind an address; a part of a number */
 	MEANING_ADDRESS,   /* addr; SYS_ names too                            */
 	MEANING_LITERAL,   /* literal                                         */
 };
@@ -44,6 +44,7 @@ struct meaning {
 	union {
 		int pin;          /* index in the row of the variable's word  */
 		uint32_t stride;  /* of ARRAY: bytes from one to the next     */
+		const struct meaning *number; /* of a part: of which it is one */
 	};
 	uint16_t word;            /* enum word of INSTANCE, STRUCT, an ARRAY of such */
 	uint16_t capacity;        /* of an ARRAY of STRING                    */
@@ -55,6 +56,8 @@ struct meaning {
 	uint8_t opens;            /* indices computed in the scan; addr and offset are those
 	                             of the first elements */
 	bool through;             /* a pointer leads to it: meaning_pointer()  */
+	bool part;                /* a bit, byte or word of a number that has no address of its own */
+	uint8_t first;            /* of a part: its lowest bit                 */
 	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
 	const struct open_index *open; /* so many, from the left; then the pointer */
 	const struct meaning *index_of; /* operand of the first computed index; of a fixed
@@ -84,7 +87,7 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  * @text: string id of the operand as written
  * @why:  when it has none: DIAG_UNKNOWN_NAME, DIAG_NO_PIN, DIAG_BAD_ADDRESS,
  *        DIAG_BAD_LITERAL, DIAG_LITERAL_RANGE, DIAG_NOT_ARRAY,
- *        DIAG_INDEX_TYPE or DIAG_INDEX_RANGE
+ *        DIAG_INDEX_TYPE, DIAG_INDEX_RANGE or DIAG_NO_SUCH_PART
  *
  * Remembered by POU and id: asking again is one look into a hash.
  * Owns: the arena of scope_new().   Scan-safe: no.
@@ -109,10 +112,11 @@ uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
  * LIMIT_INDICES at most: that of its first element. Scan-safe: no. Fails: 0. */
 uint32_t scope_first_of(struct scope *scope, const struct pou *pou, const struct expr *expr,
 			const struct expr_node *node);
-/** meaning_is_indexed - behind an index that is computed in the scan, or a pointer? Scan-safe: yes. */
+/** meaning_is_indexed - behind an index that is computed in the scan, or a pointer, or a part of
+ * a number: it has no place of its own to read or write. Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
-	return meaning->opens > 0 || meaning->through;
+	return meaning->opens > 0 || meaning->through || meaning->part;
 }
 /** meaning_pointer - the pointer that leads to it. Scan-safe: yes. */
 static inline const struct meaning *meaning_pointer(const struct meaning *meaning)
@@ -178,6 +182,10 @@ const struct areas *scope_areas(const struct scope *scope);
 const struct word_row *scope_row(const struct scope *scope, enum word word);
 /** scope_bytes - what SIZEOF gives: of a STRING its bytes and one more, of a pointer 4. Scan-safe: yes. */
 uint32_t scope_bytes(const struct scope *scope, const struct meaning *m);
+/** scope_tell - the arguments of a message about a name without a meaning, as named_tell(); of
+ * DIAG_NO_SUCH_PART the part and the type of what should have it. Scan-safe: no. */
+void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,
+		char *out, size_t size);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);
 #endif

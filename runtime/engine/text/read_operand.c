@@ -160,8 +160,29 @@ static bool add_index(struct reader *r)
 	return true;
 }
 
-/* Reads an index and members after a name or address, as in `Line[2].Times[i]`; leaves the
- * cursor on the last token. */
+/* Does `.%X3` or `.3` follow, the part of a number? */
+static bool part_follows(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	lex_next(&ahead);
+	if (!lex_is(&ahead, "."))
+		return false;
+	lex_next(&ahead);
+	return ahead.token.kind == TOKEN_ADDRESS || ahead.token.kind == TOKEN_NUMBER;
+}
+
+/* Reads it; leaves the cursor on its last token. */
+static void add_part(struct reader *r)
+{
+	reader_step(r);
+	buffer_add(r, &r->text, ".", 1);
+	reader_step(r);
+	buffer_add(r, &r->text, r->lex.token.text, r->lex.token.len);
+}
+
+/* Reads an index, members and a part after a name or address, as in `Line[2].Times[i].3`; leaves
+ * the cursor on the last token. */
 static bool add_path(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
@@ -173,6 +194,8 @@ static bool add_path(struct reader *r)
 			continue;
 		if (!reader_peek(r, "."))
 			return true;
+		if (part_follows(r))
+			break;
 		reader_step(r);
 		buffer_add(r, &r->text, ".", 1);
 		reader_step(r);
@@ -182,6 +205,8 @@ static bool add_path(struct reader *r)
 			return false;
 		buffer_add(r, &r->text, token->text, token->len);
 	}
+	if (part_follows(r))
+		add_part(r);
 	return true;
 }
 

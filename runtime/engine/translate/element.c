@@ -145,6 +145,8 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 	uint32_t to;
 	int at;
 
+	if (m->part)
+		return list_fetch_part(list, m, en, ok);
 	if (meaning_is_whole(m)) {
 		to = layout_like(list->as, m);
 		*ok = list_fetch_whole(list, m, en, to);
@@ -162,8 +164,14 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 
 uint32_t list_fetch_to(struct list *list, const struct meaning *m, uint32_t en, uint32_t to)
 {
-	const uint32_t ok = scratch_new(list->as);
+	uint32_t ok, from;
 
+	if (m->part) {
+		from = list_fetch_part(list, m, en, &ok);
+		list_copy_if(list, ok, to, from);
+		return ok;
+	}
+	ok = scratch_new(list->as);
 	list_protect(list, CODE_OFFSET(to), 1);
 	emit_value(list, VM_AGET, CODE_KEEP, m, (uint32_t[]){ en, ok, to });
 	return ok;
@@ -185,9 +193,13 @@ static uint32_t widened(struct list *list, uint32_t en, uint32_t from, enum iec_
 uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		      uint32_t from)
 {
-	struct spot spot = layout_spot(list->as, m);
-	uint32_t ok = scratch_new(list->as);
+	struct spot spot;
+	uint32_t ok;
 
+	if (m->part)
+		return list_deposit_part(list, m, en, from);
+	spot = layout_spot(list->as, m);
+	ok = scratch_new(list->as);
 	if (m->through && (enum iec_type)CODE_TYPE(from) != m->type)
 		from = widened(list, en, from, m->type);
 

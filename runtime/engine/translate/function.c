@@ -10,7 +10,7 @@
 /* ---- comparisons ---- */
 
 /* The comparison of a table of (>=, <=). The rows stand in this order. */
-static uint32_t table_of(enum word word)
+uint32_t list_table(enum word word)
 {
 	static const uint8_t table[] = {
 		[FN_GT - FN_GT] = 0x2, [FN_GE - FN_GT] = 0xa, [FN_EQ - FN_GT] = 0x8,
@@ -29,7 +29,7 @@ void list_compare(struct list *list, enum word word, uint32_t left, uint32_t rig
 {
 	list->now = (struct il_result){
 		.kind = RESULT_BITS,
-		.bits = bits_compare(list->as, table_of(word), left, right),
+		.bits = bits_compare(list->as, list_table(word), left, right),
 	};
 }
 

@@ -743,6 +743,8 @@ static void count_list(struct assembler *as, const struct unit *unit)
 				   is_counted(m) ? m : NULL;
 		if (line->kind == IL_CALL)
 			instance = NULL;
+		if (m && m->part)
+			m = m->number;
 		if (m && m->kind == MEANING_PIN && is_counted(m))
 			count_use(as, m, false);
 		if (line->kind == IL_OP && instance)

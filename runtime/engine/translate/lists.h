@@ -135,6 +135,10 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 /** list_keep_range - stores @from at @to, if it is a value of @range; typed words. */
 void list_keep_range(struct list *list, const struct var_range *range, uint32_t to,
 		     uint32_t from);
+/* ---- part.c: a bit, byte or word of a number ---- */
+/** list_fetch_part, list_deposit_part - list_fetch() and list_deposit() of such a part. */
+uint32_t list_fetch_part(struct list *list, const struct meaning *m, uint32_t en, uint32_t *ok);
+uint32_t list_deposit_part(struct list *list, const struct meaning *m, uint32_t en, uint32_t from);
 /** list_fetch_whole - a structure or array behind such an index goes to @to; returns as
  * list_deposit(). */
 uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
@@ -166,6 +170,8 @@ bool list_is_whole_move(struct list *list);
 uint32_t list_whole_move(struct list *list, uint32_t en);
 
 /* ---- function.c ---- */
+/** list_table - the comparison, as a table for bits_compare(). */
+uint32_t list_table(enum word word);
 /** list_is_compare - GT to NE? */
 bool list_is_compare(enum word word);
 /** list_compare - the result becomes that of a comparison of two typed words. */
