@@ -138,6 +138,18 @@ sub test_image {
 	my ($text) = said($ladder, 'trace', 'out.rungc', 'script', '--changes');
 	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image has the period of the project');
 	said($ladder, 'import', 'pump.clprj', '-o', 'imported.rung');
+	my ($rungs) = slurp('imported.rung') =~ /^PROGRAM Main LD\n(.*?)^END_PROGRAM/ms;
+	is($rungs, <<'END', 'rungs are drawn as they were, without columns of wires');
+RUNG Seal
+  | NO Start  | NC %IX0.1 | COIL Motor |
+  | NO Motor ^|
+RUNG
+  | NO Motor | CL_TON TM0_Pause DT:=SYS_CYCLE | COIL %QX0.1 |
+RUNG
+  | --- | [ Word5 := Sum(Word5, TM0_Pause.V) + Seven ] |
+RUNG
+  | NO X2 | COIL Bit3 |
+END
 	said($ladder, 'build', 'imported.rung', '-o', 'imported.rungc');
 	is(slurp('imported.rungc') eq slurp('out.rungc') ? 1 : 0, 1, 'the image is that of the imported file');
 }

@@ -220,16 +220,16 @@ static bool read_project(struct ladder *ladder, const struct text_file *files, i
 			 located_place(ladder->project, &ladder->diags)));
 }
 
-/* The same with what a desk makes of the files; @made gets the texts, which the caller frees. */
-static bool read_made(struct ladder *ladder, struct text_file *files, int count, char **made)
+/* The same with what a desk makes of @disk; @files is a copy; @made gets the texts, which the caller frees. */
+static bool read_made(struct ladder *ladder, const struct text_file *disk, struct text_file *files,
+		      int count, char **made)
 {
 	bool good = true;
 
 	for (int i = 0; i < count && ladder->advice; i++) {
 		size_t len = 0;
 
-		good &= ladder->advice->text(files[i].name, files[i].text, files[i].len, &made[i],
-					     &len, &ladder->diags);
+		good &= ladder->advice->text(disk, count, i, &made[i], &len, &ladder->diags);
 		if (made[i])
 			files[i] = (struct text_file){ files[i].name, made[i], len, true };
 	}
@@ -244,7 +244,7 @@ static bool read_texts(struct ladder *ladder, const struct text_file *files, int
 
 	if (made && read) {
 		memcpy(read, files, (size_t)count * sizeof(*read));
-		good = read_made(ladder, read, count, made);
+		good = read_made(ladder, files, read, count, made);
 	} else {
 		good = no_memory(ladder, files->name);
 	}

@@ -61,10 +61,30 @@ static struct diag place_of(const struct names_check *c, enum diag_id id,
 		.pou = pou ? text_of(c, pou->name) : NULL };
 }
 
+/* Of the declaration of @var; @pou NULL: a global. */
+static struct diag place_of_var(const struct names_check *c, enum diag_id id,
+				const struct pou *pou, const struct var *var)
+{
+	const struct var_table *globals = &c->project->globals;
+	struct diag place = place_of(c, id, pou, var->line);
+	const struct var_block *block = pou || var < globals->var || var >= globals->var + globals->count ?
+		NULL : vars_block(globals, (int)(var - globals->var));
+
+	if (block && block->file)
+		place.file = block->file;
+	return place;
+}
+
 static void report_line(struct names_check *c, enum diag_id id,
 			const struct pou *pou, int line, const char *arg)
 {
 	c->good &= diag_add(c->diags, place_of(c, id, pou, line), "%s", arg);
+}
+
+static void report_var(struct names_check *c, enum diag_id id,
+		       const struct pou *pou, const struct var *var, const char *arg)
+{
+	c->good &= diag_add(c->diags, place_of_var(c, id, pou, var), "%s", arg);
 }
 
 /* @number 1-based; @row and @col 0-based, -1: the whole rung. */
@@ -170,7 +190,7 @@ static bool is_inside(struct names_check *c, const struct var *var)
 		return areas_have(areas, var->at);
 	c->located += var->array.count;
 	if (before <= LIMIT_LOCATED && c->located > LIMIT_LOCATED)
-		report_line(c, DIAG_TOO_MANY, NULL, var->line,
+		report_var(c, DIAG_TOO_MANY, NULL, var,
 			    "elements with an address");
 	return areas_have(areas, vars_shift(var->at, var->array.count - 1));
 }
@@ -178,7 +198,7 @@ static bool is_inside(struct names_check *c, const struct var *var)
 static void report_twice(struct names_check *c, const struct pou *pou,
 			 const struct var *var, int first)
 {
-	c->good &= diag_add(c->diags, place_of(c, DIAG_DUPLICATE_NAME, pou, var->line),
+	c->good &= diag_add(c->diags, place_of_var(c, DIAG_DUPLICATE_NAME, pou, var),
 			    "%.40s" DIAG_AND "%d", text_of(c, var->name), first);
 }
 
@@ -304,7 +324,7 @@ static void check_points(struct names_check *c, const struct pou *pou, const str
 	if (m && scope_find(c->scope, pou, var->points->text, &why))
 		uses_add(&c->uses, m, USE_READ | USE_WRITTEN);
 	else
-		report_line(c, why, pou, var->line, text_of(c, name));
+		report_var(c, why, pou, var, text_of(c, name));
 }
 
 static void check_address(struct names_check *c, const struct var *var, struct diag place)
@@ -344,27 +364,27 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	const struct var *var = &table->var[index];
 	const char *name = text_of(c, var->name);
 	const struct mark *mark = mark_of(c, var->fold);
-	const struct diag place = place_of(c, DIAG_COUNT, pou, var->line);
+	const struct diag place = place_of_var(c, DIAG_COUNT, pou, var);
 	struct iec_addr addr;
 
 	if (twice >= 0)
 		report_twice(c, pou, var, table->var[twice].line);
 	else if (!pou && mark && mark->pou)
-		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
+		report_var(c, DIAG_DUPLICATE_NAME, pou, var, name);
 	if (vars_is_eno(table, index))
 		return;
 	/* The printed list of `ladder il` declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||
 	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
-		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
+		report_var(c, DIAG_RESERVED_NAME, pou, var, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
-		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
+		report_var(c, DIAG_SHADOWS_ADDRESS, pou, var, name);
 	if (has_address(c, var))
 		check_address(c, var, place);
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
-		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
+		report_var(c, DIAG_CONSTANT_NO_VALUE, pou, var, name);
 	if (var->points)
 		check_points(c, pou, var);
 	check_range(c, var, place);
@@ -394,13 +414,13 @@ static void check_external(struct names_check *c, const struct pou *pou)
 		char wanted[LIMIT_ARG], is[LIMIT_ARG];
 
 		if (global < 0) {
-			report_line(c, DIAG_NO_GLOBAL, pou, var->line, text_of(c, var->name));
+			report_var(c, DIAG_NO_GLOBAL, pou, var, text_of(c, var->name));
 			continue;
 		}
 		print_type(c->project, var, wanted, sizeof(wanted));
 		print_type(c->project, &c->project->globals.var[global], is, sizeof(is));
 		if (strcmp(wanted, is) != 0)
-			c->good &= diag_add(c->diags, place_of(c, DIAG_OTHER_GLOBAL, pou, var->line),
+			c->good &= diag_add(c->diags, place_of_var(c, DIAG_OTHER_GLOBAL, pou, var),
 					    "%s" DIAG_AND "%s" DIAG_AND "%s", text_of(c, var->name),
 					    is, wanted);
 	}
@@ -799,7 +819,7 @@ static void check_uses(struct names_check *c, int table_number)
 			if (lack != DIAG_COUNT && !vars_is_eno(table, k) &&
 			    !(pou && pou->no_result && k == 0) &&
 			    scope_duplicate(c->scope, pou, k) < 0)
-				report_line(c, lack, pou, var->line,
+				report_var(c, lack, pou, var,
 					    text_of(c, var->name));
 		}
 	}

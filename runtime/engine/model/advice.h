@@ -39,6 +39,7 @@ enum expect_kind {
 
 struct mend_line;
 struct mended;
+struct text_file;
 
 struct advice {
 	/* mend_line() of text/mend.h */
@@ -48,7 +49,7 @@ struct advice {
 				unsigned int kinds, const char *wanted, char *out,
 				size_t size);
 	/* iec_file_text() of exchange/iec_file/iec_file.h */
-	bool (*text)(const char *file, const char *bytes, size_t len, char **out,
+	bool (*text)(const struct text_file *files, int count, int at, char **out,
 		     size_t *out_len, struct diag_list *diags);
 	/* check_tokens() of check/check_tokens.h */
 	void (*tokens)(struct scope *scope, const struct pou *pou, struct arena *scratch,

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-uint16_t vars_flags(const struct var_table *table, int index)
+const struct var_block *vars_block(const struct var_table *table, int index)
 {
 	int low = 0, high = table->block_count;
 
@@ -22,7 +22,14 @@ uint16_t vars_flags(const struct var_table *table, int index)
 		else
 			high = middle;
 	}
-	return table->block_count ? table->block[low].flags : 0;
+	return table->block_count ? &table->block[low] : NULL;
+}
+
+uint16_t vars_flags(const struct var_table *table, int index)
+{
+	const struct var_block *block = vars_block(table, index);
+
+	return block ? block->flags : 0;
 }
 
 uint32_t var_unit(const struct var *var)

@@ -120,6 +120,8 @@ struct var_block {
 	uint32_t comment;    /* above it                                       */
 	int first, count;    /* in the table                                   */
 	int line;
+	const char *file;    /* it stands in; borrowed from the arena; NULL: made, not read */
+	bool included;       /* of a file named by INCLUDE                     */
 };
 
 struct var_table {
@@ -129,6 +131,8 @@ struct var_table {
 	int block_count;
 };
 
+/** vars_block - the block that contains variable @index; NULL: there is none. */
+const struct var_block *vars_block(const struct var_table *table, int index);
 /** vars_flags - of the block that contains variable @index. */
 uint16_t vars_flags(const struct var_table *table, int index);
 /** vars_is_eno - whether it is the implicit ENO that a function's body may set.

@@ -672,7 +672,8 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 {
 	const struct token head = r->lex.token;
 	const enum comment_place outside = r->comments;
-	struct var_block block = { .first = table->count, .line = head.line };
+	struct var_block block = { .first = table->count, .line = head.line,
+				   .file = r->place.file, .included = r->outer != NULL };
 
 	if (is_access(r)) { /* in a POU */
 		reader_misplaced_access(r);
@@ -707,7 +708,8 @@ int read_located(struct reader *r)
 {
 	struct var_table *table = &r->project->located;
 	const struct token head = r->lex.token;
-	struct var_block block = { .first = table->count, .line = head.line };
+	struct var_block block = { .first = table->count, .line = head.line,
+				   .file = r->place.file, .included = r->outer != NULL };
 	struct var_block *slot;
 
 	reader_next(r);

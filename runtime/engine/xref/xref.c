@@ -625,6 +625,15 @@ static void walk_declaration(struct xref_walk *walk, struct var_table *table, in
 		walk_initial(walk, var);
 }
 
+/* Globals stand in several files. */
+static void enter_block(struct xref_walk *walk, const struct var_block *block)
+{
+	if (!block || !block->file)
+		return;
+	walk->place.file = block->file;
+	walk->place.included = block->included;
+}
+
 static void walk_table(struct xref_walk *walk, int number)
 {
 	struct var_table *table = xref_table(walk->project, number);
@@ -633,6 +642,8 @@ static void walk_table(struct xref_walk *walk, int number)
 		struct var *var = &table->var[i];
 
 		walk->place.line = var->line;
+		if (number == 0)
+			enter_block(walk, vars_block(table, i));
 		if (vars_flags(table, i) & VAR_RESULT) { /* from the heading */
 			add_type(walk, var);
 			walk_written(walk, var);
@@ -649,29 +660,6 @@ static void begin_place(struct xref_walk *walk, int pou, const char *file, int l
 {
 	walk->place = (struct xref_use){ .pou = pou, .file = file, .line = line,
 					 .included = included };
-}
-
-/* Globals of an included file: the name of the file is that of their block's part. */
-static void mark_included(struct xref_walk *walk)
-{
-	const struct project *project = walk->project;
-
-	for (int i = 0; i < project->part_count; i++) {
-		const struct part *part = &project->part[i];
-		const struct var_block *block;
-
-		if (part->kind != PART_VARS || !part->included)
-			continue;
-		block = &project->globals.block[part->index];
-		for (int k = 0; k < walk->out->count; k++) {
-			struct xref_use *use = &walk->out->use[k];
-
-			if (use->target.what == XREF_VARIABLE && !use->target.table &&
-			    use->target.index >= block->first &&
-			    use->target.index < block->first + block->count)
-				use->included = true;
-		}
-	}
 }
 
 static bool structure_included(const struct project *project, int number)
@@ -719,7 +707,6 @@ static void walk_declarations(struct xref_walk *walk)
 
 	begin_place(walk, -1, project->file, 0, false);
 	walk_table(walk, 0);
-	mark_included(walk);
 	for (int i = 0; i < project->structure_count; i++) {
 		struct structure *structure = &project->structure[i];
 		struct xref_target target = { .what = XREF_STRUCTURE, .index = i };

@@ -6,7 +6,6 @@
 
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
-#include "engine/text/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,15 +116,16 @@ static bool no_memory(struct diag_list *diags, struct diag place)
 	return diag_add(diags, place, "%s", "");
 }
 
-static bool open_twincat(struct diag place, const char *bytes, size_t len, char **out,
-			 size_t *out_len, struct diag_list *diags)
+static bool open_twincat(struct diag place, const struct text_file *files, int count, int at,
+			 char **out, size_t *out_len, struct diag_list *diags)
 {
 	const int errors = diags->errors;
 
-	*out = malloc(2 * len + 64);
+	*out = malloc(2 * files[at].len + 64);
 	if (!*out)
 		return no_memory(diags, place);
-	*out_len = twincat_text(place.file, bytes, len, *out, diags);
+	*out_len = twincat_text(place.file, files[at].text, files[at].len, *out, diags);
+	twincat_blank_lists(files, count, *out, *out_len);
 	if (diags->errors == errors)
 		return true;
 	free(*out);
@@ -147,9 +147,11 @@ static bool refuse(struct diag place, const char *bytes, size_t len, struct diag
 	return place.id == DIAG_COUNT || diag_add(diags, place, "%s", arg);
 }
 
-bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, size_t *out_len,
-		struct diag_list *diags)
+bool iec_file_text(const struct text_file *files, int count, int at, char **out, size_t *out_len,
+		   struct diag_list *diags)
 {
+	const char *file = files[at].name, *bytes = files[at].text;
+	const size_t len = files[at].len;
 	const struct diag place = { .file = file };
 	const bool exported = codesys_is(bytes, len);
 	bool same = true;
@@ -158,7 +160,7 @@ bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, 
 	if (len > LIMIT_TEXT || utf16_text(bytes, len))
 		return true; /* the reader tells it */
 	if (twincat_is(bytes, len))
-		return open_twincat(place, bytes, len, out, out_len, diags);
+		return open_twincat(place, files, count, at, out, out_len, diags);
 	if (!exported && (!text_is_plain(bytes, len) || stranger_is_siemens(bytes, len)))
 		return refuse(place, bytes, len, diags);
 	*out = text_of(file, bytes, len, out_len, &same, exported, diags);

@@ -14,9 +14,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct text_file;
+
 /**
  * iec_file_text - the IEC text in a file
- * @file:  its name for diagnostics; must live as long as @diags
+ * @files: @count files of one project as they are on the disk; their names, for diagnostics, must
+ *         live as long as @diags
+ * @at:    which of them
  * @out:   gets the text, NUL-ended, @out_len bytes without it, also if it is the same in a file that
  *         another tool exported; NULL: the bytes are read as they are
  * @diags: gets what is left out and what cannot be read, with their lines
@@ -24,6 +28,6 @@
  * Owns: the caller, free() @out. Scan-safe: no.
  * Fails: false after a diagnostic: this is no IEC text, or no memory.
  */
-bool iec_file_text(const char *file, const char *bytes, size_t len, char **out, size_t *out_len,
-		struct diag_list *diags);
+bool iec_file_text(const struct text_file *files, int count, int at, char **out, size_t *out_len,
+		   struct diag_list *diags);
 #endif

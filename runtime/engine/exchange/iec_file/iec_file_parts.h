@@ -7,6 +7,8 @@
 
 #include "engine/exchange/iec_file/iec_file.h"
 
+#include "engine/text/text.h"
+
 /**
  * stranger_find - the message about a file that is no IEC text
  * @arg: gets its argument, the name of a kind of file, static; or ""
@@ -28,6 +30,15 @@ bool twincat_is(const char *bytes, size_t len);
  */
 size_t twincat_text(const char *file, const char *bytes, size_t len, char *out,
 		    struct diag_list *diags);
+
+/**
+ * twincat_blank_lists - `Lights.Red`, where Lights is a list of global variables, is the variable Red: puts
+ * blanks over `Lights.` in @text
+ * @files: @count files of the project as they are on the disk: which lists it has
+ *
+ * Not if @text itself declares something with the name of the list. Scan-safe: no.
+ */
+void twincat_blank_lists(const struct text_file *files, int count, char *text, size_t len);
 
 /** codesys_is - does a CODESYS 2.3 export begin here? */
 bool codesys_is(const char *bytes, size_t len);

@@ -10,6 +10,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define DEPTH_MOST 32 /* elements inside one another                         */
@@ -317,4 +318,92 @@ size_t twincat_text(const char *file, const char *bytes, size_t len, char *out,
 		damaged(&t, "</TcPlcObject>");
 	out[t.len] = '\0';
 	return t.len;
+}
+
+/* ---- lists of global variables ---- */
+
+/* The name in <GVL Name="…">; NULL: the file is no such list. */
+static const char *list_name(const struct text_file *file, size_t *len)
+{
+	static const char ending[] = ".TcGVL", head[] = "<GVL Name=\"";
+	const size_t name_len = strlen(file->name), ending_len = strlen(ending);
+	const char *end = file->text + (file->len < 1024 ? file->len : 1024), *name, *quote;
+
+	if (name_len < ending_len ||
+	    !ascii_is(ending, file->name + name_len - ending_len, ending_len))
+		return NULL;
+	name = find(file->text, end, head);
+	name = name ? name + strlen(head) : end;
+	quote = memchr(name, '"', (size_t)(end - name));
+	*len = quote ? (size_t)(quote - name) : 0;
+	return quote ? name : NULL;
+}
+
+/* Which file is the list that "Lights.Red" begins with; -1: none. @len: gets the bytes of "Lights". */
+static int list_in(const struct text_file *files, int count, const struct token *token, size_t *len)
+{
+	const char *dot = memchr(token->text, '.', token->len);
+
+	*len = dot ? (size_t)(dot - token->text) : token->len;
+	for (int i = 0; i < count && token->kind == TOKEN_NAME; i++) {
+		size_t name_len = 0;
+		const char *name = list_name(&files[i], &name_len);
+
+		if (name && name_len == *len && ascii_same(name, token->text, *len))
+			return i;
+	}
+	return -1;
+}
+
+/* Does `Lights : …` or `Lights, … : …` stand in the text? */
+static bool is_declared(const char *text, size_t text_len, const char *name, size_t len)
+{
+	struct lex lex;
+	bool named = false;
+
+	lex_init(&lex, text, text_len);
+	while (lex_next(&lex) != TOKEN_END) {
+		if (named && (lex_is(&lex, ":") || lex_is(&lex, ",")))
+			return true;
+		named = lex.token.kind == TOKEN_NAME && lex.token.len == len &&
+			ascii_same(lex.token.text, name, len);
+	}
+	return false;
+}
+
+/* @declared: of each file, 0: not known yet. */
+static bool is_list(const char *text, size_t text_len, const char *name, size_t len, char *declared)
+{
+	if (!*declared)
+		*declared = is_declared(text, text_len, name, len) ? 'y' : 'n';
+	return *declared == 'n';
+}
+
+void twincat_blank_lists(const struct text_file *files, int count, char *text, size_t len)
+{
+	char *declared = calloc((size_t)count, 1);
+	bool member = false; /* a point stands before the token */
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	for (enum token_kind kind = declared ? lex_next(&lex) : TOKEN_END; kind != TOKEN_END;) {
+		const struct token token = lex.token;
+		size_t list_len = 0;
+		const int list = member ? -1 : list_in(files, count, &token, &list_len);
+		bool apart;
+
+		kind = lex_next(&lex);
+		apart = list_len == token.len;
+		member = token.len == 1 && *token.text == '.';
+		if (list < 0 || (apart && !lex_is(&lex, ".")) ||
+		    !is_list(text, len, token.text, list_len, &declared[list]))
+			continue;
+		memset(text + (token.text - text), ' ', list_len + !apart);
+		if (!apart)
+			continue;
+		text[lex.token.text - text] = ' ';
+		kind = lex_next(&lex);
+		member = true; /* it stood there */
+	}
+	free(declared);
 }
