@@ -48,6 +48,7 @@
 #define PATIENCE_NS (2 * SECOND)      /* for an order                               */
 #define STACK_LEAST 262144u
 #define REST_NS    SECOND             /* longest time between two looks at the state */
+#define FLOOD_NS   (SECOND / 50)      /* the same while alarms wait to be taken */
 #define HANGS_NS   (5 * SECOND)      /* without a turn of the thread              */
 #define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
 #define MOVED_NS   SECOND             /* a step of the clock that the log tells     */
@@ -82,6 +83,7 @@ struct link {
 	struct board_status status;    /* of that order                        */
 	struct journal *journal;
 	struct alarms alarms;
+	bool alarms_wait;
 	struct alarm_store alarm_store;
 	struct server_log log;
 	struct server_conf conf;
@@ -474,12 +476,14 @@ static void follow_alarms(struct link *link)
 	struct alarms *alarms = &link->alarms;
 	const int64_t now_ns = clock_now(), wall_ns = clock_wall();
 	struct alarm_note note;
+	uint32_t taken = 0;
 
 	log_moved(link, now_ns, wall_ns);
-	while (alarm_take(&alarms->ring, &note)) {
+	for (; alarm_take(&alarms->ring, &note); taken++) {
 		note.time_ns = note.system ? wall_ns : wall_ns - (now_ns - note.time_ns);
 		alarm_list_note(&alarms->list, &note);
 	}
+	link->alarms_wait = taken >= ALARM_RING; /* the ring was full: the scan has more to tell */
 	watch_blocks(link);
 	alarm_store_write(&link->alarm_store, &alarms->list, now_ns);
 }
@@ -960,6 +964,8 @@ static int poll_ms(struct link *link, bool more)
 
 	if (link->port.fd >= 0 && line_ns < due_ns)
 		due_ns = line_ns;
+	if (link->alarms_wait && now_ns + FLOOD_NS < due_ns)
+		due_ns = now_ns + FLOOD_NS;
 	if (more || due_ns <= now_ns)
 		return 0;
 	return (int)((due_ns - now_ns > REST_NS ? REST_NS : due_ns - now_ns + 999999) / 1000000);
