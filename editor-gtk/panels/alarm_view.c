@@ -441,16 +441,6 @@ static void activated(LadderAlarmView *view)
 
 /* ---- the widget ---- */
 
-GListModel *ladder_alarm_view_list(LadderAlarmView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
-}
-
-void ladder_alarm_view_refresh(LadderAlarmView *view)
-{
-	look_at_sim(view);
-}
-
 static void map(GtkWidget *widget)
 {
 	LadderAlarmView *view = LADDER_ALARM_VIEW(widget);

@@ -18,8 +18,4 @@ G_DECLARE_FINAL_TYPE(LadderAlarmView, ladder_alarm_view, LADDER, ALARM_VIEW, Gtk
 
 /** ladder_alarm_view_new - @sim, @link: referenced. */
 GtkWidget *ladder_alarm_view_new(LadderSim *sim, LadderBoardLink *link);
-/** ladder_alarm_view_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_alarm_view_list(LadderAlarmView *view);
-/** ladder_alarm_view_refresh - updates the rows of a simulation now, also while hidden. */
-void ladder_alarm_view_refresh(LadderAlarmView *view);
 #endif

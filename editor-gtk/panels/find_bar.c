@@ -164,11 +164,6 @@ int ladder_find_bar_current(LadderFindBar *bar)
 	return bar->current;
 }
 
-const char *ladder_find_bar_message(LadderFindBar *bar)
-{
-	return gtk_label_get_text(GTK_LABEL(bar->message));
-}
-
 const int *ladder_find_bar_place(LadderFindBar *bar)
 {
 	return bar->place;

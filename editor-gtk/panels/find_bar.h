@@ -39,7 +39,5 @@ bool ladder_find_bar_next(LadderFindBar *bar, bool back);
 const struct find *ladder_find_bar_find(LadderFindBar *bar);
 /** ladder_find_bar_current - index of the current hit; -1: none. */
 int ladder_find_bar_current(LadderFindBar *bar);
-/** ladder_find_bar_message - "2 of 7", or why nothing was replaced. Borrowed. */
-const char *ladder_find_bar_message(LadderFindBar *bar);
 
 #endif

@@ -256,11 +256,6 @@ int ladder_problems_count(LadderProblems *problems, bool errors)
 	return errors ? problems->errors : problems->count;
 }
 
-GListModel *ladder_problems_list(LadderProblems *problems)
-{
-	return G_LIST_MODEL(problems->list.selection);
-}
-
 void ladder_problems_set_document(LadderProblems *problems, LadderDocument *document)
 {
 	if (problems->document == document)

@@ -34,7 +34,5 @@ const char *ladder_problems_code(LadderProblems *problems);
 const char *ladder_problems_current(LadderProblems *problems);
 /** ladder_problems_show_error - selects the first error and goes there. False: none. */
 bool ladder_problems_show_error(LadderProblems *problems);
-/** ladder_problems_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_problems_list(LadderProblems *problems);
 
 #endif

@@ -50,11 +50,6 @@ static void tell(LadderSymbolsView *view, char *text)
 	panel_message_set(&view->message, panel_watch_document(view->watch), text);
 }
 
-const char *ladder_symbols_view_message(LadderSymbolsView *view)
-{
-	return gtk_label_get_text(view->message.label);
-}
-
 /* @table: -1: all. */
 static void set_table(LadderSymbolsView *view, int table)
 {
@@ -209,16 +204,6 @@ static void refresh(GtkWidget *widget)
 	follow_table(view, document ? ladder_document_project(document) : NULL);
 	fill_scopes(view, document ? ladder_document_project(document) : NULL);
 	fill_rows(view);
-}
-
-void ladder_symbols_view_refresh(LadderSymbolsView *view)
-{
-	refresh(GTK_WIDGET(view));
-}
-
-GListModel *ladder_symbols_view_list(LadderSymbolsView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
 }
 
 static bool is_symbol(const LadderPanelRow *row, gconstpointer what)

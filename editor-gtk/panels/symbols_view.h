@@ -22,12 +22,6 @@ void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *d
 bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index);
 /** ladder_symbols_view_enter - focuses the name in the selected row. */
 void ladder_symbols_view_enter(LadderSymbolsView *view);
-/** ladder_symbols_view_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_symbols_view_list(LadderSymbolsView *view);
-/** ladder_symbols_view_refresh - updates the rows now, also while hidden. */
-void ladder_symbols_view_refresh(LadderSymbolsView *view);
-/** ladder_symbols_view_message - the last refusal; "": none. Borrowed. */
-const char *ladder_symbols_view_message(LadderSymbolsView *view);
 /** ladder_symbols_view_import - opens a dialog with the changes of an import. @from: file
  * name, for the title. Returns the dialog; it frees itself. */
 GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,

@@ -430,19 +430,9 @@ static void refresh(GtkWidget *widget)
 		g_signal_emit(view, signals[LOST], 0);
 }
 
-void ladder_uses_view_refresh(LadderUsesView *view)
-{
-	refresh(GTK_WIDGET(view));
-}
-
 bool ladder_uses_view_is_lost(LadderUsesView *view)
 {
 	return view->lost;
-}
-
-GListModel *ladder_uses_view_list(LadderUsesView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
 }
 
 /* ---- what is asked for ---- */

@@ -28,9 +28,5 @@ const char *ladder_uses_view_symbol(LadderUsesView *view);
 void ladder_uses_view_set_mode(LadderUsesView *view, enum uses_mode mode);
 /** ladder_uses_view_is_lost - are the uses of a symbol shown that does not exist? */
 bool ladder_uses_view_is_lost(LadderUsesView *view);
-/** ladder_uses_view_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_uses_view_list(LadderUsesView *view);
-/** ladder_uses_view_refresh - updates the rows now, also while hidden. */
-void ladder_uses_view_refresh(LadderUsesView *view);
 
 #endif

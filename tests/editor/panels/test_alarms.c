@@ -6,6 +6,7 @@
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/panels/alarm_view.h"
 #include "editor-gtk/sim/live_value.h"
+#include "tests/editor/panel_list.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -35,12 +36,12 @@ static void set(const char *name, bool on)
 
 static guint rows(void)
 {
-	return g_list_model_get_n_items(ladder_alarm_view_list(view));
+	return g_list_model_get_n_items(panel_items(view));
 }
 
 static bool has(guint at, int column, const char *wanted)
 {
-	LadderPanelRow *row = g_list_model_get_item(ladder_alarm_view_list(view), at);
+	LadderPanelRow *row = g_list_model_get_item(panel_items(view), at);
 	const bool good = row && strcmp(panel_row_text(row, column), wanted) == 0;
 
 	if (!good)
@@ -56,7 +57,7 @@ static void scan(void)
 	scans++;
 	ladder_sim_scan(sim, 1);
 	WAIT(ladder_sim_twin(sim) && ladder_sim_twin(sim)->scan >= scans);
-	ladder_alarm_view_refresh(view);
+	panel_settle();
 }
 
 static GtkWidget *button(const char *label)
@@ -87,7 +88,7 @@ static void test_rows(void)
 
 static void test_acknowledging(void)
 {
-	GtkSingleSelection *selection = GTK_SINGLE_SELECTION(ladder_alarm_view_list(view));
+	GtkSingleSelection *selection = GTK_SINGLE_SELECTION(panel_items(view));
 
 	gtk_single_selection_set_selected(selection, 0);
 	CHECK(!gtk_widget_get_sensitive(button("Acknowledge"))); /* an event */
@@ -123,7 +124,7 @@ static void test_the_past(void)
 {
 	CHECK(ladder_sim_show(sim, 2));
 	WAIT(ladder_sim_twin(sim)->scan == 2);
-	ladder_alarm_view_refresh(view);
+	panel_settle();
 	CHECK(rows() == 1 && has(0, STATE, "active"));
 }
 

@@ -112,7 +112,6 @@ static GtkWidget *uses(LadderDocument *document)
 
 	ladder_uses_view_set_document(view, document);
 	ladder_uses_view_set_symbol(view, 0, "StopButton");
-	ladder_uses_view_refresh(view);
 	return GTK_WIDGET(view);
 }
 
@@ -121,7 +120,6 @@ static GtkWidget *symbols(LadderDocument *document)
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
 
 	ladder_symbols_view_set_document(view, document);
-	ladder_symbols_view_refresh(view);
 	return GTK_WIDGET(view);
 }
 

@@ -16,6 +16,7 @@
 #include "editor-gtk/panels/uses_view.h"
 #include "tests/editor/keys.h"
 #include "tests/editor/saved.h"
+#include "tests/editor/panel_list.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -133,11 +134,6 @@ static GtkWidget *nth_widget(GtkWidget *from, GType type, int nth)
 	return find_widget(from, type, &nth);
 }
 
-static GtkWidget *column_view(GtkWidget *from)
-{
-	return nth_widget(from, GTK_TYPE_COLUMN_VIEW, 0);
-}
-
 /* The first one is inside the drop-down. */
 static GtkWidget *search_of(GtkWidget *from)
 {
@@ -170,7 +166,7 @@ static void check_order(GListModel *list)
 static void test_problems(void)
 {
 	LadderProblems *problems = LADDER_PROBLEMS(ladder_problems_new());
-	GListModel *list = ladder_problems_list(problems);
+	GListModel *list = panel_items(problems);
 	const char *title;
 
 	ladder_problems_set_document(problems, document);
@@ -192,18 +188,18 @@ static void test_problems(void)
 		LadderPanelRow *row = g_list_model_get_item(list, i);
 
 		if (row->rung == 2) {
-			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+			g_signal_emit_by_name(panel_part(GTK_WIDGET(problems), "view"), "activate",
 					      i);
 			CHECK_TEXT(gone_to, "0 2 0 0");
 			CHECK_TEXT(row->text[1], "Main, rung 3, row 1, column A");
 		}
 		if (strstr(row->text[0], "Hours")) {
-			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+			g_signal_emit_by_name(panel_part(GTK_WIDGET(problems), "view"), "activate",
 					      i);
 			CHECK_TEXT(gone_to, "-1 -1 0 5");
 		}
 		if (row->pou == 1) {
-			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+			g_signal_emit_by_name(panel_part(GTK_WIDGET(problems), "view"), "activate",
 					      i);
 			CHECK_TEXT(gone_to, "1 -1 2 8");
 		}
@@ -235,39 +231,39 @@ static void test_problems(void)
 static void test_uses(void)
 {
 	LadderUsesView *view = LADDER_USES_VIEW(ladder_uses_view_new());
-	GListModel *list = ladder_uses_view_list(view);
+	GListModel *list = panel_items(view);
 	guint all;
 
 	ladder_uses_view_set_document(view, document);
 	put(GTK_WIDGET(view));
 	CHECK(g_list_model_get_n_items(list) == 0);
 	ladder_uses_view_set_symbol(view, 0, "Start");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	CHECK(g_list_model_get_n_items(list) == 3);
 	is_row(list, 0, "Start|%IX0.0|declared|declarations||");
 	is_row(list, 1, "Start|%IX0.0|read|Main, rung 1, row 1, column A|Start|");
 	is_row(list, 2, "Start|%IX0.0|read|List, line 2|Start|");
-	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 1);
+	g_signal_emit_by_name(panel_part(GTK_WIDGET(view), "view"), "activate", 1);
 	CHECK_TEXT(gone_to, "0 0 0 0");
-	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 2);
+	g_signal_emit_by_name(panel_part(GTK_WIDGET(view), "view"), "activate", 2);
 	CHECK_TEXT(gone_to, "1 -1 1 8");
-	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 0);
+	g_signal_emit_by_name(panel_part(GTK_WIDGET(view), "view"), "activate", 0);
 	CHECK_TEXT(gone_to, "-1 -1 0 0");
 	ladder_uses_view_set_symbol(view, 0, "%QX0.4");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	is_row(list, 1, "%QX0.4|%QX0.4|coil|Main, rung 3, row 1, column F|%QX0.4|");
 	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, -1, "Main.Delay");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	CHECK_AS(g_list_model_get_n_items(list) == 4,
 		 "an address lists the uses that overlap it");
 	ladder_uses_view_set_symbol(view, 0, "1 +");
-	ladder_uses_view_refresh(view);
+	panel_settle();
 	CHECK(g_list_model_get_n_items(list) == 0);
 	ladder_uses_view_set_mode(view, USES_ALL);
 	all = g_list_model_get_n_items(list);
@@ -319,7 +315,7 @@ static GtkWidget *cell_of(GtkWidget *view, GType type, const char *text)
 	}
 }
 
-static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text)
+static void type_into(GtkWidget *cell, const char *text)
 {
 	CHECK(cell);
 	if (!cell)
@@ -327,7 +323,7 @@ static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text
 	gtk_widget_grab_focus(cell);
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
 	g_signal_emit_by_name(cell, "activate");
-	ladder_symbols_view_refresh(view);
+	panel_settle();
 	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	CHECK_SOON(gtk_root_get_focus(GTK_ROOT(window))); /* in the table again */
 }
@@ -349,7 +345,7 @@ static void test_symbols(void)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
 	GtkWidget *widget = GTK_WIDGET(view), *cell;
-	GListModel *list = ladder_symbols_view_list(view);
+	GListModel *list = panel_items(view);
 	LadderPanelRow *row;
 
 	ladder_symbols_view_set_document(view, document);
@@ -362,21 +358,21 @@ static void test_symbols(void)
 		 "the reason of a refused field is shown");
 	g_object_unref(row);
 	save_pictures(widget, "PANEL_PICTURES", "symbols");
-	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
+	type_into(cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
 	CHECK(has("  Stock           : INT;") || has("  Stock : INT;") || has("  Stock   : INT;"));
-	CHECK_TEXT(ladder_symbols_view_message(view), "");
-	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
+	CHECK_TEXT(panel_text(view, "message"), "");
+	type_into(cell_of(widget, GTK_TYPE_ENTRY, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
 	CHECK(has("| NO \xe5\x90\xaf\xe5\x8a\xa8 |"));
 	ladder_document_check_now(document); /* an unused symbol: its row changes */
-	ladder_symbols_view_refresh(view);
+	panel_settle();
 	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock")) != NULL);
-	type_into(view, cell, "Hours");
+	type_into(cell, "Hours");
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
-		 strstr(ladder_symbols_view_message(view), "Hours"),
+		 strstr(panel_text(view, "message"), "Hours"),
 		 "the reason of a refused name is reported");
 	save_pictures(widget, "PANEL_PICTURES", "symbols-refused");
 	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
-	type_into(view, cell, "Stock");
+	type_into(cell, "Stock");
 	CHECK(!gtk_widget_has_css_class(cell, "error") &&
 	      !gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	cell = nth_widget(widget, GTK_TYPE_CHECK_BUTTON, 0);
@@ -450,11 +446,11 @@ static void test_find(void)
 	CHECK_AS(gtk_widget_get_mapped(nth_widget(widget, GTK_TYPE_TEXT, 0)),
 		 "a letter right after the click is not lost");
 	CHECK(told_hits > 0 && ladder_find_bar_find(bar)->hit->len == 5);
-	CHECK_TEXT(ladder_find_bar_message(bar), "5 hits");
+	CHECK_TEXT(panel_text(bar, "message"), "5 hits");
 	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
 	CHECK(ladder_find_bar_next(bar, false));
 	CHECK_TEXT(gone_to, "0 0 0 1");
-	CHECK_TEXT(ladder_find_bar_message(bar), "4 of 5");
+	CHECK_TEXT(panel_text(bar, "message"), "4 of 5");
 	gtk_widget_activate_action(widget, "find.previous", NULL);
 	CHECK_TEXT(gone_to, "0 0 -1 -1");
 	save_pictures(widget, "PANEL_PICTURES", "find");
@@ -464,14 +460,14 @@ static void test_find(void)
 	CHECK(has("RUNG \"\xe6\xb3\xb5\""));
 	CHECK_TEXT(gone_to, "0 0 0 1");
 	gtk_widget_activate_action(widget, "find.replace-all", NULL);
-	CHECK_TEXT(ladder_find_bar_message(bar), "4 replaced");
+	CHECK_TEXT(panel_text(bar, "message"), "4 replaced");
 	CHECK(!strstr(gtk_editable_get_text(with), "\xe7\x94\xb5"));
 	ladder_document_undo(document);
 	ladder_document_undo(document);
 	WAIT(ladder_find_bar_find(bar)->hit->len == 5);
 	gtk_editable_set_text(with, "a | b");
 	gtk_widget_activate_action(widget, "find.replace-all", NULL);
-	CHECK_AS(strstr(ladder_find_bar_message(bar), ":") && !ladder_document_undo_name(document),
+	CHECK_AS(strstr(panel_text(bar, "message"), ":") && !ladder_document_undo_name(document),
 		 "the reason of a refused replacement is reported");
 	ladder_find_bar_open(bar, false, "Start");
 	ladder_find_bar_close(bar);
@@ -480,7 +476,7 @@ static void test_find(void)
 	CHECK_TEXT(gone_to, "1 -1 1 8");
 	told_closed = 0;
 	ladder_find_bar_open(bar, false, "nothing at all");
-	CHECK_TEXT(ladder_find_bar_message(bar), "Nothing found");
+	CHECK_TEXT(panel_text(bar, "message"), "Nothing found");
 	gtk_widget_activate_action(widget, "find.close", NULL);
 	CHECK(told_closed == 1 && !ladder_find_bar_is_open(bar) && !ladder_find_bar_find(bar));
 	WAIT(G_OBJECT(bar)->ref_count == 1); /* after the window has released the focus */

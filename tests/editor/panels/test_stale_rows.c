@@ -9,6 +9,7 @@
 #include "editor-gtk/panels/init_dialog.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/type_cells.h"
+#include "tests/editor/panel_list.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -50,14 +51,14 @@ static void type_into(GtkWidget *cell, const char *name)
 	g_signal_emit_by_name(cell, "activate");
 }
 
-static void undo_all(LadderSymbolsView *view)
+static void undo_all(void)
 {
 	while (ladder_document_undo(document))
 		;
-	ladder_symbols_view_refresh(view);
+	panel_settle();
 }
 
-static void test_moved(LadderSymbolsView *view, GtkWidget *cell)
+static void test_moved(GtkWidget *cell)
 {
 	char *why = NULL;
 
@@ -68,7 +69,7 @@ static void test_moved(LadderSymbolsView *view, GtkWidget *cell)
 	type_into(cell, "Spare");
 	CHECK_AS(has("Spare : INT;") && !has("Stock"),
 		 "a row finds its declaration by the new name");
-	undo_all(view);
+	undo_all();
 }
 
 static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
@@ -79,8 +80,8 @@ static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
 	type_into(cell, "Stock");
 	CHECK_AS(!has("Stock") && gtk_widget_has_css_class(cell, "error"),
 		 "a row of a deleted symbol changes no other one");
-	CHECK_TEXT(ladder_symbols_view_message(view), "Spare, Name: There is no such symbol");
-	undo_all(view);
+	CHECK_TEXT(panel_text(view, "message"), "Spare, Name: There is no such symbol");
+	undo_all();
 }
 
 /* Opens the form of an array at the row of @name; returns the entry of its last index. */
@@ -150,7 +151,7 @@ static void test_new_pou(LadderSymbolsView *view)
 	     GTK_IS_TEXT(cell));
 	CHECK(cell);
 	ladder_document_open_text(document, "/tmp/x/test.rung", with, strlen(with), true);
-	ladder_symbols_view_refresh(view);
+	panel_settle();
 	CHECK_AS(gtk_drop_down_get_selected(GTK_DROP_DOWN(scopes)) == 3,
 		 "the scope stays that of Main");
 	gtk_editable_set_text(GTK_EDITABLE(cell), "7");
@@ -186,7 +187,7 @@ int main(void)
 	WAIT((cell = cell_with(GTK_WIDGET(view), "Spare")) != NULL);
 	CHECK(cell);
 	if (cell) {
-		test_moved(view, cell);
+		test_moved(cell);
 		test_gone(view, cell);
 		test_array(view);
 	}
