@@ -14,6 +14,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -149,6 +150,21 @@ static void test_order(void)
 	is_interrupted = false;
 }
 
+static mode_t mode(void)
+{
+	struct stat status;
+
+	return stat(path, &status) == 0 ? status.st_mode & 0777 : 0;
+}
+
+static void test_mode(void)
+{
+	unlink(path);
+	CHECK_AS(save(0, 0) && mode() == 0644, "all may read a new file, its owner may write it");
+	CHECK_AS(chmod(path, 0640) == 0 && save(0, 0) && mode() == 0640,
+		 "a file keeps who may read and write it");
+}
+
 /* Each call fails once, then each and all behind it. The last one syncs the folder. */
 static void test_errors(void)
 {
@@ -221,6 +237,7 @@ int main(void)
 	}
 	snprintf(path, sizeof(path), "%s/file", folder);
 	test_order();
+	test_mode();
 	test_errors();
 	test_kills();
 	count_files(true);

@@ -324,6 +324,27 @@ static bool becomes(const char *text, enum literal_result result)
 	return literal_parse(text, strlen(text), &last) == result;
 }
 
+/* Every month from -1 to 14 and every day from -1 to 33. */
+static void calendar(void)
+{
+	static const int length[] = { 0, 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31 };
+	static const int years[] = { 1900, 1970, 2000, 2023, 2024 };
+	int wrong = 0;
+
+	for (size_t i = 0; i < sizeof(years) / sizeof(*years); i++)
+		for (int month = -1; month <= 14; month++)
+			for (int day = -1; day <= 33; day++) {
+				const int y = years[i];
+				const bool leap = y % 4 == 0 && (y % 100 != 0 || y % 400 == 0);
+				const bool is_there = month >= 1 && month <= 12 && day >= 1 &&
+					day <= length[month] + (month == 2 && leap);
+				int64_t ns;
+
+				wrong += iec_date(y, month, day, &ns) != is_there;
+			}
+	CHECK_AS(wrong == 0, "a day is one of the calendar or is refused");
+}
+
 static void dates(void)
 {
 	CHECK(ns_of("D#1970-01-02", IEC_DATE, INT64_C(86400000000000)));
@@ -412,6 +433,7 @@ int main(void)
 	durations();
 	long_texts();
 	dates();
+	calendar();
 	texts();
 	lreals();
 	return tap_done();
