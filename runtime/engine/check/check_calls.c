@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_calls - calls between POUs: no circle, and not too deep.
+ * check_calls - calls between POUs: no circle, and not too deep; what never runs.
  *
  * A call of a function or function block of the project is a step from POU to POU.
  * The steps are walked depth first, without recursion, each list once.
@@ -124,15 +124,31 @@ static void step(struct calls *c)
 	}
 }
 
-/* Warns of a SUBROUTINE that nothing calls. */
+/* Does the configuration run programs, but not this one? Without any PROGRAM line all run. */
+static bool is_left_out(struct calls *c, const struct pou *pou)
+{
+	struct names *names = &scope_project(c->scope)->names;
+	const struct config *config = c->project->config;
+	bool any = false, runs = false;
+
+	for (int i = 0; config && i < config->count; i++) {
+		any |= config->entry[i].kind == CONFIG_PROGRAM;
+		runs |= config->entry[i].pou && names_fold(names, config->entry[i].pou) ==
+						names_fold(names, pou->name);
+	}
+	return any && !runs;
+}
+
+/* Warns of a SUBROUTINE that nothing calls, and of a PROGRAM that runs in no task either. */
 static void warn_of_uncalled(struct calls *c, int count)
 {
 	for (int i = 0; i < count; i++) {
 		const struct pou *pou = c->list[i].pou;
-		struct diag place = { .id = DIAG_NEVER_CALLED, .file = pou->file,
-				      .line = pou->line, .pou = name_of(c, i) };
+		struct diag place = { .id = pou->kind == POU_PROGRAM ? DIAG_NOT_RUN : DIAG_NEVER_CALLED,
+				      .file = pou->file, .line = pou->line, .pou = name_of(c, i) };
 
-		if (pou->kind == POU_SUBROUTINE && !c->called[i])
+		if (!c->called[i] && (pou->kind == POU_SUBROUTINE ||
+				      (pou->kind == POU_PROGRAM && is_left_out(c, pou))))
 			diag_add(c->diags, place, "%s", name_of(c, i));
 	}
 }

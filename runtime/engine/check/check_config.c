@@ -125,28 +125,6 @@ static void check_program(struct config_check *c,
 		       scope_text(c->scope, entry->task));
 }
 
-/* Without any PROGRAM line all programs run. */
-static void check_left_out(struct config_check *c)
-{
-	bool any = false;
-
-	for (int i = 0; i < c->config->count; i++)
-		any |= c->config->entry[i].kind == CONFIG_PROGRAM;
-	for (int i = 0; any && i < c->project->pou_count; i++) {
-		const struct pou *pou = &c->project->pou[i];
-		struct diag place = { .id = DIAG_NOT_RUN, .file = pou->file,
-				      .line = pou->line,
-				      .pou = scope_text(c->scope, pou->name) };
-		bool runs = pou->kind != POU_PROGRAM; /* where it is called */
-
-		for (int k = 0; k < c->config->count && !runs; k++)
-			runs = same_name(c, c->config->entry[k].pou, pou->name);
-		if (!runs)
-			diag_add(c->diags, place, "%s",
-				 scope_text(c->scope, pou->name));
-	}
-}
-
 /* At the line that makes them too large. */
 static void check_areas(struct config_check *c)
 {
@@ -192,6 +170,5 @@ bool check_config(struct scope *scope, struct uses *uses,
 			check_program(&c, entry);
 	}
 	check_areas(&c);
-	check_left_out(&c);
 	return c.good;
 }

@@ -569,13 +569,15 @@ static bool il_check_flow(struct il_check *c, const struct il_line *line)
 	return good;
 }
 
-/* CAL of a SUBROUTINE, which has no parameters. */
+/* CAL of a SUBROUTINE or PROGRAM, which has no parameters. */
 static bool check_routine(struct il_check *c, int at, const struct pou *to)
 {
 	const struct il_line *line = &c->fn.il->line[at];
 	bool good = true;
 
-	if (to->kind != POU_SUBROUTINE)
+	if (to->kind != POU_SUBROUTINE &&
+	    !(to->kind == POU_PROGRAM && (c->fn.pou->language == LANGUAGE_ST ||
+					  scope_project(c->fn.scope)->words.own_first)))
 		return il_report(&c->fn, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&

@@ -13,7 +13,8 @@
 
 /* The callee of the call that is being walked. */
 struct callee {
-	const struct word_row *row; /* of an instance; NULL: a subroutine      */
+	const struct word_row *row; /* of an instance; NULL: a subroutine, a program */
+	const struct pou *program;  /* NULL: none                              */
 	int pin;                    /* of the last argument without a name; -1 */
 	uint64_t given[4];          /* pins that have a value, the first ones */
 };
@@ -45,9 +46,10 @@ static void check_counter(struct operand_check *c, struct expr *expr)
 	check_said(c, DIAG_ST_INTEGER, text);
 }
 
-static bool is_subroutine(const struct pou *pou)
+/* Does CAL run it without an instance? */
+static bool is_routine(const struct pou *pou)
 {
-	return pou && pou->kind == POU_SUBROUTINE;
+	return pou && (pou->kind == POU_SUBROUTINE || pou->kind == POU_PROGRAM);
 }
 
 /* True: an instance or a subroutine, whose arguments follow. */
@@ -57,9 +59,13 @@ static bool check_callee(struct operand_check *c, struct expr *expr, struct call
 	const struct meaning *m;
 	enum diag_id why;
 
+	const struct pou *routine = scope_pou(c->scope, c->pou, id);
+
 	*callee = (struct callee){ .pin = -1 };
-	if (is_subroutine(scope_pou(c->scope, c->pou, id)))
+	if (is_routine(routine)) {
+		callee->program = routine->kind == POU_PROGRAM ? routine : NULL;
 		return true;
+	}
 	if (!check_part(c, expr, OPERAND_CALLED))
 		return false;
 	m = scope_find(c->scope, c->pou, id, &why);
@@ -104,9 +110,48 @@ static bool said_equals(struct operand_check *c, const struct callee *callee, co
 	return true;
 }
 
+/* `Other(In := 5, Out => Level)`: In and Out are variables of the program. */
+static void check_program_argument(struct operand_check *c, struct callee *callee,
+				   const struct st_part *part, struct expr *expr)
+{
+	struct names *names = &c->project->names;
+	const bool output = part->role == ST_OUTPUT;
+	const struct var_table *table = &callee->program->vars;
+	const uint32_t name = part->pin.len ? names_intern(names, part->pin.text, part->pin.len) : 0;
+	const int at = vars_argument(table, name ? names_fold(names, name) : 0, output, &callee->pin);
+	const char *program = project_text(c->project, callee->program->name);
+	const struct meaning *m;
+	char text[2 * LIMIT_NAME + 2];
+	enum diag_id why;
+	int len;
+
+	if (at < 0 && !part->pin.len) {
+		c->spot = part->text;
+		check_said(c, DIAG_TOO_MANY_OPERANDS, program);
+		return;
+	}
+	len = snprintf(text, sizeof(text), "%s.%.*s", program, (int)part->pin.len, part->pin.text);
+	if (at >= 0)
+		len = snprintf(text, sizeof(text), "%s.%s", program, project_text(c->project, table->var[at].name));
+	if (at < 0) {
+		c->spot = part->text;
+		check_said(c, DIAG_NO_PIN, text);
+		return;
+	}
+	m = scope_find(c->scope, c->pou, names_intern(names, text, (size_t)len), &why);
+	if (m)
+		uses_add(c->uses, m, output ? USE_READ : USE_WRITTEN);
+	check_part(c, expr, output ? OPERAND_WRITTEN : table->var[at].array.count ||
+		   table->var[at].type == IEC_NONE ? OPERAND_WHOLE : OPERAND_READ);
+}
+
 static void check_argument(struct operand_check *c, struct callee *callee, const struct st_part *part,
 			   struct expr *expr)
 {
+	if (callee->program) {
+		check_program_argument(c, callee, part, expr);
+		return;
+	}
 	const struct word_pin *pin = pin_of(callee, part);
 	if (said_equals(c, callee, part, expr))
 		return;
@@ -174,7 +219,7 @@ static bool is_callable(struct operand_check *c, bool open, const struct st_part
 	const struct meaning *m;
 	enum diag_id why;
 
-	if (is_subroutine(scope_pou(c->scope, c->pou, id)))
+	if (is_routine(scope_pou(c->scope, c->pou, id)))
 		return true;
 	m = scope_find(c->scope, c->pou, id, &why);
 	if (!m && word != WORD_COUNT && words_row(&c->project->words, word)->kind == WORD_FB)

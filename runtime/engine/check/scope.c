@@ -813,6 +813,26 @@ static bool begin_address(struct path *path, const char *text, size_t len)
 	return true;
 }
 
+/* `Other.Count`, in which Other is a program and Count one of its variables. */
+static bool begin_program(struct path *path, const char *text, size_t len)
+{
+	struct scope *scope = path->scope;
+	struct names *names = &scope->project->names;
+	const struct declared *found = find_in(scope, POUS,
+					       names_fold(names, names_intern(names, text, len)));
+
+	if (!found || scope->project->pou[found->index].kind != POU_PROGRAM || *path->at != '.')
+		return false;
+	path->at++;
+	len = take(path, ".[^", &text);
+	found = find_in(scope, (uint32_t)found->index + 1,
+			names_fold(names, names_intern(names, text, len)));
+	if (!found || found->flags & (VAR_TEMP | VAR_SFC))
+		return refuse(path, DIAG_NO_PIN);
+	mean_variable(scope, found, &path->m);
+	return true;
+}
+
 static bool begin(struct path *path)
 {
 	const char *text;
@@ -821,10 +841,13 @@ static bool begin(struct path *path)
 
 	if (!len || path->at == path->end)
 		return false;
-	if (scope_mean_name(path->scope, path->table, text, len, &path->m))
+	if (scope_mean_name(path->scope, path->table, text, len, &path->m) ||
+	    begin_program(path, text, len))
 		return follow(path);
 	if (*text == '%' && path->at[0] == '.' && path->end - path->at > 1 && path->at[1] == '%')
 		return scope_mean_address(path->scope, text, len, &path->m, &path->why); /* %MW0.%X3 */
+	if (path->why == DIAG_NO_PIN)
+		return false;
 	path->at = start;
 	len = take(path, "[", &text); /* %MX0.0[3] */
 	return path->at < path->end && begin_address(path, text, len);

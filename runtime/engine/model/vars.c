@@ -155,3 +155,16 @@ void vars_pop(struct var_table *table, int block)
 	for (int i = block + 1; i < table->block_count; i++)
 		table->block[i].first--;
 }
+
+int vars_argument(const struct var_table *table, uint32_t fold, bool output, int *last)
+{
+	int index = fold ? vars_find(table, fold) : *last;
+
+	if (fold)
+		return index >= 0 && vars_flags(table, index) & (output ? VAR_OUTPUT : VAR_INPUT) ? index : -1;
+	do
+		index++;
+	while (index < table->count && !(vars_flags(table, index) & VAR_INPUT));
+	*last = index;
+	return index < table->count ? index : -1;
+}

@@ -135,6 +135,13 @@ struct var_table {
 const struct var_block *vars_block(const struct var_table *table, int index);
 /** vars_flags - of the block that contains variable @index. */
 uint16_t vars_flags(const struct var_table *table, int index);
+/**
+ * vars_argument - the variable that an argument of a call of a program goes to, or comes from
+ * @fold: the name as written, folded; 0: none, the next input behind @last, at first -1
+ *
+ * -1: there is none. Scan-safe: yes.
+ */
+int vars_argument(const struct var_table *table, uint32_t fold, bool output, int *last);
 /** vars_is_eno - whether it is the implicit ENO that a function's body may set.
  * Scan-safe: yes. */
 bool vars_is_eno(const struct var_table *table, int index);

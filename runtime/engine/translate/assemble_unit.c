@@ -1045,7 +1045,7 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 	list->pou = u->pou;
 	list->il = watch && u->watch.count ? &u->watch : &u->il;
 	list->types = watch && u->watch.count ? u->watch_types : u->types;
-	list->straight = u->pou->kind == POU_PROGRAM;
+	list->straight = u->pou->kind == POU_PROGRAM && !as->called[unit];
 	as->slots = list->straight ? &as->program_slots : &frame->slots;
 	bits_end(as);
 	as->scratch_used = 0;
@@ -1088,6 +1088,27 @@ static bool assemble_section(struct assembler *as, bool watch)
 	return true;
 }
 
+/* Which programs and subroutines another list calls. */
+static bool find_called(struct assembler *as)
+{
+	struct translation *t = as->translation;
+	const struct pou *to;
+
+	as->called = arena_alloc(as->arena, (size_t)t->unit_count + 1);
+	if (!as->called)
+		return false;
+	for (int i = 0; i < t->unit_count; i++)
+		for (int k = 0; k < t->unit[i].il.count; k++) {
+			const struct il_line *line = &t->unit[i].il.line[k];
+
+			to = line->kind == IL_OP && line->op == OP_CAL ?
+				scope_pou(t->scope, t->unit[i].pou, line->operand) : NULL;
+			if (to)
+				as->called[to - t->project->pou] = true;
+		}
+	return true;
+}
+
 /* The programs of tasks that can be interrupted have safe points. */
 static bool find_pointed(struct assembler *as)
 {
@@ -1120,7 +1141,7 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->listing = watch && translation->listing;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
-	if (!as->entry || !layout_make(as) || !layout_pointers(as) || !pack_tasks(as) || !find_pointed(as) ||
+	if (!as->entry || !find_called(as) || !layout_make(as) || !layout_pointers(as) || !pack_tasks(as) || !find_pointed(as) ||
 	    !assemble_section(as, false))
 		return NULL;
 	layout_core(as);

@@ -89,6 +89,7 @@ struct assembler {
 
 	/* safe points of programs whose tasks can be interrupted */
 	bool *pointed;             /* by unit                                 */
+	bool *called;              /* by unit: a CAL runs it, of another one  */
 	struct point *point;       /* of all units, in order                  */
 	int point_count;
 	int open_point;            /* unwatched: the last one of the unit, whose words are being

@@ -3,7 +3,7 @@
  * pack_tasks - tasks and their programs, as they stand in the code image.
  *
  * Without a CONFIGURATION, and for programs that it gives no task: one task that runs
- * in every cycle, behind all others.
+ * in every cycle, behind all others. Without one, a program that another one calls runs only then.
  */
 #include "engine/translate/assembler.h"
 
@@ -134,7 +134,7 @@ bool pack_tasks(struct assembler *as)
 	if (any)
 		add_named(as, last, 0);
 	for (int i = 0; !any && i < as->translation->unit_count; i++)
-		if (as->translation->unit[i].pou->kind == POU_PROGRAM)
+		if (as->translation->unit[i].pou->kind == POU_PROGRAM && !as->called[i])
 			add_call(as, last, i);
 	/* Nothing to do in every cycle, but a program has one task at least. */
 	if (last->count == 0 && as->task_count > 1)

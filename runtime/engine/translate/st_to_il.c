@@ -894,6 +894,83 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 		here(s, call->skip);
 }
 
+/* `Other.Level` of a program and one of its variables. */
+static const char *variable_of(struct st_il *s, const struct pou *program, int index, size_t *len)
+{
+	struct project *project = s->translation->project;
+	char text[2 * LIMIT_NAME + 2];
+	const int size = snprintf(text, sizeof(text), "%s.%s", project_text(project, program->name),
+				  project_text(project, program->vars.var[index].name));
+	const uint32_t id = st_intern(s, text, (size_t)size);
+
+	*len = names_len(&project->names, id);
+	return names_text(&project->names, id);
+}
+
+/* Other.Level := the expression that was read. */
+static void store_input(struct st_il *s, const char *name, size_t len)
+{
+	struct expr *expr = s->ld.expr;
+
+	expr->target = name;
+	expr->target_len = len;
+	expr->target_index = expr->target_base = -1;
+	ld_store(&s->ld);
+}
+
+/* The place that was read := Other.Level */
+static void take_output(struct st_il *s, const char *name, size_t len)
+{
+	struct expr *expr = s->ld.expr;
+	const struct expr_node place = expr->node[expr->root];
+
+	if (expr->count == LIMIT_EXPR_NODES)
+		return;
+	expr->target = place.text;
+	expr->target_len = place.len;
+	expr->target_index = place.op == EXPR_INDEX ? place.left : -1;
+	expr->target_base = place.op == EXPR_INDEX ? place.right : -1;
+	expr->target_tail = place.tail;
+	expr->root = expr->count++;
+	expr->node[expr->root] = (struct expr_node){ .op = EXPR_NAME, .text = name,
+						     .len = (uint16_t)len, .left = -1, .right = -1 };
+	ld_store(&s->ld);
+}
+
+/* The arguments that go into a program, or, @output, come out of it. */
+static void program_arguments(struct st_il *s, const struct pou *program, struct st_walk walk,
+				  bool output)
+{
+	struct names *names = &s->translation->project->names;
+	struct st_part part;
+	const char *name;
+	size_t len;
+	int last = -1;
+
+	while (next_part(s, &walk, &part) && part.role != ST_NO_PART) {
+		const uint32_t fold = part.pin.len ? names_fold(names, st_intern(s, part.pin.text,
+										 part.pin.len)) : 0;
+		const int at = vars_argument(&program->vars, fold, part.role == ST_OUTPUT, &last);
+
+		if (at < 0 || (part.role == ST_OUTPUT) != output)
+			continue;
+		name = variable_of(s, program, at, &len);
+		if (output)
+			take_output(s, name, len);
+		else
+			store_input(s, name, len);
+	}
+}
+
+/* A program is called with copies of its arguments: its variables exist once. */
+static void call_program(struct st_il *s, const struct pou *program, struct st_walk *walk)
+{
+	program_arguments(s, program, *walk, false);
+	at_item(s);
+	ld_emit(&s->ld, OP_CAL, 0, program->name);
+	program_arguments(s, program, *walk, true);
+}
+
 /* An instance may have the name of a function. */
 static bool is_function(struct st_il *s, const struct expr_node *callee)
 {
@@ -909,12 +986,20 @@ static bool is_function(struct st_il *s, const struct expr_node *callee)
 static void call_statement(struct st_il *s, struct st_walk *walk)
 {
 	struct st_part part;
+	const struct expr_node *root;
+	const struct pou *pou;
 	enum iec_type type = IEC_NONE;
 	uint32_t good;
 
 	begins(s);
 	if (!next_part(s, walk, &part)) {
 		s->ld.failed = true;
+		return;
+	}
+	root = &s->ld.expr->node[s->ld.expr->root];
+	pou = scope_pou(s->translation->scope, s->pou, st_intern(s, root->text, root->len));
+	if (pou && pou->kind == POU_PROGRAM) {
+		call_program(s, pou, walk);
 		return;
 	}
 	if (!is_function(s, &s->ld.expr->node[s->ld.expr->root])) {
