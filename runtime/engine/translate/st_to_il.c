@@ -997,7 +997,8 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 		return;
 	}
 	root = &s->ld.expr->node[s->ld.expr->root];
-	pou = scope_pou(s->translation->scope, s->pou, st_intern(s, root->text, root->len));
+	pou = root->op != EXPR_NAME ? NULL :
+	      scope_pou(s->translation->scope, s->pou, st_intern(s, root->text, root->len));
 	if (pou && pou->kind == POU_PROGRAM) {
 		call_program(s, pou, walk);
 		return;
