@@ -145,6 +145,27 @@ static void check_program_argument(struct operand_check *c, struct callee *calle
 		   table->var[at].type == IEC_NONE ? OPERAND_WHOLE : OPERAND_READ);
 }
 
+/* @part has a name. */
+static bool has_pin(struct operand_check *c, struct callee *callee, const struct st_part *part)
+{
+	struct names *names = &c->project->names;
+
+	if (callee->program)
+		return vars_find(&callee->program->vars, names_fold(names, names_intern(names, part->pin.text,
+											part->pin.len))) >= 0;
+	return !callee->row || pin_of(callee, part);
+}
+
+static void said_no_pin(struct operand_check *c, const struct st_part *part)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.*s", part->pin.len < LIMIT_ARG ? part->pin.len : LIMIT_ARG - 1,
+		 part->pin.text);
+	c->spot = part->pin.text;
+	check_said(c, DIAG_NO_PIN, text);
+}
+
 static void check_argument(struct operand_check *c, struct callee *callee, const struct st_part *part,
 			   struct expr *expr)
 {
@@ -247,7 +268,10 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 	if (!check_callee(c, c->expr, &callee))
 		return;
 	while (st_next(walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
-		check_argument(c, &callee, &part, c->expr);
+		if (part.role != ST_OPEN)
+			check_argument(c, &callee, &part, c->expr);
+		else if (!has_pin(c, &callee, &part))
+			said_no_pin(c, &part);
 }
 
 /* A value of CASE: a constant, or an expression of constants. */

@@ -227,8 +227,12 @@ static bool next_of_call(struct st_walk *walk, struct st_part *part, struct expr
 	if (walk->last != ST_CALLED && !lex_accept(lex, ","))
 		return st_fail(walk, diags, place, DIAG_EXPECTED, ", or )");
 	take_pin(walk, part);
-	walk->last = part->role;
 	part->text = lex->token.text;
+	if (part->pin.len && (lex_is(lex, ",") || lex_is(lex, ")"))) {
+		part->role = walk->last = ST_OPEN;
+		return true;
+	}
+	walk->last = part->role;
 	return st_value(walk, expr, diags, place);
 }
 

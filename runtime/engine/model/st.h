@@ -66,6 +66,7 @@ enum st_role {
 	ST_HIGH,       /* of a choice: the end of the range that LOW began    */
 	ST_VARIABLE,   /* of FOR                                              */
 	ST_FROM, ST_TO, ST_BY,
+	ST_OPEN,       /* `PIN :=` or `PIN =>` with nothing behind it: as if it were not there */
 	ST_CALLED,     /* what is called: an instance, a subroutine, a function */
 	ST_INPUT,      /* an argument                                         */
 	ST_OUTPUT,     /* => variable                                         */
@@ -74,7 +75,7 @@ enum st_role {
 /* A part of a statement; st_next() gets its expression. */
 struct st_part {
 	enum st_role role;
-	struct expr_tail pin; /* of ST_INPUT, ST_OUTPUT; len 0: by its place  */
+	struct expr_tail pin; /* of ST_INPUT, ST_OUTPUT, where len 0 is: by its place; of ST_OPEN */
 	const char *text;     /* its first byte                               */
 };
 

@@ -874,6 +874,8 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 	skip_unless(s, good);
 	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
+		if (part.role == ST_OPEN)
+			continue;
 		if (is_enable(row, &part)) {
 			if (!call->skip)
 				call->skip = new_label(s);
@@ -948,6 +950,8 @@ static void program_arguments(struct st_il *s, const struct pou *program, struct
 	int last = -1;
 
 	while (next_part(s, &walk, &part) && part.role != ST_NO_PART) {
+		if (part.role == ST_OPEN)
+			continue;
 		const uint32_t fold = part.pin.len ? names_fold(names, st_intern(s, part.pin.text,
 										 part.pin.len)) : 0;
 		const int at = vars_argument(&program->vars, fold, part.role == ST_OUTPUT, &last);

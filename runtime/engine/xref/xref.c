@@ -1152,7 +1152,8 @@ static void walk_argument(struct xref_walk *walk, const struct st_part *part,
 			xref_add(walk, target, kind_of_pin(dir, part->role == ST_OUTPUT),
 				 (uint32_t)(part->pin.text - text), part->pin.len);
 	}
-	walk_part(walk, part, parts, kind_of_value(dir, part->role == ST_OUTPUT));
+	if (part->role != ST_OPEN)
+		walk_part(walk, part, parts, kind_of_value(dir, part->role == ST_OUTPUT));
 }
 
 static void walk_statement(struct xref_walk *walk, struct expr *expr, struct diag_list *ignored)
@@ -1170,7 +1171,7 @@ static void walk_statement(struct xref_walk *walk, struct expr *expr, struct dia
 	       part.role != ST_NO_PART) {
 		if (part.role == ST_CALLED)
 			walk_callee(walk, &part, &parts, expr, &word);
-		else if (part.role == ST_INPUT || part.role == ST_OUTPUT)
+		else if (part.role == ST_INPUT || part.role == ST_OUTPUT || part.role == ST_OPEN)
 			walk_argument(walk, &part, &parts, word);
 		else
 			walk_part(walk, &part, &parts, part.role == ST_VARIABLE ? XREF_CHANGED : XREF_READ);
