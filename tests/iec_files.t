@@ -56,6 +56,9 @@ is($out, <<'END', 'program, block, type and list of global variables are one pro
 END
 is((said("$ladder trace tc/*.Tc* script 2>/dev/null"))[0], $out, 'the files one by one are the same project');
 
+like((said("$ladder check tc/*.Tc*"))[0], qr{^tc/E_Mode\.TcDUT, tc/FB_Pump\.TcPOU, tc/MAIN\.TcPOU, tc/Totals\.TcGVL: good}m, 'four files are named in the sum');
+like((said("$ladder check tc/*.Tc* tc/E_Mode.TcDUT"))[0], qr{^5 files: \d+ errors?}m, 'more are counted');
+
 # ---- places ----
 
 put('tc/MAIN.TcPOU' => tc('POU', 'MAIN', declaration($main) . body("n := m;\r\n$steps;")));

@@ -9,18 +9,34 @@
 
 #include <stdlib.h>
 
+#define PATHS_SHOWN 4 /* more are counted */
+
 static int warnings_of(const struct diag_list *diags)
 {
 	return diags->count + diags->dropped - diags->errors;
 }
 
-static void print_sum(const char *path, const struct diag_list *diags,
+/* @paths: with a newline between two of them. */
+static void print_paths(const char *paths, const struct sink *out)
+{
+	int count = 1;
+
+	for (const char *at = paths; *at; at++)
+		count += *at == '\n';
+	if (count > PATHS_SHOWN) {
+		sink_printf(out, "%d files", count);
+		return;
+	}
+	for (; *paths; paths++)
+		sink_write(out, *paths == '\n' ? ", " : paths, *paths == '\n' ? 2 : 1);
+}
+
+static void print_sum(const char *paths, const struct diag_list *diags,
 		      const struct sink *out)
 {
 	int errors = diags->errors, warnings = warnings_of(diags);
 
-	for (; *path; path++)
-		sink_write(out, *path == '\n' ? ", " : path, *path == '\n' ? 2 : 1);
+	print_paths(paths, out);
 	if (errors)
 		sink_printf(out, ": %d error%s", errors, errors > 1 ? "s" : "");
 	else
