@@ -54,6 +54,8 @@ struct _LadderLineValues {
 	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
 	char *(*note)(void *context, int line);
 	void *noting;             /* context of it                               */
+	int (*hidden)(void *context, int line);
+	void *hiding;             /* context of it                               */
 	char *spoken;             /* the description of the view                 */
 	gint64 spoken_us;         /* when it was looked at                       */
 };
@@ -497,17 +499,51 @@ static void draw_ground(const struct pen *pen, int x, int y, int height)
 				(float)((VALUE + RESULT + 1) * pen->cell), (float)height));
 }
 
-static void draw_line(const struct pen *pen, int line, int y, int height)
+/* -1: it is hidden itself. */
+static int hidden_behind(LadderLineValues *values, int line)
+{
+	return values->hidden ? values->hidden(values->hiding, line) : 0;
+}
+
+/* At the end of a line behind which some are hidden. Caller frees. */
+static char *hidden_words(int hidden)
+{
+	return g_strdup_printf(ngettext("… %d line", "… %d lines", (gulong)hidden), hidden);
+}
+
+static void draw_hidden(const struct pen *pen, GtkTextIter at, int hidden, int y)
+{
+	char *words = hidden_words(hidden);
+	GdkRectangle end;
+
+	if (!gtk_text_iter_ends_line(&at))
+		gtk_text_iter_forward_to_line_end(&at);
+	gtk_text_view_get_iter_location(GTK_TEXT_VIEW(pen->values), &at, &end);
+	draw(pen, words, end.x + pen->cell, y, TOKEN_COMMENT, PANGO_WEIGHT_NORMAL);
+	g_free(words);
+}
+
+static int hidden_columns(int hidden)
+{
+	char *words = hidden ? hidden_words(hidden) : NULL;
+	const int columns = words ? columns_of(words) + 1 : 0;
+
+	g_free(words);
+	return columns;
+}
+
+static void draw_line(const struct pen *pen, int line, int hidden, int y, int height)
 {
 	const struct seen *seen = seen_of(pen->values, line);
-	const int wanted = MAX(seen ? seen->columns : 0, pen->values->longest) + GAP;
+	const int columns = seen ? seen->columns + hidden_columns(hidden) : 0;
+	const int wanted = MAX(columns, pen->values->longest) + GAP;
 	int x = pen->left + wanted * pen->cell, width = 0;
 
 	if (!seen || (!seen->text[0] && !seen->after[0]))
 		return;
 	if (x > pen->limit) {
 		x = pen->limit;
-		if (seen->columns * pen->cell + pen->left > x)
+		if (columns * pen->cell + pen->left > x)
 			draw_ground(pen, x, y, height);
 	}
 	if (seen->text[0])
@@ -527,23 +563,29 @@ static void draw_head(const struct pen *pen, int y)
 		     PANGO_WEIGHT_NORMAL);
 }
 
-static void draw_lines(const struct pen *pen, const GdkRectangle *seen)
+static void draw_lines(const struct pen *pen, const GdkRectangle *seen, bool on)
 {
 	GtkTextView *view = GTK_TEXT_VIEW(pen->values);
 	const int count = gtk_text_buffer_get_line_count(gtk_text_view_get_buffer(view));
 	GtkTextIter at;
-	int y, height;
+	int y, height, hidden;
 
 	gtk_text_view_get_line_at_y(view, &at, seen->y, &y);
-	for (int line = gtk_text_iter_get_line(&at); line < count; line++) {
+	for (int line = gtk_text_iter_get_line(&at); line < count; line += 1 + MAX(hidden, 0)) {
+		hidden = hidden_behind(pen->values, line);
+		gtk_text_iter_set_line(&at, line);
 		gtk_text_view_get_line_yrange(view, &at, &y, &height);
 		if (y > seen->y + seen->height)
 			break;
-		draw_line(pen, line, y, height);
-		if (line == 0 && !line_values_text(pen->values, 0) &&
+		if (hidden < 0)
+			continue;
+		if (on)
+			draw_line(pen, line, hidden, y, height);
+		if (hidden > 0)
+			draw_hidden(pen, at, hidden, y);
+		if (on && line == 0 && !line_values_text(pen->values, 0) &&
 		    !line_values_result(pen->values, 0))
 			draw_head(pen, y);
-		gtk_text_iter_forward_line(&at);
 	}
 }
 
@@ -571,9 +613,9 @@ static void ladder_line_values_snapshot_layer(GtkTextView *view, GtkTextViewLaye
 
 	GTK_TEXT_VIEW_CLASS(ladder_line_values_parent_class)->snapshot_layer(view, layer,
 									    snapshot);
-	if (layer != GTK_TEXT_VIEW_LAYER_ABOVE_TEXT || !is_on(values))
+	if (layer != GTK_TEXT_VIEW_LAYER_ABOVE_TEXT || !(is_on(values) || values->hidden))
 		return;
-	if (!values->longest)
+	if (is_on(values) && !values->longest)
 		count_longest(values);
 	gtk_text_view_get_visible_rect(view, &seen);
 	pen.cell = cell_width(values);
@@ -581,7 +623,7 @@ static void ladder_line_values_snapshot_layer(GtkTextView *view, GtkTextViewLaye
 	pen.limit = MAX(seen.x + seen.width - (VALUE + RESULT) * pen.cell, pen.left);
 	pen.layout = gtk_widget_create_pango_layout(GTK_WIDGET(view), "0");
 	pen.baseline = PANGO_PIXELS(pango_layout_get_baseline(pen.layout));
-	draw_lines(&pen, &seen);
+	draw_lines(&pen, &seen, is_on(values));
 	g_object_unref(pen.layout);
 }
 
@@ -628,6 +670,13 @@ void line_values_set_note(LadderLineValues *values, char *(*note)(void *context,
 {
 	values->note = note;
 	values->noting = context;
+}
+
+void line_values_set_hidden(LadderLineValues *values, int (*hidden)(void *context, int line),
+			    void *context)
+{
+	values->hidden = hidden;
+	values->hiding = context;
 }
 
 void line_values_tell(LadderLineValues *values)

@@ -37,6 +37,10 @@ void line_values_set_result(LadderLineValues *values, LineResult result, void *c
  * allocated, NULL: nothing. @context: borrowed. */
 void line_values_set_note(LadderLineValues *values, char *(*note)(void *context, int line),
 			  void *context);
+/** line_values_set_hidden - @hidden: how many lines are hidden behind line @line, from 0; -1: the line
+ * itself is. @context: borrowed. */
+void line_values_set_hidden(LadderLineValues *values, int (*hidden)(void *context, int line),
+			    void *context);
 /** line_values_tell - the note of the line of the cursor may have changed. */
 void line_values_tell(LadderLineValues *values);
 /** line_values_instance - of a block: the instance whose values are shown, because the program stands

@@ -9,6 +9,7 @@
 #include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/text/text_folds.h"
 #include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/text/text_stops.h"
 #include "editor-gtk/document/text_lines.h"
@@ -21,6 +22,7 @@
 #include "engine/base/name.h"
 
 
+#include <stdlib.h>
 #include <string.h>
 
 #define SEEN_MS 25   /* longer than a frame: the letter is drawn first          */
@@ -39,6 +41,7 @@ struct _LadderTextView {
 	LadderSim *sim;          /* NULL: none                                 */
 	int pou;
 	struct text_stops *stops; /* NULL: it goes                              */
+	struct text_folds *folds; /* likewise                                   */
 	LadderLineValues *values; /* the text, with values beside its lines     */
 	GtkSourceView *view;     /* the same                                   */
 	GtkSourceBuffer *buffer;
@@ -128,7 +131,9 @@ static void show_text(LadderTextView *view)
 
 	if (text && strcmp(text, now) != 0) {
 		view->ours = true;
+		text_folds_keep(view->folds);
 		exchange(view, now, text);
+		text_folds_kept(view->folds);
 		view->ours = false;
 		text_stops_exchanged(view->stops, now);
 	}
@@ -414,6 +419,32 @@ gboolean ladder_text_view_mend(LadderTextView *view)
 	return found;
 }
 
+/* The cursor stays in its line. */
+static void show_formatted(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *before = text_of_buffer(view), *now;
+	int count, *to, line = cursor_line(view);
+	GtkTextIter at;
+
+	text_folds_keep(view->folds);
+	show_text(view);
+	now = text_of_buffer(view);
+	to = text_lines_match(before, now, &count);
+	if (to && line < count && to[line] >= 0)
+		line = to[line];
+	if (strcmp(before, now) != 0) {
+		gtk_text_buffer_get_iter_at_line(buffer, &at, line);
+		gtk_text_buffer_place_cursor(buffer, &at);
+		gtk_text_view_scroll_mark_onscreen(GTK_TEXT_VIEW(view->view),
+						   gtk_text_buffer_get_insert(buffer));
+	}
+	text_folds_kept(view->folds);
+	free(to);
+	g_free(now);
+	g_free(before);
+}
+
 gboolean ladder_text_view_format(LadderTextView *view)
 {
 	struct text_span span;
@@ -428,7 +459,7 @@ gboolean ladder_text_view_format(LadderTextView *view)
 	kept = ladder_document_list(view->document, view->pou);
 	readable = strcmp(kept, canonical + span.at) == 0;
 	if (readable)
-		show_text(view);
+		show_formatted(view);
 	g_free(kept);
 	g_free(canonical);
 	return readable;
@@ -661,6 +692,26 @@ void ladder_text_view_ask_stop(LadderTextView *view)
 	text_stops_ask(view->stops, cursor_line(view));
 }
 
+bool ladder_text_view_fold(LadderTextView *view, bool fold)
+{
+	return fold ? text_folds_close(view->folds, cursor_line(view)) :
+		      text_folds_open(view->folds, cursor_line(view));
+}
+
+void ladder_text_view_fold_all(LadderTextView *view, bool fold)
+{
+	if (fold)
+		text_folds_close_all(view->folds);
+	else
+		text_folds_open_all(view->folds);
+}
+
+int ladder_text_view_hidden(LadderTextView *view, int line)
+{
+	return text_folds_is_hidden(view->folds, line - 1) ? -1 :
+	       text_folds_hidden(view->folds, line - 1);
+}
+
 bool ladder_text_view_run_here(LadderTextView *view)
 {
 	return view->sim && ladder_sim_run_to(view->sim, view->pou, cursor_line(view));
@@ -760,6 +811,7 @@ static void ladder_text_view_dispose(GObject *object)
 	g_clear_handle_id(&view->looking, g_source_remove);
 	line_values_set_note(view->values, NULL, NULL);
 	g_clear_pointer(&view->stops, text_stops_free);
+	g_clear_pointer(&view->folds, text_folds_free);
 	if (view->document)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	g_clear_object(&view->document);
@@ -816,9 +868,16 @@ static void ladder_text_view_init(LadderTextView *view)
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
 }
 
-static char *say_line(void *view, int line)
+static char *say_line(void *data, int line)
 {
-	return text_stops_say(LADDER_TEXT_VIEW(view)->stops, line);
+	LadderTextView *view = data;
+	char *stops = text_stops_say(view->stops, line), *folded = text_folds_say(view->folds, line);
+	char *both = stops && folded ? g_strdup_printf("%s · %s", folded, stops) :
+		     g_strdup(folded ? folded : stops);
+
+	g_free(stops);
+	g_free(folded);
+	return both;
 }
 
 static void build(LadderTextView *view)
@@ -831,7 +890,6 @@ static void build(LadderTextView *view)
 	view->view = GTK_SOURCE_VIEW(view->values);
 	view->told = GTK_LABEL(gtk_label_new(""));
 	view->call = GTK_LABEL(gtk_label_new(""));
-	gtk_source_view_set_show_line_numbers(view->view, TRUE);
 	gtk_source_view_set_highlight_current_line(view->view, TRUE);
 	gtk_source_view_set_auto_indent(view->view, TRUE);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view->view),
@@ -855,6 +913,7 @@ static void build(LadderTextView *view)
 	leaves = gtk_event_controller_focus_new();
 	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
 	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
+	view->folds = text_folds_new(view->values);
 	view->stops = text_stops_new(view->values, view->document, &view->pou);
 	line_values_set_note(view->values, say_line, view);
 	keys = verbs_controller(VERB_TEXT);

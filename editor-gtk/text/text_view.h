@@ -57,6 +57,13 @@ void ladder_text_view_ask_stop(LadderTextView *view);
 /** ladder_text_view_run_here - goes on up to the line of the cursor. Fails: false: no statement is
  * there or behind it, or nothing is simulated. */
 bool ladder_text_view_run_here(LadderTextView *view);
+/** ladder_text_view_fold - folds the innermost block around the cursor that is not folded, or unfolds
+ * the one that begins in its line. Fails: false: there is none. */
+bool ladder_text_view_fold(LadderTextView *view, bool fold);
+/** ladder_text_view_fold_all - folds all blocks, or unfolds them. */
+void ladder_text_view_fold_all(LadderTextView *view, bool fold);
+/** ladder_text_view_hidden - how many lines are hidden behind line @line, 1-based; -1: it is itself. */
+int ladder_text_view_hidden(LadderTextView *view, int line);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);

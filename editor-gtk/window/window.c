@@ -423,6 +423,12 @@ static void do_text(LadderWindow *window, enum verb verb)
 		messages_tell(window->core.messages, _("The text cannot be read yet. Mend its errors first."));
 	if (verb == VERB_mend && !ladder_text_view_mend(list))
 		messages_tell(window->core.messages, _("No error of this line can be mended by itself."));
+	if (verb == VERB_fold && !ladder_text_view_fold(list, true))
+		messages_tell(window->core.messages, _("No block is around this line."));
+	if (verb == VERB_unfold && !ladder_text_view_fold(list, false))
+		messages_tell(window->core.messages, _("No folded block begins in this line."));
+	if (verb == VERB_fold_all || verb == VERB_unfold_all)
+		ladder_text_view_fold_all(list, verb == VERB_fold_all);
 }
 
 static bool do_find(LadderWindow *window, enum verb verb)
@@ -440,7 +446,8 @@ static bool do_find(LadderWindow *window, enum verb verb)
 	case VERB_show_uses: do_show_uses(window); return true;
 	case VERB_go_coil: do_go(window); return true;
 	case VERB_go_definition: names_go_definition(&window->core); return true;
-	case VERB_format: case VERB_mend: do_text(window, verb); return true;
+	case VERB_format: case VERB_mend: case VERB_fold: case VERB_unfold: case VERB_fold_all:
+	case VERB_unfold_all: do_text(window, verb); return true;
 	case VERB_next_bookmark: do_next_bookmark(window); return true;
 	case VERB_next_problem: do_next_problem(window); return true;
 	case VERB_next_sheet: do_sheet_by(window, true); return true;
