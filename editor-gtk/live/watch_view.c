@@ -826,6 +826,8 @@ static void typed(GtkEditable *entry, GtkListItem *item)
 		return;
 	g_free(row->typed);
 	row->typed = g_strdup(gtk_editable_get_text(entry));
+	if (gtk_widget_has_css_class(GTK_WIDGET(entry), "error"))
+		tell(view_of(GTK_WIDGET(entry)), NULL); /* it was about the text before */
 	mark(GTK_WIDGET(entry), NULL);
 }
 

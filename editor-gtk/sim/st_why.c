@@ -173,12 +173,38 @@ static guint part_end(GArray *tokens, guint from, guint to, const char *word, co
 	return to;
 }
 
+/* Parts with XOR between them: each of them decides, whatever its value is. */
+static int say_xor(const struct asked *asked, GArray *tokens, guint from, guint to, GString *right,
+		   GString *wrong)
+{
+	GString *parts = g_string_new(NULL), *into;
+	int all = 0;
+
+	while (from < to) {
+		const guint end = part_end(tokens, from, to, "XOR", NULL);
+		GString *part = g_string_new(NULL);
+		const int value = end > from ? say_part(asked, tokens, from, end, part) : -1;
+
+		if (value >= 0)
+			g_string_append_printf(parts, "%s%s", parts->len ? _("; and ") : "", part->str);
+		all = value < 0 || all < 0 ? -1 : all ^ value;
+		g_string_free(part, TRUE);
+		from = end + 1;
+	}
+	into = all ? right : wrong;
+	g_string_append(into, parts->str);
+	g_string_free(parts, TRUE);
+	return all;
+}
+
 /* One way between two ORs: the parts that are @wanted. Returns its value; -1: not known. */
 static int say_way(const struct asked *asked, GArray *tokens, guint from, guint to, GString *right,
 		   GString *wrong)
 {
 	int all = 1;
 
+	if (part_end(tokens, from, to, "XOR", NULL) < to)
+		return say_xor(asked, tokens, from, to, right, wrong);
 	while (from < to) {
 		const guint end = part_end(tokens, from, to, "AND", "&");
 		GString *part = g_string_new(NULL);
@@ -231,8 +257,7 @@ char *st_why(LadderSim *sim, const char *pou, const char *text, int line)
 		return NULL;
 	asked.image = &twin->resource.image;
 	asked.project = ladder_project(ladder);
-	said = part_end(tokens, 0, tokens->len, "XOR", NULL) < tokens->len ? NULL :
-	       say(&asked, tokens);
+	said = say(&asked, tokens);
 	g_array_unref(tokens);
 	return said;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_parts - parses an expression to a tree of AND, OR and NOT, and finds the smallest
+ * why_parts - parses an expression to a tree of AND, OR, XOR and NOT, and finds the smallest
  * sets of leaves that must change, or that make it TRUE.
  */
 #include "engine/trial/why_parts.h"
@@ -20,7 +20,7 @@
 
 struct span { const char *text; size_t len; };
 
-enum term_kind { TERM_LEAF, TERM_NOT, TERM_AND, TERM_OR };
+enum term_kind { TERM_LEAF, TERM_NOT, TERM_AND, TERM_OR, TERM_XOR };
 struct term {
 	enum term_kind kind;
 	int left, right;      /* terms; a leaf: its number                    */
@@ -183,8 +183,11 @@ static int grow(struct tree *tree, struct span all)
 		b = grow(tree, right);
 		return add_term(tree, TERM_OR, a, b);
 	}
-	if (split(all, "XOR", 0, &left, &right))
-		return add_leaf(tree, all);
+	if (split(all, "XOR", 0, &left, &right)) {
+		a = grow(tree, left);
+		b = grow(tree, right);
+		return add_term(tree, TERM_XOR, a, b);
+	}
 	if (split(all, "AND", '&', &left, &right)) {
 		a = grow(tree, left);
 		b = grow(tree, right);
@@ -212,6 +215,7 @@ static bool value_with(const struct tree *tree, uint32_t leaves)
 		case TERM_NOT: value[i] = !value[n->left]; break;
 		case TERM_AND: value[i] = value[n->left] && value[n->right]; break;
 		case TERM_OR: value[i] = value[n->left] || value[n->right]; break;
+		case TERM_XOR: value[i] = value[n->left] != value[n->right]; break;
 		}
 	}
 	return tree->count && value[tree->count - 1];
@@ -328,6 +332,10 @@ static bool holds_by(const struct tree *tree, uint32_t set)
 		case TERM_OR:
 			yes[i] = yes[a] || yes[b];
 			no[i] = no[a] && no[b];
+			break;
+		case TERM_XOR:
+			yes[i] = (yes[a] && no[b]) || (no[a] && yes[b]);
+			no[i] = (yes[a] && yes[b]) || (no[a] && no[b]);
 			break;
 		}
 	}

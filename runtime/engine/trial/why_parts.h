@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_parts - splits an expression at AND, OR and NOT.
+ * why_parts - splits an expression at AND, OR, XOR and NOT.
  *
  * It is examined alone: other elements of the rung that read the same names are not
  * considered.

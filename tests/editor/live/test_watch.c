@@ -427,6 +427,8 @@ static void check_running(void)
 	CHECK(gtk_widget_has_css_class(row_of("Label")->fresh, "error"));
 	save_pictures(window, "WATCH_PICTURES", "running");
 	type_new("Label", "");
+	CHECK_AS(!*message(), "nothing is wrong with an empty entry");
+	CHECK(!gtk_widget_has_css_class(row_of("Label")->fresh, "error"));
 }
 
 static void press(GtkWidget *button)

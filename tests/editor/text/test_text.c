@@ -596,6 +596,12 @@ static void check_why(LadderSim *sim, const char *condition, const char *wanted)
 static void test_why(LadderSim *sim)
 {
 	check_why(sim, "IF Start THEN", "FALSE: Start is FALSE");
+	check_why(sim, "IF Start XOR Level > 5 THEN",
+		  "TRUE: Start is FALSE; and Level > 5 is true (Level = 107)");
+	check_why(sim, "IF Level > 5 XOR NOT Start THEN",
+		  "FALSE: Level > 5 is true (Level = 107); and NOT Start is true");
+	check_why(sim, "IF Start OR Level < 5 XOR Start XOR Level > 5 AND NOT Start THEN",
+		  "TRUE: Level < 5 is not true (Level = 107); and Start is FALSE; and Level > 5 AND NOT Start is true (Level = 107)");
 	check_why(sim, "ELSIF Level > 5 AND NOT Start THEN",
 		  "TRUE: Level > 5 is true (Level = 107); and NOT Start is true");
 	check_why(sim, "IF Start OR Level < 5 THEN",

@@ -16,6 +16,11 @@ static struct why why;
 
 /* ---- random circuits ---- */
 
+static const char *between(void)
+{
+	return random_chance(&source, 20) ? " XOR " : random_chance(&source, 50) ? " AND " : " OR ";
+}
+
 /* `[ a AND NOT (b OR c) ]`: its parts are contacts, too. */
 static void put_expression(char *out, size_t size)
 {
@@ -27,7 +32,7 @@ static void put_expression(char *out, size_t size)
 		const bool opens = i + 1 < parts && random_chance(&source, 40);
 
 		used += (size_t)snprintf(out + used, size - used, "%s%s%s%%IX0.%u",
-			i == 0 ? "" : random_chance(&source, 50) ? " AND " : " OR ",
+			i == 0 ? "" : between(),
 			random_chance(&source, 30) ? "NOT " : "", opens ? "(" : "",
 			random_below(&source, INPUTS));
 		open += opens;
