@@ -465,10 +465,10 @@ static void forget_place(LadderDocument *document)
 	g_object_set_data(G_OBJECT(document), "list-place", NULL);
 }
 
-/* While a change is applied, which has been counted. Borrowed until the document changes. */
-static struct list_place *place_of(LadderDocument *document, int pou)
+/* Of version @version or later. Borrowed until the document changes. */
+static struct list_place *place_since(LadderDocument *document, int pou, guint64 version)
 {
-	struct list_place *place = place_kept(document, pou, document->version - 1);
+	struct list_place *place = place_kept(document, pou, version);
 	struct pou_spans spans;
 	char *plain;
 
@@ -483,6 +483,24 @@ static struct list_place *place_of(LadderDocument *document, int pou)
 	free(plain);
 	g_free(spans.span);
 	return place;
+}
+
+/* While a change is applied, which has been counted. */
+static struct list_place *place_of(LadderDocument *document, int pou)
+{
+	return place_since(document, pou, document->version - 1);
+}
+
+char *ladder_document_with_list(LadderDocument *document, int pou, const char *list)
+{
+	const struct project *project = ladder_document_project(document);
+	struct list_place *place;
+
+	if (!project || pou < 0 || pou >= project->pou_count || !ladder_document_is_whole(document))
+		return NULL;
+	place = place_since(document, pou, document->version);
+	place->version = document->version;
+	return g_strconcat(place->head, list, place->tail, NULL);
 }
 
 /* ---- one POU, and nothing beside it ---- */

@@ -161,6 +161,9 @@ bool ladder_document_declare(LadderDocument *document, int pou, const char *name
 
 /** ladder_document_list - the text of a POU as it was typed, readable or not. Caller frees. */
 char *ladder_document_list(LadderDocument *document, int pou);
+/** ladder_document_with_list - the text of the document if that POU had the text @list. Caller frees.
+ * Fails: NULL: a text of the document cannot be read. */
+char *ladder_document_with_list(LadderDocument *document, int pou, const char *list);
 /** ladder_document_put_list - from PROGRAM to END_PROGRAM; never refused. A text that
  * cannot be read is kept beside the project until it can, and ladder_document_diags() say
  * why. */

@@ -83,9 +83,13 @@ static void find_comments(struct maker *maker)
 /* Table[3] has the comment of Table, Main.Recipe.Speed that of Main.Recipe. */
 static char *comment_of(struct maker *maker, const char *name)
 {
-	char *key = name_fold(name);
-	const char *found = g_hash_table_lookup(maker->comments, key);
+	const char *found;
+	char *key;
 
+	if (g_hash_table_size(maker->comments) == 0)
+		return NULL;
+	key = name_fold(name);
+	found = g_hash_table_lookup(maker->comments, key);
 	for (gsize len = strlen(key); !found && len--;) {
 		if (key[len] != '.' && key[len] != '[')
 			continue;
@@ -553,11 +557,34 @@ static void add_symbols(struct maker *maker)
 	maker->whole = NULL;
 }
 
+/* Does the program name an address that has no line yet? Its names are few beside its text. */
+static bool has_addresses(const struct maker *maker)
+{
+	const struct names *names = &maker->project->names;
+	struct iec_addr addr;
+
+	for (int i = 0; i < names->count; i++) {
+		const char *name = names_text(names, (uint32_t)i);
+		struct location at;
+		gint64 key;
+
+		if (iec_addr_parse(name, strlen(name), &addr) != ADDR_OK)
+			continue;
+		at = image_locate(maker->image, addr);
+		key = place_key(at);
+		if (at.type != IEC_NONE && !g_hash_table_contains(maker->taken, &key))
+			return true;
+	}
+	return false;
+}
+
 static void add_addresses(struct maker *maker)
 {
 	struct xref xref;
 	char text[32];
 
+	if (!has_addresses(maker))
+		return;
 	if (!xref_make(&xref, maker->project))
 		g_error("out of memory");
 	for (int i = 0; i < xref.count; i++) {

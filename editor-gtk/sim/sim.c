@@ -46,7 +46,8 @@ struct _LadderSim {
 	struct sim_program *plant;
 	struct sim_program *newest; /* the last one given to the thread        */
 	guint64 version;            /* of the document, when that was built     */
-	bool building;
+	struct rebuild *building;   /* NULL: nothing is built                   */
+	struct rebuild *ahead;      /* built for a text that the document may get; NULL: none */
 	guint soon;                 /* source that builds an edit; 0: none      */
 	LadderBreakpoints *points;
 };
@@ -695,9 +696,34 @@ struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
 	return build(sim, sim_program_read, error);
 }
 
+/* An edit that is built: see below. */
+struct rebuild {
+	struct ladder *reader;   /* NULL: it was used                          */
+	char *text;
+	gsize len;
+	const char *file;
+	guint64 version;         /* of the document that has the text          */
+	bool foreseen;           /* the document does not have it yet          */
+	bool missed;             /* meanwhile it has got another one           */
+	struct sim_program *program; /* of `ahead`; NULL: it has errors        */
+};
+
+static void rebuild_free(gpointer pointer)
+{
+	struct rebuild *rebuild = pointer;
+
+	if (!rebuild)
+		return;
+	ladder_free(rebuild->reader);
+	sim_program_unref(rebuild->program);
+	g_free(rebuild->text);
+	g_free(rebuild);
+}
+
 static void drop_source(LadderSim *sim)
 {
 	g_clear_handle_id(&sim->soon, g_source_remove);
+	g_clear_pointer(&sim->ahead, rebuild_free);
 	if (sim->source)
 		sim->source->free(sim->source);
 	sim->source = NULL;
@@ -894,21 +920,6 @@ const char *ladder_sim_plant(LadderSim *sim)
 
 /* ---- an edit while it runs ---- */
 
-struct rebuild {
-	struct ladder *reader;   /* NULL: it was used                          */
-	char *text;
-	gsize len;
-	const char *file;
-	guint64 version;
-};
-
-static void rebuild_free(gpointer rebuild)
-{
-	ladder_free(((struct rebuild *)rebuild)->reader);
-	g_free(((struct rebuild *)rebuild)->text);
-	g_free(rebuild);
-}
-
 static void rebuild_run(GTask *task, gpointer source, gpointer data,
 			GCancellable *cancellable)
 {
@@ -937,14 +948,11 @@ static void exchange(LadderSim *sim, struct sim_program *program)
 	give_stops(sim);
 }
 
-static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
+/* The document has the text of @rebuild. */
+static void use(LadderSim *sim, const struct rebuild *rebuild)
 {
-	LadderSim *sim = LADDER_SIM(object);
-	struct rebuild *rebuild = g_task_get_task_data(G_TASK(result));
-	struct sim_program *program = g_task_propagate_pointer(G_TASK(result), NULL);
+	struct sim_program *program = rebuild->program;
 
-	(void)unused;
-	sim->building = false;
 	if (program && sim->thread) {
 		exchange(sim, program);
 		sim->version = rebuild->version;
@@ -953,7 +961,24 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 		build_edit(sim);
 	else if (program)
 		number_rungs(sim);
-	sim_program_unref(program);
+}
+
+static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
+{
+	LadderSim *sim = LADDER_SIM(object);
+	struct rebuild *rebuild = g_steal_pointer(&sim->building);
+
+	(void)unused;
+	rebuild->program = g_task_propagate_pointer(G_TASK(result), NULL);
+	if (rebuild->foreseen && sim->thread && !rebuild->missed) {
+		sim->ahead = rebuild;
+		return;
+	}
+	if (!rebuild->foreseen)
+		use(sim, rebuild);
+	else
+		build_edit(sim);
+	rebuild_free(rebuild);
 }
 
 /* An edit may have made a rung what it is on the board again. */
@@ -979,27 +1004,78 @@ static void number_again(LadderSim *sim)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 }
 
+/* @text: taken. */
+static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, bool foreseen)
+{
+	struct rebuild *rebuild = g_new0(struct rebuild, 1);
+	GTask *task;
+
+	rebuild->reader = ladder_document_reader(sim->document);
+	rebuild->text = text;
+	rebuild->len = len;
+	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
+					ladder_document_path(sim->document) : "-");
+	rebuild->version = version;
+	rebuild->foreseen = foreseen;
+	sim->building = rebuild;
+	task = g_task_new(sim, NULL, rebuilt, NULL);
+	g_task_set_task_data(task, rebuild, NULL);
+	g_task_run_in_thread(task, rebuild_run);
+	g_object_unref(task);
+}
+
+/* What was foreseen has become the text of the document, by one change. Files beside it may have
+ * changed if there were more. */
+static bool came_true(LadderSim *sim, struct rebuild *rebuild, const char *text)
+{
+	if (!rebuild || !rebuild->foreseen ||
+	    rebuild->version + 1 != ladder_document_version(sim->document) ||
+	    strcmp(rebuild->text, text) != 0)
+		return false;
+	rebuild->version++;
+	rebuild->foreseen = false;
+	return true;
+}
+
 /* Builds the document in a thread, if it has changed. One with errors does not replace the
  * program that runs. */
 static void build_edit(LadderSim *sim)
 {
-	struct rebuild *rebuild;
-	GTask *task;
+	struct rebuild *ahead;
+	char *text;
+	gsize len;
 
-	if (!sim->thread || sim->building || !ladder_document_is_whole(sim->document) ||
+	if (!sim->thread || (sim->building && !sim->building->foreseen) ||
+	    !ladder_document_is_whole(sim->document) ||
 	    sim->version == ladder_document_version(sim->document))
 		return;
-	rebuild = g_new0(struct rebuild, 1);
-	rebuild->reader = ladder_document_reader(sim->document);
-	rebuild->text = ladder_document_text(sim->document, &rebuild->len);
-	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
-					ladder_document_path(sim->document) : "-");
-	rebuild->version = ladder_document_version(sim->document);
-	sim->building = true;
-	task = g_task_new(sim, NULL, rebuilt, NULL);
-	g_task_set_task_data(task, rebuild, rebuild_free);
-	g_task_run_in_thread(task, rebuild_run);
-	g_object_unref(task);
+	ahead = g_steal_pointer(&sim->ahead);
+	text = ladder_document_text(sim->document, &len);
+	if (sim->building) {
+		sim->building->missed = !came_true(sim, sim->building, text);
+		g_free(text);
+	} else if (came_true(sim, ahead, text)) {
+		g_free(text);
+		use(sim, ahead);
+	} else {
+		build_text(sim, text, len, ladder_document_version(sim->document), false);
+	}
+	rebuild_free(ahead);
+}
+
+void ladder_sim_foresee(LadderSim *sim, char *text)
+{
+	if (!text || !sim->thread || sim->building || !ladder_document_is_whole(sim->document)) {
+		g_free(text);
+		return;
+	}
+	g_clear_pointer(&sim->ahead, rebuild_free);
+	build_text(sim, text, strlen(text), ladder_document_version(sim->document), true);
+}
+
+bool ladder_sim_is_building(LadderSim *sim)
+{
+	return sim->building != NULL;
 }
 
 static gboolean build_now(gpointer data)

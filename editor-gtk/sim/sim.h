@@ -56,6 +56,13 @@ bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error);
 /** ladder_sim_plant - the path of the plant; NULL: there is none. Borrowed. */
 const char *ladder_sim_plant(LadderSim *sim);
 
+/** ladder_sim_foresee - builds a text in a thread that the document is likely to get next, so that the
+ * program is ready when it has it. Does nothing while the simulation is off or builds.
+ * @text: of the whole document; taken, NULL: unknown */
+void ladder_sim_foresee(LadderSim *sim, char *text);
+/** ladder_sim_is_building - builds a thread an edit, or a text that was foreseen? */
+bool ladder_sim_is_building(LadderSim *sim);
+
 /** ladder_sim_build - the document as a program (sim_program.h). Owns: sim_program_unref(). Fails:
  * NULL: as ladder_sim_begin(). */
 struct sim_program *ladder_sim_build(LadderSim *sim, GError **error);

@@ -53,6 +53,7 @@ struct _LadderTextView {
 	int typed_line;          /* line, time and number of the last step of typing */
 	gint64 typed_at;
 	guint typed_step;
+	guint foreseeing;        /* source that builds the text ahead; 0: none  */
 	guint taking;            /* timer: puts the text into the document      */
 	guint looking;           /* timer: looks for a call at the cursor       */
 	int st_chart;            /* POU: a chart that has had statements; -1: none. While one is typed it may have none */
@@ -213,6 +214,26 @@ static void take_soon(LadderTextView *view, guint ms)
 	view->taking = g_timeout_add(ms, take_now, view);
 }
 
+static gboolean foresee(gpointer data)
+{
+	LadderTextView *view = data;
+	char *text = text_of_buffer(view);
+
+	view->foreseeing = 0;
+	ladder_sim_foresee(view->sim, ladder_document_with_list(view->document, view->pou, text));
+	g_free(text);
+	return G_SOURCE_REMOVE;
+}
+
+/* The simulation builds while the letter is drawn and the document reads the text, but when all
+ * changes of this key are done. */
+static void foresee_soon(LadderTextView *view)
+{
+	if (!view->foreseeing && view->pou >= 0 && view->sim && ladder_sim_is_on(view->sim) &&
+	    !ladder_sim_board(view->sim))
+		view->foreseeing = g_idle_add_full(G_PRIORITY_HIGH, foresee, view, NULL);
+}
+
 static void drawn(GdkFrameClock *clock, LadderTextView *view)
 {
 	g_signal_handlers_disconnect_by_func(clock, drawn, view);
@@ -229,6 +250,7 @@ static void typed(LadderTextView *view)
 	if (view->ours || view->taking || ladder_document_is_fixed(view->document))
 		return;
 	take_soon(view, SEEN_MS);
+	foresee_soon(view);
 	if (clock)
 		g_signal_connect_object(clock, "after-paint", G_CALLBACK(drawn), view, 0);
 }
@@ -809,6 +831,7 @@ static void ladder_text_view_dispose(GObject *object)
 
 	g_clear_handle_id(&view->taking, g_source_remove);
 	g_clear_handle_id(&view->looking, g_source_remove);
+	g_clear_handle_id(&view->foreseeing, g_source_remove);
 	line_values_set_note(view->values, NULL, NULL);
 	g_clear_pointer(&view->stops, text_stops_free);
 	g_clear_pointer(&view->folds, text_folds_free);
