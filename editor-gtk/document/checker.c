@@ -173,6 +173,8 @@ static void take_chart_lines(struct sfc *was, const struct sfc *is)
 
 static bool is_same_chart(const struct pou *was, const struct pou *is)
 {
+	if (!was->sfc && !is->sfc && was->boxed_count > 0) /* a ladder with statements */
+		return was->boxed_count == is->boxed_count && was->st->count == is->st->count;
 	return was->sfc && is->sfc && was->sfc->step_count == is->sfc->step_count &&
 	       was->sfc->use_count == is->sfc->use_count &&
 	       was->sfc->transition_count == is->sfc->transition_count &&
@@ -195,7 +197,10 @@ void checker_place(struct checker *checker, struct project *project)
 
 		if (!is_same_chart(was, is))
 			continue;
-		take_chart_lines(was->sfc, is->sfc);
+		if (was->sfc)
+			take_chart_lines(was->sfc, is->sfc);
+		for (int k = 0; k < was->boxed_count && k < is->boxed_count; k++)
+			was->boxed[k].line = is->boxed[k].line;
 		for (int k = 0; k < was->il.count; k++)
 			was->il.line[k].line = is->il.line[k].line;
 		for (int k = 0; was->st && k < was->st->count; k++)

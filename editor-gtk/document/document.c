@@ -597,6 +597,8 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 		if (!rung || !project_add_rung(pou, (int)(change->at + i), rung))
 			report_lost(text);
 	}
+	if (!ladder_take_boxes(document->ladder, change->pou))
+		g_error("out of memory");
 	g_signal_emit(document, signals[RUNGS_CHANGED], 0, change->pou,
 		      (int)change->at, (int)from->len, (int)to->len);
 }

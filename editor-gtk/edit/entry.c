@@ -523,6 +523,7 @@ static bool take_element(const struct entry_place *place, const struct word_row 
 		return take_bool_of(place, row, text, len, entry);
 	case OPND_LABEL:
 	case OPND_ROUTINE:
+	case OPND_EXECUTE:
 		return take_name(text, len, entry);
 	case OPND_LOOP:
 		if (!loop_parse(text, len, &loop))
@@ -546,7 +547,8 @@ static bool take_element(const struct entry_place *place, const struct word_row 
 static bool takes_nothing(const struct word_row *row)
 {
 	return row->kind == WORD_ELEM &&
-	       (row->operand == OPND_NONE || row->operand == OPND_LOOP_END);
+	       (row->operand == OPND_NONE || row->operand == OPND_LOOP_END ||
+		row->operand == OPND_EXECUTE);
 }
 
 /* The length of the name of an instance, with its index; 0: a parameter or a value follows. */

@@ -76,6 +76,7 @@ static void want_operand(struct search *s)
 		return;
 	case OPND_NONE:
 	case OPND_LOOP_END:
+	case OPND_EXECUTE:
 	case OPND_INSTANCE:
 	case OPND_PIN:
 		return;

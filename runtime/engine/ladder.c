@@ -726,6 +726,13 @@ struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t le
 	       text_read_rung(ladder->project, text, len, diags) : NULL;
 }
 
+bool ladder_take_boxes(struct ladder *ladder, int pou)
+{
+	struct project *project = ladder_project(ladder);
+
+	return project && text_take_boxes(project, &project->pou[pou]);
+}
+
 bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text,
 		     size_t len, struct diag_list *diags)
 {

@@ -237,6 +237,9 @@ char *ladder_outline(struct ladder *ladder, size_t *len,
  * rung_free(). Scan-safe: no. Fails: NULL; only strings were added. */
 struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t len,
 			      struct diag_list *diags);
+/** ladder_take_boxes - after rungs of a POU were replaced: what text_take_boxes() does. Fails:
+ * false: no memory. */
+bool ladder_take_boxes(struct ladder *ladder, int pou);
 /**
  * ladder_read_var - adds one declaration, `Motor AT %QX0.1 : BOOL;`, at the end of a
  * block

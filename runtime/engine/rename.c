@@ -239,6 +239,19 @@ static bool exchange(struct rename *r)
 	return true;
 }
 
+/* The text of a box, whose statements have the new name. */
+static bool exchange_text(void *context, uint32_t *slot, uint32_t text)
+{
+	struct rename *r = context;
+	struct kept *kept = arena_push(&r->before.arena, &r->kept, &r->count, sizeof(*kept));
+
+	if (!kept)
+		return refuse(r, RENAME_MEMORY, NULL);
+	*kept = (struct kept){ slot, *slot };
+	*slot = text;
+	return true;
+}
+
 /* Restores the last replacement first: a text may have been replaced twice. */
 static void put_back(struct rename *r)
 {
@@ -324,7 +337,7 @@ static char *written(struct rename *r, size_t *len)
 	char *text = NULL;
 
 	r->how->places = 0;
-	if (exchange(r)) {
+	if (exchange(r) && text_give_boxes(r->project, exchange_text, r)) {
 		name_words(r, r->old, r->name);
 		text = text_write(r->project, len);
 		name_words(r, r->name, r->old);

@@ -51,6 +51,8 @@ const char *words_operand(enum operand_kind kind)
 		return "a pin";
 	case OPND_LOOP:
 		return "variable := value TO value BY constant";
+	case OPND_EXECUTE:
+		return "a name, or nothing";
 	case OPND_LOOP_END:
 		return "";
 	}

@@ -377,6 +377,10 @@ static const struct {
 		"| NO Input | [ Level > 20 AND Level < 80 ] | COIL Output |\n", "" } },
 	{ ELEM_ASSIGN, { "Level : INT;\n",
 		"| P Input | [ Level := Level * 2 + 1 ] |\n", "" } },
+	{ ELEM_EXECUTE, { "Level : INT;\nFull : BOOL;\n",
+		"| NO Input | EXECUTE Count | COIL Output |\n"
+		"EXECUTE Count:\nLevel := Level + 1;\nFull := Level > 100;\nEND_EXECUTE\n"
+		"RUNG\n| NO Full | COIL %QX0.1 |\n", "" } },
 	{ ELEM_PIN, { "Box : CTU;\n",
 		"| NO Input  | CTU Box PV:=3 | COIL Output |\n"
 		"| NO %IX0.1 | .R           |\n", "" } },

@@ -240,6 +240,15 @@ static int routine_named(const struct project *project, const char *name)
 	return i < project->pou_count ? i : -1;
 }
 
+static const struct boxed *boxed_at(const struct pou *pou, const struct rung *rung, int row, int col)
+{
+	int number = 0;
+
+	while (pou->rung[number] != rung)
+		number++;
+	return pou_boxed(pou, number, row, col);
+}
+
 static bool make_element(struct walker *walker, const struct frame *frame,
 			 struct walked_rung *walked, struct walked *at)
 {
@@ -275,6 +284,9 @@ static bool make_element(struct walker *walker, const struct frame *frame,
 	case OPND_ROUTINE:
 		at->target = routine_named(walker->project, text);
 		return at->target >= 0;
+	case OPND_EXECUTE:
+		at->boxed = boxed_at(frame->pou, walked->rung, at->row, at->col);
+		return at->boxed;
 	case OPND_EXPR:
 	case OPND_ASSIGN:
 		at->expression = expression_new(walker, frame, text);

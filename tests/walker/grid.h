@@ -28,13 +28,16 @@ struct walked {
 	int parameter_count;
 	enum iec_type inputs; /* common type of a function                    */
 	int target;           /* rung a jump goes to, POU that CALL runs      */
+	const struct boxed *boxed; /* of EXECUTE                              */
 	bool memory;          /* of an edge                                   */
 	bool done;            /* in this evaluation                           */
 	bool power_in, power_out;
 };
 
+struct walked_pou;
 struct walked_rung {
 	const struct rung *rung;
+	struct walked_pou *owner; /* set when it is evaluated                 */
 	int *net;             /* of each bar                                  */
 	struct walked *element;
 	int count;

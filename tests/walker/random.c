@@ -463,6 +463,32 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* Some assignments become statements of an EXECUTE box. */
+static void add_boxes(struct random_source *source, struct random_rung *rung)
+{
+	static const char *const forms[] = {
+		"EXECUTE\n %s;", "EXECUTE\nIF bool_a THEN %s; ELSE bool_b := NOT bool_b; END_IF;",
+		"EXECUTE\n %s; IF bool_b THEN RETURN; END_IF; bool_c := %%IX0.1;",
+		"EXECUTE\n WHILE bool_d DO bool_d := FALSE; %s; END_WHILE;",
+	};
+
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+		const size_t len = strlen(cell->text);
+		const bool box = cell->kind == RANDOM_SERIES || cell->kind == RANDOM_BOX;
+		char inner[RANDOM_TEXT], made[2 * RANDOM_TEXT];
+
+		if (!box || cell->text[0] != '[' || !strstr(cell->text, ":= ") ||
+		    !random_chance(source, 40))
+			continue;
+		snprintf(inner, sizeof(inner), "%.*s", (int)len - 3, cell->text + 2);
+		snprintf(made, sizeof(made), forms[random_below(source, 4)], inner);
+		if (strlen(made) < sizeof(cell->text))
+			memcpy(cell->text, made, strlen(made) + 1);
+	}
+}
+
 /* Whether a body reads its own instance by its global name. docs/language.md defines
  * that, but it is not generated here. */
 static bool names_global(const char *text)
@@ -587,6 +613,9 @@ void random_make(struct random_program *program, uint64_t seed)
 			if (program->rung[i].pou != RANDOM_RECKON)
 				add_own(&source, &program->rung[i]);
 	}
+	for (int i = 0; i < program->rungs; i++)
+		if (program->rung[i].pou <= RANDOM_OTHER)
+			add_boxes(&source, &program->rung[i]);
 	for (int i = 0; i < program->rungs; i++)
 		program->rung[i].label = i + 1;
 	program->rung[random_below(&source, (uint32_t)program->rungs)].off =

@@ -12,15 +12,34 @@ struct page {
 	size_t size, used;
 };
 
-static void add(struct page *page, const char *text)
+static void add_part(struct page *page, const char *text, size_t len)
 {
-	size_t len = strlen(text);
-
 	if (page->used + len + 1 > page->size)
 		len = page->size - page->used - 1;
 	memcpy(page->out + page->used, text, len);
 	page->used += len;
 	page->out[page->used] = '\0';
+}
+
+static void add(struct page *page, const char *text)
+{
+	add_part(page, text, strlen(text));
+}
+
+/* The statements of EXECUTE boxes, which stand behind the first line of their text. */
+static void print_boxes(const struct random_rung *rung, struct page *page)
+{
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			const struct random_cell *cell = &rung->cell[row][col];
+			const char *lines = cell->kind == RANDOM_WIRE ? NULL : strchr(cell->text, '\n');
+
+			if (!lines)
+				continue;
+			add(page, "  EXECUTE:");
+			add(page, lines);
+			add(page, "\n  END_EXECUTE\n");
+		}
 }
 
 static bool is_aimed_at(const struct random_program *program, int label)
@@ -55,12 +74,15 @@ static void print_rung(const struct random_program *program,
 			const struct random_cell *cell = &rung->cell[row][col];
 
 			add(page, " ");
-			add(page, cell->kind == RANDOM_WIRE ? "---" :
-				  cell->text);
+			if (cell->kind == RANDOM_WIRE)
+				add(page, "---");
+			else
+				add_part(page, cell->text, strcspn(cell->text, "\n"));
 			add(page, cell->link ? " ^|" : " |");
 		}
 		add(page, "\n");
 	}
+	print_boxes(rung, page);
 }
 
 /* Whether it calls or reads something of the program's own. */

@@ -27,7 +27,6 @@ bool walk_list(struct walker *walker, struct walked_pou *walked,
 	       const struct sfc_body *body, struct value *result);
 
 /* statements.c */
-/** walk_statements - runs Structured Text. False: a fault, or not supported. */
-bool walk_statements(struct walker *walker, struct walked_pou *walked,
-		     const struct sfc_body *body);
+/** walk_statements - runs @count statements of Structured Text. False: a fault, or not supported. */
+bool walk_statements(struct walker *walker, struct walked_pou *walked, int first, int count);
 #endif

@@ -237,7 +237,7 @@ static bool run_body(struct walker *walker, struct played_sfc *played,
 	if (body->kind == BODY_LIST)
 		return walk_list(walker, played->walked, body, &result);
 	if (body->kind == BODY_ST)
-		return walk_statements(walker, played->walked, body);
+		return walk_statements(walker, played->walked, body->first, body->count);
 	return walk_rungs(walker, played->walked, body->first, body->count);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * statements - Structured Text as bodies of a chart, for the walker: assignments, IF, WHILE, EXIT,
+ * statements - Structured Text as bodies of a chart and in EXECUTE boxes, for the walker: assignments, IF, WHILE, EXIT,
  * RETURN.
  *
  * A statement is found by its number; the end of a block by its depth. ladder_build() has checked
@@ -125,11 +125,11 @@ static void run_items(struct texts *run, int at, int end)
 	}
 }
 
-bool walk_statements(struct walker *walker, struct walked_pou *walked, const struct sfc_body *body)
+bool walk_statements(struct walker *walker, struct walked_pou *walked, int first, int count)
 {
 	const struct st *st = walked->pou->st;
-	struct texts run = { .walker = walker, .walked = walked, .st = st, .first = body->first,
-			     .end = body->first + body->count, .good = true };
+	struct texts run = { .walker = walker, .walked = walked, .st = st, .first = first,
+			     .end = first + count, .good = true };
 
 	if (!walked->statement)
 		walked->statement = arena_alloc(&walker->arena, ((size_t)st->count + 1) *

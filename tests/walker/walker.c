@@ -258,14 +258,14 @@ static bool is_output(const struct walked *at)
 
 	if (row->place == PLACE_LAST)
 		return true;
-	return !at->read && (row->kind != WORD_ELEM || at->word == ELEM_CALL ||
+	return !at->read && (row->kind != WORD_ELEM || at->word == ELEM_CALL || at->word == ELEM_EXECUTE ||
 			     (at->expression && expression_assigns(at->expression)));
 }
 
 static bool acts_last(const struct walked *at)
 {
 	return word_row(at->word)->place == PLACE_LAST ||
-	       (!at->read && (at->word == ELEM_CALL ||
+	       (!at->read && (at->word == ELEM_CALL || at->word == ELEM_EXECUTE ||
 			      (at->expression && expression_assigns(at->expression))));
 }
 
@@ -349,6 +349,13 @@ static void call_routine(struct walker *walker, struct walked *at, bool power)
 		walker->lost = true;
 }
 
+static void execute(struct walker *walker, struct walked_rung *walked, struct walked *at, bool power)
+{
+	at->power_out = power;
+	if (power && !walk_statements(walker, walked->owner, at->boxed->first, at->boxed->count))
+		walker->lost = true;
+}
+
 /* Phase 1 of one element, after its feeders. */
 static void pass(struct walker *walker, struct walked_rung *walked,
 		 struct walked *at)
@@ -365,6 +372,8 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 	}
 	if (at->word == ELEM_CALL)
 		call_routine(walker, at, power);
+	else if (at->word == ELEM_EXECUTE)
+		execute(walker, walked, at, power);
 	else if (at->callee)
 		at->power_out = call_own(walker, at, power);
 	else if (at->block)
@@ -398,7 +407,7 @@ static void visit(struct walker *walker, struct walked_rung *walked,
 	pass(walker, walked, at);
 }
 
-static void drive(struct walker *walker, struct walked *at)
+static void drive(struct walker *walker, struct walked_rung *walked, struct walked *at)
 {
 	bool power = at->power_in, before = at->memory;
 	const struct placed *to = &at->operand;
@@ -419,6 +428,8 @@ static void drive(struct walker *walker, struct walked *at)
 		walker->halted |= power;
 	else if (at->word == ELEM_CALL)
 		call_routine(walker, at, power);
+	else if (at->word == ELEM_EXECUTE)
+		execute(walker, walked, at, power);
 	else if (at->expression)
 		at->power_out = expression_run(walker, at->expression, power);
 	at->memory = power;
@@ -442,7 +453,7 @@ static int walk_rung(struct walker *walker, struct walked_rung *walked)
 			    at->word == ELEM_END;
 
 		if (!jump && acts_last(at))
-			drive(walker, at);
+			drive(walker, walked, at);
 		if (!jump || !at->power_in)
 			continue;
 		walked->stopped = i;
@@ -458,6 +469,7 @@ bool walk_rungs(struct walker *walker, struct walked_pou *walked, int first, int
 
 		if (++walker->steps > STEPS_MAX || walker->lost)
 			return false;
+		walked->rung[i].owner = walked;
 		if (walked->rung[i].rung)
 			next = walk_rung(walker, &walked->rung[i]);
 		if (next == RUNG_LEAVE)

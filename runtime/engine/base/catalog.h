@@ -15,6 +15,8 @@
 enum word {
 #define ELEM(id, ...) ELEM_##id,
 #include "engine/catalog.def"
+	WORD_ELEMENTS, /* how many elements there are; blocks follow          */
+	WORD_ELEMENTS_LAST = WORD_ELEMENTS - 1,
 #define MORE_FB(...)
 #define FB(id, ...) FB_##id,
 #include "engine/catalog.def"
@@ -85,7 +87,7 @@ enum place {
 enum operand_kind {
 	OPND_NONE, OPND_BOOL_R, OPND_BOOL_W, OPND_ANY_R, OPND_ANY_W,
 	OPND_LABEL, OPND_INSTANCE, OPND_EXPR, OPND_ASSIGN, OPND_PIN,
-	OPND_LOOP, OPND_LOOP_END, OPND_ROUTINE,
+	OPND_LOOP, OPND_LOOP_END, OPND_ROUTINE, OPND_EXECUTE,
 };
 
 enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };

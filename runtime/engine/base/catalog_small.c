@@ -41,12 +41,14 @@ enum pin_place {
 _Static_assert(sizeof(pins) / sizeof(*pins) == PINS_ALL, "a pin is not counted");
 
 #define PINS(id) .first_pin = FIRST_##id, .pin_count = LAST_##id - FIRST_##id + 1
-static const struct word_row words[WORD_KNOWN] = {
-#define ELEM(id, ...) [ELEM_##id] = { .kind = WORD_ELEM },
+/* All elements share the first row. */
+#define ROW(word) ((word) < WORD_ELEMENTS ? 0 : (word) - WORD_ELEMENTS + 1)
+static const struct word_row words[ROW(WORD_KNOWN)] = {
+	[0] = { .kind = WORD_ELEM },
 #define FB(id, family, doc, pins) \
-	[FB_##id] = { .kind = WORD_FB, PINS(id), .size = sizeof(struct fb_##id) },
+	[ROW(FB_##id)] = { .kind = WORD_FB, PINS(id), .size = sizeof(struct fb_##id) },
 #define FN(id, family, doc, result_, most, pins) \
-	[FN_##id] = { .kind = WORD_FN, PINS(id), .result = (result_) & 0xff, \
+	[ROW(FN_##id)] = { .kind = WORD_FN, PINS(id), .result = (result_) & 0xff, \
 		.result_classes = (result_) >> 8 ? (result_) >> 8 : ANY_NUM, \
 		.most_inputs = most },
 #include "engine/catalog.def"
@@ -54,7 +56,7 @@ static const struct word_row words[WORD_KNOWN] = {
 
 const struct word_row *word_row(enum word word)
 {
-	return &words[word < WORD_KNOWN ? word : ELEM_EMPTY];
+	return &words[word < WORD_KNOWN ? ROW(word) : 0];
 }
 
 const struct word_pin *word_pins(const struct word_row *row)

@@ -16,6 +16,7 @@
 #include "engine/check/reserved.h"
 #include "engine/check/settle.h"
 #include "engine/model/named.h"
+#include "engine/model/st.h"
 #include "engine/model/init.h"
 
 #include <stdio.h>
@@ -673,19 +674,35 @@ static void check_ladder(struct names_check *c, const struct pou *pou, int first
 	c->good &= check_loops(c->project, pou, first, count, bad, c->diags);
 }
 
-/* One with errors is not translated. */
-static void check_text(struct names_check *c, const struct pou *pou, uint8_t *bad)
+static bool check_statements(struct names_check *c, const struct pou *pou, int first, int count)
 {
 	struct operand_check operands = {
 		.scope = c->scope, .project = c->project, .uses = &c->uses,
 		.expr = c->expr, .diags = c->diags, .pou = pou, .statement = true,
 	};
+	const bool good = check_st(&operands, first, count);
 
-	if (check_st(&operands))
-		return;
-	c->good = false;
-	if (bad)
+	c->good &= good;
+	return good;
+}
+
+/* Statements that are a body. One with errors is not translated. */
+static void check_text(struct names_check *c, const struct pou *pou, int first, int count, uint8_t *bad)
+{
+	if (!check_statements(c, pou, first, count) && bad)
 		bad[pou->rung_count] = 1;
+}
+
+/* Statements of EXECUTE boxes. */
+static void check_boxes(struct names_check *c, const struct pou *pou, uint8_t *bad)
+{
+	for (int i = 0; i < pou->boxed_count; i++) {
+		const struct boxed *boxed = &pou->boxed[i];
+
+		if (boxed->rung >= 0 && !pou->rung[boxed->rung]->off)
+			mark_bad(bad, boxed->rung + 1,
+				 check_statements(c, pou, boxed->first, boxed->count));
+	}
 }
 
 /* Nothing jumps from one condition or action into another. */
@@ -701,8 +718,10 @@ static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_
 			check_ladder(c, pou, body->first, body->count,
 				     i < sfc->transition_count ? body : NULL, bad);
 	}
-	if (pou->st)
-		check_text(c, pou, bad);
+	for (int i = 0; i < sfc->action_count; i++)
+		if (sfc->action[i].body.kind == BODY_ST)
+			check_text(c, pou, sfc->action[i].body.first, sfc->action[i].body.count, bad);
+	check_boxes(c, pou, bad);
 	good = check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
 	good &= check_sfc(c->scope, pou, c->scratch, c->diags);
 	c->good &= good;
@@ -725,6 +744,7 @@ static unsigned int use_of_operand(enum operand_kind operand)
 	case OPND_NONE:
 	case OPND_LABEL:
 	case OPND_ROUTINE:
+	case OPND_EXECUTE:
 	case OPND_ASSIGN:
 	case OPND_PIN:
 	case OPND_LOOP:
@@ -836,10 +856,12 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		if (pou->sfc)
 			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
 		else if (pou->language == LANGUAGE_ST && pou->st)
-			check_text(c, pou, bad ? bad[i] : NULL);
+			check_text(c, pou, 0, pou->st->count, bad ? bad[i] : NULL);
 		else
 			check_ladder(c, pou, 0, pou->rung_count, NULL,
 				     bad ? bad[i] : NULL);
+		if (!pou->sfc)
+			check_boxes(c, pou, bad ? bad[i] : NULL);
 	}
 }
 

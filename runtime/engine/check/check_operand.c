@@ -851,6 +851,7 @@ static void check_element(struct operand_check *c, struct operand_spot at,
 		check_routine(c, at, cell->operand);
 		break;
 	case OPND_LOOP_END:
+	case OPND_EXECUTE:
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_NONE:
@@ -858,7 +859,7 @@ static void check_element(struct operand_check *c, struct operand_spot at,
 	case OPND_PIN:
 		break;
 	}
-	if (cell->args)
+	if (cell->args && row->operand != OPND_EXECUTE)
 		check_args(c, at, cell);
 	if (row->kind == WORD_FN || word_is_own((enum word)cell->word))
 		check_inputs(c, at, cell);

@@ -353,7 +353,8 @@ static bool acts_last(const struct network *n, const struct network_element *e)
 {
 	enum operand_kind operand = word_row((enum word)e->word)->operand;
 
-	return is_last(e) || ((operand == OPND_ASSIGN || operand == OPND_ROUTINE) &&
+	return is_last(e) || ((operand == OPND_ASSIGN || operand == OPND_ROUTINE ||
+				operand == OPND_EXECUTE) &&
 			      n->reader_count[e->out] == 0);
 }
 

@@ -324,11 +324,11 @@ static void check_statement(struct operand_check *c)
 			check_part(c, c->expr, part.role == ST_ASSIGNED ? OPERAND_WHOLE : OPERAND_READ);
 }
 
-bool check_st(struct operand_check *c)
+bool check_st(struct operand_check *c, int first, int count)
 {
 	c->good = true;
 	c->place = (struct diag){ .file = c->pou->file, .pou = project_text(c->project, c->pou->name) };
-	for (int i = 0; i < c->pou->st->count; i++) {
+	for (int i = first; i < first + count; i++) {
 		c->item = &c->pou->st->item[i];
 		if (c->item->kind != ST_COMMENT)
 			check_statement(c);

@@ -8,7 +8,7 @@
 
 #include "engine/check/check_operand.h"
 
-/** check_st - all statements of c->pou; c->rung is NULL. Notes the uses. Scan-safe: no.
- * Fails: false (and c->good too) when it added an error. */
-bool check_st(struct operand_check *c);
+/** check_st - @count statements of c->pou from @first on; c->rung is NULL. Notes the uses.
+ * Scan-safe: no. Fails: false (and c->good too) when it added an error. */
+bool check_st(struct operand_check *c, int first, int count);
 #endif

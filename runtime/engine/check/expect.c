@@ -725,6 +725,7 @@ static struct expect_want element_want(const struct before *b,
 	case OPND_ASSIGN:
 	case OPND_PIN:
 	case OPND_LOOP_END:
+	case OPND_EXECUTE:
 	case OPND_NONE:
 		return none;
 	}

@@ -114,6 +114,24 @@ bool pou_has_frame(const struct pou *pou)
 	return pou->kind == POU_FUNCTION || pou->kind == POU_BLOCK;
 }
 
+const struct boxed *pou_boxed(const struct pou *pou, int rung, int row, int col)
+{
+	int low = 0, high = pou->boxed_count;
+
+	while (low < high) {
+		const int middle = low + (high - low) / 2;
+
+		if (pou->boxed[middle].rung < rung)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	for (; low < pou->boxed_count && pou->boxed[low].rung == rung; low++)
+		if (pou->boxed[low].row == row && pou->boxed[low].col == col)
+			return &pou->boxed[low];
+	return NULL;
+}
+
 const struct access_block *access_block_of(const struct project *project, int index)
 {
 	int at = 0;

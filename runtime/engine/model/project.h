@@ -60,6 +60,16 @@ struct st;
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
+/* The statements of an EXECUTE box. Its cell has their canonical text as `args`, which
+ * text_take_boxes() and text_give_boxes() keep the same. */
+struct boxed {
+	int rung, row, col;     /* 0-based: its cell                           */
+	uint32_t name;          /* string id; 0: none                          */
+	uint32_t text;          /* string id: canonical, as of the cell        */
+	int first, count;       /* of pou->st->item                            */
+	int line;               /* of the word EXECUTE above them in the file  */
+};
+
 struct pou {
 	uint32_t name;          /* string id                                   */
 	enum pou_language language;
@@ -76,8 +86,10 @@ struct pou {
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
-	struct st *st;          /* of ST (model/st.h); of SFC: all statements of its actions;
-				 * NULL: there are none                        */
+	struct st *st;          /* of ST (model/st.h); else all statements of actions and EXECUTE
+				 * boxes; NULL: there are none                 */
+	struct boxed *boxed;    /* of EXECUTE boxes, in the order of their cells */
+	int boxed_count;
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* file it is in; borrowed from the arena      */
@@ -220,6 +232,8 @@ bool project_has(const struct project *project, struct iec_addr addr);
 /** pou_has_frame - whether it is a FUNCTION or FUNCTION_BLOCK: called with parameters,
  * its variables in a frame or instance. */
 bool pou_has_frame(const struct pou *pou);
+/** pou_boxed - the statements of the EXECUTE box at a cell, 0-based; NULL: there are none. */
+const struct boxed *pou_boxed(const struct pou *pou, int rung, int row, int col);
 /** project_view - the text from VIEW to END_VIEW of the file itself; "" if it has none. */
 const char *project_view(const struct project *project);
 /** project_view_is_last - whether the view is the last part. */

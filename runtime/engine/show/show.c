@@ -11,6 +11,7 @@
 #include "engine/show/draw.h"
 #include "engine/text/pou_print.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -179,7 +180,7 @@ static int trail_of(const struct draw *draw, int row)
 
 struct framed {
 	const char *text;
-	char before[8], after[4];
+	char before[16], after[4];
 	int width;
 };
 
@@ -202,6 +203,11 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 		break;
 	case OPND_ROUTINE:
 		memcpy(framed.before, "CALL ", 5);
+		break;
+	case OPND_EXECUTE:
+		snprintf(framed.before, sizeof(framed.before), "[ %s%s", word->word,
+			 *framed.text ? " " : "");
+		memcpy(framed.after, " ]", 2);
 		break;
 	case OPND_LOOP_END:
 	case OPND_NONE:
@@ -518,6 +524,30 @@ static void draw_comments(const struct draw *draw)
 		}
 }
 
+/* The lines of EXECUTE boxes. */
+static void draw_statements(const struct draw *draw)
+{
+	for (int i = 0; i < draw->rung->rows * draw->rung->cols; i++) {
+		const struct cell *cell = &draw->rung->cell[i];
+		const char *at = project_text(draw->project, cell->args), *end;
+		const char *name = project_text(draw->project, cell->operand);
+
+		if (cell->word != ELEM_EXECUTE)
+			continue;
+		draw_blank(draw, draw->margin + 1);
+		sink_printf(draw->sink, "(%d,%d) EXECUTE%s", i / draw->rung->cols + 1,
+			    i % draw->rung->cols + 1, *name ? " " : "");
+		plain_text(draw->sink, name);
+		sink_text(draw->sink, ":\n");
+		for (; *at; at = end + (*end == '\n')) {
+			end = at + strcspn(at, "\n");
+			draw_blank(draw, end > at ? draw->margin + 1 : 0);
+			plain_write(draw->sink, at, (size_t)(end - at));
+			sink_text(draw->sink, "\n");
+		}
+	}
+}
+
 void draw_rung(struct draw *draw)
 {
 	const int wanted = draw->options ? draw->options->width : 0;
@@ -531,6 +561,7 @@ void draw_rung(struct draw *draw)
 		for (int line = -draw->above[row]; line <= draw->below[row];
 		     line++)
 			draw_line(draw, row, line);
+	draw_statements(draw);
 	draw_comments(draw);
 }
 

@@ -48,13 +48,18 @@ void reader_add_rung(struct reader *r, struct pou *pou)
 
 	if (full && r->place.rung <= pou->rung_count + 1)
 		reader_fail_many(r, DIAG_TOO_MANY, "rungs", LIMIT_RUNGS);
-	struct rung *rung = read_rung(r);
+	const int boxed = pou->boxed_count;
+	struct rung *rung = read_rung(r, pou);
 
 	if (!rung)
 		return;
 	r->all_cells += full ? 0 : rung_cells(rung);
-	if (!full && project_add_rung(pou, pou->rung_count, rung))
+	if (!full && project_add_rung(pou, pou->rung_count, rung)) {
+		for (int i = boxed; i < pou->boxed_count; i++)
+			pou->boxed[i].rung = pou->rung_count - 1;
 		return;
+	}
+	pou->boxed_count = boxed;
 	r->no_memory |= !full;
 	rung_free(rung);
 }

@@ -326,9 +326,9 @@ bool read_ends_block(const struct reader *r)
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
 		"VAR_ACCESS",
 	};
-	bool found = r->pou && r->pou->language == LANGUAGE_SFC &&
-		     reader_is_sfc_word(r);
+	bool found = r->boxed && lex_is(&r->lex, "END_EXECUTE");
 
+	found |= r->pou && r->pou->language == LANGUAGE_SFC && reader_is_sfc_word(r);
 	if (r->lex.token.kind != TOKEN_NAME)
 		return false;
 	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
@@ -619,6 +619,7 @@ struct rung *text_read_rung(struct project *project, const char *text,
 	const int errors = diags->errors;
 	struct reader *r = reader_new(project, "", diags);
 	struct rung *rung = NULL;
+	struct pou pou = { .language = LANGUAGE_LD };
 	char *copy = NULL;
 
 	if (r && len <= LIMIT_TEXT) {
@@ -626,7 +627,7 @@ struct rung *text_read_rung(struct project *project, const char *text,
 		copy = reader_open(r, text, len);
 		reader_skip_newlines(r);
 		if (lex_is(&r->lex, "RUNG"))
-			rung = read_rung(r);
+			rung = read_rung(r, &pou);
 		else
 			reader_fail_word(r, DIAG_EXPECTED, "RUNG");
 		if (rung && r->lex.token.kind != TOKEN_END)

@@ -257,6 +257,17 @@ static enum word with_parameters(struct reader *r, enum word word)
 	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>") ? function : word;
 }
 
+/* The name behind EXECUTE, which may be left out. */
+static bool read_box_name(struct reader *r, uint32_t *name)
+{
+	if (r->lex.token.kind != TOKEN_NAME)
+		return true;
+	if (!reader_name(r, "name of the box", name))
+		return false;
+	reader_next(r);
+	return true;
+}
+
 static bool read_word(struct reader *r, struct cell *cell)
 {
 	const struct token token = r->lex.token;
@@ -277,6 +288,8 @@ static bool read_word(struct reader *r, struct cell *cell)
 		return true;
 	if (row->operand == OPND_LOOP)
 		return read_loop(r, cell);
+	if (row->operand == OPND_EXECUTE)
+		return read_box_name(r, &cell->operand);
 	if (!read_operand(r, cell, row, &token))
 		return false;
 	return row->kind != WORD_FB || read_args(r, cell);
@@ -464,9 +477,111 @@ static struct rung *make_rung(struct reader *r, const struct rung *head)
 	return rung;
 }
 
-struct rung *read_rung(struct reader *r)
+/* ---- the statements of EXECUTE boxes ---- */
+
+/* EXECUTE Name: … END_EXECUTE below the rows. */
+static void read_boxed(struct reader *r, struct pou *pou)
 {
-	struct rung head = { 0 };
+	const struct token head = r->lex.token;
+	const int first = pou->st ? pou->st->count : 0, rung = r->place.rung;
+	struct boxed boxed = { .rung = -1, .row = -1, .first = first, .line = head.line }, *slot;
+
+	r->place.rung = r->place.row = r->place.col = 0;
+	reader_next(r);
+	if (!read_box_name(r, &boxed.name) || (!reader_is(r, ':') && !reader_fail_word(r, DIAG_EXPECTED, ":")))
+		reader_skip_line(r);
+	r->boxed = true;
+	read_st_behind(r, pou);
+	r->boxed = false;
+	boxed.count = pou->st ? pou->st->count - first : 0;
+	boxed.text = boxed.count ? text_statements(r->project, pou->st->item + first, boxed.count) : 0;
+	if (lex_is(&r->lex, "END_EXECUTE")) {
+		reader_next(r);
+		reader_end_line(r);
+	} else if (r->lex.token.kind == TOKEN_END) {
+		reader_fail_open(r, &head);
+	} else {
+		reader_fail_word(r, DIAG_MISSING_ABOVE, "END_EXECUTE");
+	}
+	r->place.rung = rung;
+	slot = arena_push(&r->project->arena, &pou->boxed, &pou->boxed_count, sizeof(*slot));
+	if (slot)
+		*slot = boxed;
+	else
+		r->no_memory = true;
+}
+
+/* "EXECUTE Name", or EXECUTE alone. */
+static void said_box(struct reader *r, enum diag_id id, uint32_t name, int line)
+{
+	char text[LIMIT_ARG];
+	struct diag place = r->place;
+
+	snprintf(text, sizeof(text), "EXECUTE%s%.40s", name ? " " : "",
+		 names_text(&r->project->names, name));
+	place.id = id;
+	place.line = line;
+	diag_add(r->diags, place, "%s", text);
+}
+
+/* The first statements from @first on that have this name and no box yet; NULL: none. */
+static struct boxed *boxed_for(struct reader *r, struct pou *pou, int first, uint32_t name)
+{
+	struct names *names = &r->project->names;
+
+	for (int i = first; i < pou->boxed_count; i++)
+		if (pou->boxed[i].row < 0 &&
+		    names_fold(names, pou->boxed[i].name) == names_fold(names, name))
+			return &pou->boxed[i];
+	return NULL;
+}
+
+/* In the order of the cells. */
+static void order_boxed(struct pou *pou, int first)
+{
+	for (int i = first + 1; i < pou->boxed_count; i++) {
+		const struct boxed moved = pou->boxed[i];
+		int at = i;
+
+		for (; at > first && (pou->boxed[at - 1].row > moved.row ||
+				      (pou->boxed[at - 1].row == moved.row &&
+				       pou->boxed[at - 1].col > moved.col)); at--)
+			pou->boxed[at] = pou->boxed[at - 1];
+		pou->boxed[at] = moved;
+	}
+}
+
+/* Boxes get the statements with their name; those of one name in their order. */
+static void pair_boxes(struct reader *r, struct pou *pou, int first, struct rung *rung)
+{
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		struct cell *cell = &rung->cell[i];
+		struct boxed *boxed;
+
+		if (cell->word != ELEM_EXECUTE)
+			continue;
+		boxed = boxed_for(r, pou, first, cell->operand);
+		if (boxed) {
+			boxed->row = i / rung->cols;
+			boxed->col = i % rung->cols;
+			cell->args = boxed->text;
+			continue;
+		}
+		r->place.row = i / rung->cols + 1;
+		r->place.col = i % rung->cols + 1;
+		said_box(r, DIAG_BOX_EMPTY, cell->operand, rung_line(rung, r->place.row));
+		r->place.row = r->place.col = 0;
+	}
+	for (int i = first; i < pou->boxed_count; i++)
+		if (pou->boxed[i].row < 0)
+			said_box(r, DIAG_NO_BOX, pou->boxed[i].name, pou->boxed[i].line);
+	order_boxed(pou, first);
+}
+
+struct rung *read_rung(struct reader *r, struct pou *pou)
+{
+	const int boxed = pou->boxed_count;
+	struct rung head = { 0 }, *rung;
 
 	r->rows = 0;
 	r->cell_count = 0;
@@ -477,6 +592,10 @@ struct rung *read_rung(struct reader *r)
 
 	for (;;) {
 		reader_skip_newlines(r);
+		if (lex_is(&r->lex, "EXECUTE")) {
+			read_boxed(r, pou);
+			continue;
+		}
 		if (!reader_is(r, '|'))
 			break;
 		keep_above(r);
@@ -494,5 +613,10 @@ struct rung *read_rung(struct reader *r)
 		reader_skip_line(r);
 	}
 	r->place.row = r->place.col = 0;
-	return make_rung(r, &head);
+	rung = make_rung(r, &head);
+	if (rung)
+		pair_boxes(r, pou, boxed, rung);
+	else
+		pou->boxed_count = boxed;
+	return rung;
 }

@@ -11,6 +11,7 @@
 #include "engine/base/iec.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A block that is not closed yet. */
@@ -762,15 +763,16 @@ static void keep_empty(struct st_reader *s)
 		add_item(s, ST_EMPTY, &s->r->lex.token, 0);
 }
 
-/* NULL: no memory. */
+/* Owns: the caller, free(). NULL: no memory. */
 static struct st_reader *new_st(struct reader *r, struct pou *pou)
 {
-	struct st_reader *s = arena_alloc(&r->project->arena, sizeof(*s));
+	struct st_reader *s = malloc(sizeof(*s));
 
 	if (!pou->st)
 		pou->st = arena_alloc(&r->project->arena, sizeof(*pou->st));
 	if (!s || !pou->st) {
 		r->no_memory = true;
+		free(s);
 		return NULL;
 	}
 	*s = (struct st_reader){ .r = r, .st = pou->st, .first = pou->st->count };
@@ -799,14 +801,34 @@ static void read_statements(struct st_reader *s)
 	keep_empty(s);
 }
 
+/* Comments above the body become its first ones. */
+static void take_above(struct st_reader *s)
+{
+	const uint32_t above = buffer_take(s->r, &s->r->above);
+	struct lex lex;
+
+	lex_init(&lex, names_text(&s->r->project->names, above), names_len(&s->r->project->names, above));
+	lex.comments = true;
+	while (comment_next(&lex)) {
+		struct token comment = lex.token;
+
+		comment.line = s->r->lex.token.line;
+		comment.column = s->r->lex.token.column;
+		s->lines = 1;
+		add_comment(s, &comment, false);
+	}
+}
+
 void read_st_behind(struct reader *r, struct pou *pou)
 {
 	struct st_reader *s = new_st(r, pou);
 
 	if (!s)
 		return;
+	take_above(s);
 	st_step(s);
 	read_statements(s);
+	free(s);
 }
 
 void read_st(struct reader *r, struct pou *pou)
@@ -822,4 +844,5 @@ void read_st(struct reader *r, struct pou *pou)
 			item->text = buffer_take(r, &r->above);
 	}
 	read_statements(s);
+	free(s);
 }

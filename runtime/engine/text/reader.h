@@ -61,6 +61,7 @@ struct reader {
 	uint16_t number;   /* of the file in project.source                */
 	uint32_t pragma[PRAGMAS_MOST]; /* string ids: kinds that were told */
 	int pragmas;
+	bool boxed;        /* reading the statements of an EXECUTE box     */
 	bool lost;         /* rows follow whose RUNG or PROGRAM is missing */
 	bool across_lines;          /* reader_step passes ends of lines       */
 	bool no_memory;
@@ -250,14 +251,17 @@ void reader_close_vars(struct reader *r, const struct token *head);
 void reader_skip_declaration(struct reader *r);
 /** read_var - one declaration for a block with these flags, and its comment. */
 bool read_var(struct reader *r, uint16_t flags, struct var *out);
-struct rung *read_rung(struct reader *r);
+/** read_rung - RUNG, its rows, and the statements of its EXECUTE boxes, which @pou gets; their
+ * number of the rung is still -1. */
+struct rung *read_rung(struct reader *r, struct pou *pou);
 /** reader_add_rung - the same as the last rung of a POU. */
 void reader_add_rung(struct reader *r, struct pou *pou);
 void read_il(struct reader *r, struct pou *pou);
 /** read_st - Structured Text up to the end of the POU; the cursor is on its first token, comments
  * and newlines too. */
 void read_st(struct reader *r, struct pou *pou);
-/** read_st_behind - the same up to the end of an action; the cursor is on the token before it. */
+/** read_st_behind - the same up to the end of an action or of the statements of a box; the cursor is
+ * on the token before it. */
 void read_st_behind(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);

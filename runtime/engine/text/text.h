@@ -11,6 +11,7 @@
 #include "engine/base/diag.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
+#include "engine/model/st.h"
 
 /* Where INCLUDE gets its files from. */
 struct text_source {
@@ -85,6 +86,24 @@ void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
 /** text_write_st - Structured Text, a statement a line. Scan-safe: no. */
 void text_write_st(const struct project *project, const struct st *st, const struct sink *sink);
+/** text_statements - the string id of @count statements as text_write_st() writes them; 0: there are
+ * none, or no memory. Scan-safe: no. */
+uint32_t text_statements(struct project *project, struct st_item *item, int count);
+/**
+ * text_take_boxes - after rungs of @pou were replaced: the statements of its EXECUTE boxes from the
+ * texts of their cells
+ *
+ * Lines are those of canonical text. Scan-safe: no. Fails: false: no memory, nothing changed.
+ */
+bool text_take_boxes(struct project *project, struct pou *pou);
+/**
+ * text_give_boxes - after statements were changed: the texts of the cells of EXECUTE boxes from them
+ * @give: gets each text that is another, with its place; false ends it
+ *
+ * Scan-safe: no. Fails: false: @give did, or no memory.
+ */
+bool text_give_boxes(struct project *project, bool (*give)(void *context, uint32_t *slot, uint32_t text),
+		     void *context);
 /** text_write_il - an instruction list; it reads again to the same list, with new line numbers.
  * Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,

@@ -36,6 +36,10 @@ static void write_element(const struct sink *sink, const struct project *project
 		sink_text(sink, row->word);
 		write_id(sink, project, cell->operand);
 		return;
+	case OPND_EXECUTE:
+		sink_text(sink, row->word);
+		write_behind(sink, project, cell->operand);
+		return;
 	case OPND_NONE:
 	case OPND_LOOP:
 	case OPND_LOOP_END:
@@ -152,6 +156,41 @@ static void write_rows(const struct sink *sink, const struct project *project,
 		write_row(sink, project, rung, row, widths);
 }
 
+/* Statements two blanks deeper; the inner lines of a comment stay as they are. */
+static void write_statements(const struct sink *sink, const char *text, size_t len)
+{
+	const char *from = text;
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex.newlines = lex.comments = lex.wide = true;
+	while (comment_next(&lex) || lex.token.kind != TOKEN_END) {
+		if (lex.token.kind != TOKEN_NEWLINE)
+			continue;
+		if (lex.token.text > from)
+			sink_text(sink, "  ");
+		sink_write(sink, from, (size_t)(lex.token.text + lex.token.len - from));
+		from = lex.token.text + lex.token.len;
+	}
+}
+
+static void write_boxes(const struct sink *sink, const struct project *project,
+			const struct rung *rung)
+{
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+
+		if (cell->word != ELEM_EXECUTE)
+			continue;
+		sink_text(sink, "  EXECUTE");
+		write_behind(sink, project, cell->operand);
+		sink_text(sink, ":\n");
+		write_statements(sink, project_text(project, cell->args),
+				 names_len(&project->names, cell->args));
+		sink_text(sink, "  END_EXECUTE\n");
+	}
+}
+
 void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung)
 {
@@ -165,6 +204,7 @@ void write_rung(const struct sink *sink, const struct project *project,
 	}
 	sink_text(sink, "\n");
 	write_rows(sink, project, rung);
+	write_boxes(sink, project, rung);
 }
 
 /* ---- one rung, one cell ---- */

@@ -153,3 +153,21 @@ void text_write_st(const struct project *project, const struct st *st, const str
 	if (st->count > 0)
 		sink_text(sink, "\n");
 }
+
+uint32_t text_statements(struct project *project, struct st_item *item, int count)
+{
+	const struct st st = { .item = item, .count = count };
+	struct sink_memory memory;
+	uint32_t id = 0;
+
+	if (count == 0)
+		return 0;
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	text_write_st(project, &st, &sink);
+	if (!memory.failed)
+		id = names_intern(&project->names, memory.text, memory.len);
+	sink_memory_free(&memory);
+	return id;
+}

@@ -25,7 +25,7 @@ void write_above(const struct sink *sink, const struct project *project,
 /** write_string - "…" with its escapes. */
 void write_string(const struct sink *sink, const char *text, size_t len);
 
-/** write_rung - comments, RUNG line and rows. */
+/** write_rung - comments, RUNG line, rows, and the statements of its EXECUTE boxes. */
 void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung);
 /** write_cell - an element, without comment. */

@@ -64,6 +64,7 @@ struct ld {
 	uint32_t target_count;
 	struct open_loop loop[LIMIT_LOOPS];
 	int loops;
+	uint32_t labels;   /* of statements in boxes, so far                  */
 	struct expr *expr;
 	struct diag_list *ignored; /* texts that were parsed before           */
 };
@@ -78,6 +79,11 @@ bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip);
 /* ---- st_to_il.c ---- */
 /** st_put - @count statements of the POU from item @first on. No rung is in work. */
 void st_put(struct ld *ld, int first, int count);
+/** st_keep_read - before they run in the rung that is in work: elements that read what they may write
+ * keep its value. */
+void st_keep_read(struct ld *ld, int first, int count);
+/** st_put_box - the same in that rung, while @en is TRUE; @en 0: always. RETURN leads behind them. */
+void st_put_box(struct ld *ld, uint32_t en, int first, int count);
 
 /* ---- instructions, nets, leaves ---- */
 /** ld_emit - one operator; places it at the present cell. */
@@ -99,6 +105,8 @@ uint32_t ld_store_new(struct ld *ld);
 /** ld_freeze - before @operand is written: elements that read it earlier keep their value in a
  * temporary. */
 void ld_freeze(struct ld *ld, uint32_t operand);
+/** ld_freeze_all - the same before statements that may write any variable. */
+void ld_freeze_all(struct ld *ld);
 /** ld_freeze_globals - the same before a body that may write any global or address. */
 void ld_freeze_globals(struct ld *ld);
 /** ld_meaning - of an operand; NULL: none. */
@@ -115,6 +123,8 @@ uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno);
 /* ---- ld_box.c ---- */
 /** ld_row - the row of a word of the catalogue or the project. */
 const struct word_row *ld_row(const struct ld *ld, enum word word);
+/** ld_execute - the statements of an EXECUTE box. */
+void ld_execute(struct ld *ld, int element);
 /** ld_box - a function or function block at its place in phase 1. */
 void ld_box(struct ld *ld, int element);
 

@@ -428,6 +428,21 @@ void ld_routine(struct ld *ld, int element)
 	state->powered = true;
 }
 
+void ld_execute(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	const struct boxed *boxed = pou_boxed(ld->unit->pou, (int)ld->number - 1, at->row, at->col);
+
+	if (boxed)
+		st_keep_read(ld, boxed->first, boxed->count);
+	state->leaf = ld_operand(ld, at->in);
+	state->powered = true;
+	ld_place(ld, at->row, at->col);
+	if (boxed)
+		st_put_box(ld, at->in == NET_RAIL ? 0 : state->leaf, boxed->first, boxed->count);
+}
+
 void ld_box(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];

@@ -7,6 +7,8 @@
  */
 #include "engine/translate/ladder_unit.h"
 
+#include "engine/check/reserved.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -27,7 +29,8 @@ static bool is_actor(const struct ld *ld, int element)
 {
 	const struct word_row *row = row_of(ld, element);
 
-	if (row->operand == OPND_ASSIGN || row->operand == OPND_ROUTINE)
+	if (row->operand == OPND_ASSIGN || row->operand == OPND_ROUTINE ||
+	    row->operand == OPND_EXECUTE)
 		return is_unread(ld, element);
 	return row->place == PLACE_LAST;
 }
@@ -98,7 +101,8 @@ static uint32_t hash_rung(const struct ld *ld)
 					   (enum word)cell->word)->word);
 		hash = mix(hash, cell->link ? "|" : "");
 		hash = mix(hash, names_text(&project->names, cell->operand));
-		hash = mix(hash, names_text(&project->names, cell->args));
+		if (cell->word != ELEM_EXECUTE) /* an edge stays when statements change */
+			hash = mix(hash, names_text(&project->names, cell->args));
 	}
 	return hash;
 }
@@ -611,6 +615,8 @@ static void evaluate(struct ld *ld, int element)
 		ld_assign(ld, element);
 	else if (row->operand == OPND_ROUTINE)
 		ld_routine(ld, element);
+	else if (row->operand == OPND_EXECUTE)
+		ld_execute(ld, element);
 	else if (row->edge != EDGE_NONE)
 		read_edge(ld, element);
 	else if (ld_is_indexed(ld, operand_of(ld, element)))
@@ -749,11 +755,13 @@ static void act_flow(struct ld *ld, int element)
 		operand_of(ld, element));
 }
 
-/* An assignment, or a call of a subroutine. */
+/* An assignment, statements, or a call of a subroutine. */
 static void act_box(struct ld *ld, int element)
 {
 	if (row_of(ld, element)->operand == OPND_ASSIGN)
 		ld_assign(ld, element);
+	else if (row_of(ld, element)->operand == OPND_EXECUTE)
+		ld_execute(ld, element);
 	else
 		ld_routine(ld, element);
 	ld_settle_element(ld, element);
@@ -1175,16 +1183,28 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 	return ld_begin(&ld) && ld_rungs(&ld, 0, unit->pou->rung_count, skip);
 }
 
-void ld_freeze_globals(struct ld *ld)
+/* @locals: those of the POU, too; those that translation made, such as _T1, nobody else writes. */
+static void freeze_variables(struct ld *ld, bool locals)
 {
 	for (int i = 0; i < ld->network.element_count; i++) {
 		struct element_state *state = &ld->element[i];
 		const struct meaning *read = state->seen && state->leaf ?
 			ld_meaning(ld, state->leaf) : NULL;
 
-		if (!read || read->pou || read->kind == MEANING_LITERAL)
+		if (!read || read->kind == MEANING_LITERAL ||
+		    (read->pou && (!locals || reserved_generated(names_text(names_of(ld), state->leaf)))))
 			continue;
 		ld_emit(ld, OP_LD, 0, state->leaf);
 		state->leaf = ld_store_new(ld);
 	}
+}
+
+void ld_freeze_all(struct ld *ld)
+{
+	freeze_variables(ld, true);
+}
+
+void ld_freeze_globals(struct ld *ld)
+{
+	freeze_variables(ld, false);
 }

@@ -50,6 +50,7 @@ struct st_il {
 	struct st_open open[LIMIT_ST_DEPTH];
 	int depth;
 	uint32_t labels;      /* made so far                                  */
+	uint32_t leave;       /* behind the statements of a box; 0: RETURN leaves the POU */
 	uint8_t *used;        /* by label: a jump leads there                 */
 	uint32_t used_size;
 };
@@ -1043,6 +1044,15 @@ static void leave_loop(struct st_il *s, enum st_kind kind)
 	jump(s, 0, kind == ST_EXIT ? s->open[i].out : s->open[i].again);
 }
 
+static void leave_body(struct st_il *s)
+{
+	begins(s);
+	if (s->leave)
+		jump(s, 0, s->leave);
+	else
+		ld_emit(&s->ld, OP_RET, 0, 0);
+}
+
 static void end_while(struct st_il *s)
 {
 	jump(s, 0, innermost(s)->again);
@@ -1077,7 +1087,7 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_UNTIL: end_repeat(s, &walk); break;
 	case ST_EXIT:
 	case ST_CONTINUE: leave_loop(s, kind); break;
-	case ST_RETURN: begins(s); ld_emit(&s->ld, OP_RET, 0, 0); break;
+	case ST_RETURN: leave_body(s); break;
 	case ST_EMPTY:
 	case ST_COMMENT:
 	case ST_KINDS: break;
@@ -1142,6 +1152,86 @@ void st_put(struct ld *ld, int first, int count)
 	s->ld.watch = false;
 	temps_rung(s->ld.temps);
 	put_items(s, first, count);
+	ld->failed |= s->ld.failed;
+}
+
+/* Is the callee of `name (`, the lexer behind the name, one that may write any variable? */
+static bool calls_own(struct ld *ld, const struct lex *lex, const struct token *name)
+{
+	const uint32_t id = lex_is(lex, "(") && name->kind == TOKEN_NAME ?
+		names_intern(&ld->translation->project->names, name->text, name->len) : 0;
+
+	return id && scope_pou(ld->translation->scope, ld->unit->pou, id);
+}
+
+/* Keeps the value of what the statement writes. False: nobody knows what that is, as behind a pointer
+ * or in a call. */
+static bool keep_written(struct ld *ld, const struct st_item *item)
+{
+	struct names *names = &ld->translation->project->names;
+	struct token before = { .kind = TOKEN_END };
+	uint32_t written = 0;
+	struct lex lex;
+
+	if (item->kind == ST_CALL)
+		return false;
+	lex_init(&lex, names_text(names, item->text), names_len(names, item->text));
+	for (int i = 0; lex_next(&lex) != TOKEN_END; i++) {
+		if (i == (item->kind == ST_FOR) && (item->kind == ST_FOR || item->kind == ST_ASSIGN))
+			written = names_intern(names, lex.token.text, lex.token.len);
+		if (lex_is(&lex, "^") || calls_own(ld, &lex, &before) ||
+		    (lex_is(&lex, "[") && before.kind == TOKEN_ADDRESS))
+			return false;
+		before = lex.token;
+	}
+	if (written && !ld_meaning(ld, written))
+		return false;
+	if (written)
+		ld_freeze(ld, written);
+	return true;
+}
+
+void st_keep_read(struct ld *ld, int first, int count)
+{
+	for (int i = first; i < first + count; i++) {
+		const struct st_item *item = &ld->unit->pou->st->item[i];
+
+		if (item->kind == ST_COMMENT || keep_written(ld, item))
+			continue;
+		ld_freeze_all(ld);
+		return;
+	}
+}
+
+void st_put_box(struct ld *ld, uint32_t en, int first, int count)
+{
+	struct st_il *s = arena_alloc(ld->scratch, sizeof(*s));
+	struct level level;
+
+	if (!s) {
+		ld->failed = true;
+		return;
+	}
+	*s = (struct st_il){ .ld = *ld, .translation = ld->translation, .pou = ld->unit->pou,
+			     .labels = ld->labels };
+	level = level_of(s);
+	s->leave = new_label(s);
+	if (en) {
+		ld_emit(&s->ld, OP_LD, 0, en);
+		jump(s, MOD_C | MOD_N, s->leave);
+	}
+	s->ld.rung = NULL;
+	s->ld.number = 0;
+	s->ld.statement = true;
+	s->ld.watch = false;
+	put_items(s, first, count);
+	s->ld.rung = ld->rung;
+	s->ld.number = ld->number;
+	s->ld.row = ld->row;
+	s->ld.col = ld->col;
+	here(s, s->leave);
+	level_back(s, &level);
+	ld->labels = s->labels;
 	ld->failed |= s->ld.failed;
 }
 

@@ -200,6 +200,7 @@ static enum use use_of(const struct il_line *line)
 		case OPND_NONE:
 		case OPND_LABEL:
 		case OPND_ROUTINE:
+		case OPND_EXECUTE:
 		case OPND_INSTANCE:
 		case OPND_EXPR:
 		case OPND_LOOP:

@@ -389,7 +389,7 @@ static void scan_args(struct walk *walk, uint32_t id)
 static bool is_memory(enum operand_kind operand)
 {
 	return operand != OPND_NONE && operand != OPND_LABEL &&
-	       operand != OPND_PIN && operand != OPND_LOOP_END;
+	       operand != OPND_PIN && operand != OPND_LOOP_END && operand != OPND_EXECUTE;
 }
 
 static void walk_rung(struct walk *walk, const struct rung *rung)
@@ -402,7 +402,8 @@ static void walk_rung(struct walk *walk, const struct rung *rung)
 		if (is_memory(words_row(&walk->project->words,
 					(enum word)cell->word)->operand))
 			scan_whole(walk, cell->operand);
-		scan_args(walk, cell->args);
+		if (cell->word != ELEM_EXECUTE)
+			scan_args(walk, cell->args);
 	}
 }
 

@@ -131,8 +131,11 @@ static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target targ
 	if (walk->item) { /* of a statement: its own line and column */
 		const char *text = project_text(walk->project, walk->item->text);
 
-		st_where(&walk->project->names, walk->item, text + at, &use->line, &use->col);
-		use->row = use->line - walk->pou->line + 1;
+		int column;
+
+		st_where(&walk->project->names, walk->item, text + at, &use->line, &column);
+		use->col = use->rung ? use->col : column;
+		use->row = use->rung ? use->row : use->line - walk->pou->line + 1;
 	}
 	use->target = target;
 	use->kind = kind;
@@ -948,6 +951,7 @@ static void walk_operand(struct xref_walk *walk, struct cell *cell,
 	case OPND_NONE:
 	case OPND_PIN:
 	case OPND_LOOP_END:
+	case OPND_EXECUTE:
 		return;
 	}
 }
@@ -967,7 +971,7 @@ static void walk_cell(struct xref_walk *walk, struct rung *rung, int row, int co
 	}
 	add_word(walk, (enum word)cell->word, XREF_CALLED);
 	walk_operand(walk, cell, words_row(&walk->project->words, (enum word)cell->word));
-	if (cell->args)
+	if (cell->args && cell->word != ELEM_EXECUTE)
 		walk_args(walk, cell);
 }
 
@@ -1178,25 +1182,49 @@ static void walk_statement(struct xref_walk *walk, struct expr *expr, struct dia
 	}
 }
 
-static bool xref_st(struct xref_walk *walk, struct pou *pou)
+/* @boxed: of this EXECUTE box, at its cell; NULL: of a body. */
+static bool xref_st(struct xref_walk *walk, struct pou *pou, int first, int count, const struct boxed *boxed)
 {
 	struct expr *expr = arena_alloc(&walk->out->arena, sizeof(*expr));
 	struct diag_list *ignored = arena_alloc(&walk->out->arena, sizeof(*ignored));
 
 	if (!expr || !ignored)
 		return false;
-	for (int i = 0; i < pou->st->count; i++) {
+	for (int i = first; i < first + count; i++) {
 		struct st_item *item = &pou->st->item[i];
 
 		if (item->kind == ST_COMMENT)
 			continue;
 		xref_begin(walk, pou, item->line, item->column);
+		if (boxed) {
+			walk->place.rung = boxed->rung + 1;
+			walk->place.row = boxed->row + 1;
+			walk->place.col = boxed->col + 1;
+			walk->place.off = pou->rung[boxed->rung]->off;
+		}
 		walk->item = item;
 		walk->slot = &item->text;
 		walk_statement(walk, expr, ignored);
 	}
 	walk->item = NULL;
 	return true;
+}
+
+/* All statements of a POU: its body, or those of its actions and boxes. */
+static bool xref_statements(struct xref_walk *walk, struct pou *pou)
+{
+	bool good = true;
+
+	if (pou->language == LANGUAGE_ST)
+		return xref_st(walk, pou, 0, pou->st->count, NULL);
+	for (int i = 0; pou->sfc && i < pou->sfc->action_count && good; i++)
+		if (pou->sfc->action[i].body.kind == BODY_ST)
+			good = xref_st(walk, pou, pou->sfc->action[i].body.first,
+				       pou->sfc->action[i].body.count, NULL);
+	for (int i = 0; i < pou->boxed_count && good; i++)
+		if (pou->boxed[i].rung >= 0)
+			good = xref_st(walk, pou, pou->boxed[i].first, pou->boxed[i].count, &pou->boxed[i]);
+	return good;
 }
 
 /* A condition or an action of a chart. */
@@ -1341,7 +1369,7 @@ bool xref_make(struct xref *out, struct project *project)
 	walk_access(&walk);
 	for (int i = 0; i < project->pou_count; i++) {
 		walk.pou = &project->pou[i];
-		if (project->pou[i].st && !xref_st(&walk, &project->pou[i]))
+		if (project->pou[i].st && !xref_statements(&walk, &project->pou[i]))
 			return false;
 		if (project->pou[i].sfc) {
 			xref_sfc(&walk, &project->pou[i]);

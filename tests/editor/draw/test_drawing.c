@@ -59,6 +59,7 @@ static const char *operand_of(const struct word_row *row, int seed)
 		return "i := 1 TO 10";
 	case OPND_LABEL:
 	case OPND_ROUTINE:
+	case OPND_EXECUTE:
 		return seed ? "ALabelThatSaysALot" : "L1";
 	case OPND_NONE:
 	case OPND_LOOP_END:
