@@ -26,10 +26,12 @@ struct slot {
 	struct slot *part;          /* elements, members, pins                */
 	struct block *block;        /* of SLOT_BLOCK                          */
 	const struct pou *pou;      /* of SLOT_PARTS: a block of the project  */
+	struct slot *led;           /* of a pointer: what it leads to; NULL: nowhere */
+	struct slot *shape;         /* one of its type                        */
 };
 
 /* An expression. */
-enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_CALL };
+enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_CALL, TREE_REF };
 struct tree {
 	enum tree_kind kind;
 	enum word fn;               /* of TREE_TWO, TREE_CALL                 */
@@ -41,6 +43,7 @@ struct tree {
 	struct slot *global;        /* of TREE_PLACE: where it begins;        */
 	int local;                  /* NULL: number of a local                */
 	struct step *step;          /* from there on                          */
+	int bits, number;           /* the part of the place; bits 0: all of it */
 	const char *pin;            /* of an argument; NULL: in order         */
 	int pin_len;
 	bool out;                   /* an argument with =>                    */
@@ -53,6 +56,7 @@ struct step {
 	struct tree *index;
 	const char *name;
 	int len;
+	bool through;               /* ^ */
 	struct step *next;
 };
 
@@ -138,6 +142,8 @@ struct slot *target_slot(struct frame_of *f, const struct tree *tree,
 struct slot *tree_first(struct frame_of *f, const struct tree *tree);
 /** slot_put - stores; false, and an error is counted, if it may not hold the value. */
 bool slot_put(struct st_world *world, struct slot *slot, struct value value);
+/** part_put - @all with @part as its bits that the place names. */
+struct value part_put(const struct tree *tree, struct value all, struct value part);
 void slot_copy(struct slot *to, const struct slot *from);
 /** slot_fits - whether a subrange has the value. */
 bool slot_fits(const struct slot *slot, struct value value);

@@ -21,7 +21,8 @@ struct slot *tree_first(struct frame_of *f, const struct tree *tree)
 	struct slot *slot = begin_of(f, tree);
 
 	for (const struct step *step = tree->step; slot && step; step = step->next)
-		slot = step->index ? &slot->part[0] : slot_member(slot, step->name, step->len);
+		slot = step->through ? slot->shape : step->index ? &slot->part[0] :
+		       slot_member(slot, step->name, step->len);
 	return slot;
 }
 
@@ -40,9 +41,16 @@ static bool is_plain(const struct tree *index)
 	if (index->kind != TREE_PLACE)
 		return index->kind == TREE_CONSTANT;
 	for (const struct step *step = index->step; step; step = step->next)
-		if (step->index)
+		if (step->index || step->through)
 			return false;
-	return true;
+	return !index->bits;
+}
+
+/* What the pointer leads to; @there becomes false if that is nowhere. */
+static struct slot *led_by(const struct slot *pointer, bool *there)
+{
+	*there = *there && pointer->led;
+	return *there ? pointer->led : pointer->shape;
 }
 
 static struct value index_value(struct frame_of *f, const struct tree *index, struct chain_state *chain)
@@ -58,6 +66,10 @@ struct slot *tree_slot(struct frame_of *f, const struct tree *tree, struct chain
 	for (const struct step *step = tree->step; step; step = step->next) {
 		struct value index;
 
+		if (step->through) {
+			slot = led_by(slot, &there);
+			continue;
+		}
 		if (!step->index) {
 			slot = slot_member(slot, step->name, step->len);
 			continue;
@@ -95,6 +107,10 @@ struct slot *target_slot(struct frame_of *f, const struct tree *tree, const stru
 	for (const struct step *step = tree->step; step; step = step->next) {
 		struct value value;
 
+		if (step->through) {
+			slot = led_by(slot, &there);
+			continue;
+		}
 		if (!step->index) {
 			slot = slot_member(slot, step->name, step->len);
 			continue;
@@ -225,6 +241,33 @@ static enum iec_type result_of(struct frame_of *f, const struct tree *call, enum
 	return shared(f, call, wanted);
 }
 
+static enum iec_type part_type(int bits)
+{
+	return bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD : IEC_DWORD;
+}
+
+static uint64_t part_mask(const struct tree *tree)
+{
+	return (UINT64_C(1) << tree->bits) - 1;
+}
+
+static struct value part_of(const struct tree *tree, struct value all)
+{
+	return (struct value){ .type = part_type(tree->bits),
+		.i = (int64_t)((uint64_t)all.i >> tree->number * tree->bits & part_mask(tree)) };
+}
+
+struct value part_put(const struct tree *tree, struct value all, struct value part)
+{
+	const int shift = tree->number * tree->bits;
+	const unsigned spare = 64 - 8u * iec_type_row(all.type)->size;
+	const uint64_t mixed = ((uint64_t)all.i & ~(part_mask(tree) << shift)) | (uint64_t)part.i << shift;
+
+	all.i = iec_type_row(all.type)->class == CLASS_SIGNED ? (int64_t)(mixed << spare) >> spare :
+		(int64_t)(mixed << spare >> spare);
+	return all;
+}
+
 enum iec_type tree_type(struct frame_of *f, const struct tree *tree, enum iec_type wanted)
 {
 	enum iec_type left, right;
@@ -233,8 +276,12 @@ enum iec_type tree_type(struct frame_of *f, const struct tree *tree, enum iec_ty
 	switch (tree->kind) {
 	case TREE_CONSTANT:
 		return tree->literal.type;
+	case TREE_REF:
+		return IEC_LWORD;
 	case TREE_PLACE:
 		slot = tree_first(f, tree);
+		if (tree->bits)
+			return part_type(tree->bits);
 		return slot->kind == SLOT_VALUE ? slot->value->type : IEC_NONE;
 	case TREE_NEG:
 	case TREE_NOT:
@@ -530,7 +577,11 @@ struct value tree_compute(struct frame_of *f, const struct tree *tree, enum iec_
 		return value;
 	switch (tree->kind) {
 	case TREE_CONSTANT: value = constant(tree, type); break;
-	case TREE_PLACE: value = read_place(f, tree, chain); break;
+	case TREE_REF: break; /* an assignment stores it */
+	case TREE_PLACE:
+		value = read_place(f, tree, chain);
+		value = tree->bits ? part_of(tree, value) : value;
+		break;
 	case TREE_NEG:
 	case TREE_NOT: value = compute_one(f, tree, type, chain); break;
 	case TREE_TWO: value = compute_two(f, tree, type, chain); break;

@@ -63,13 +63,29 @@ static struct step **add_step(struct parse *p, struct step **end, struct step st
 	return &(*end)->next;
 }
 
+/* A number, `%B2`: bits of the place. */
+static bool part(struct tree *tree, const char *text, size_t len)
+{
+	const bool named = *text == '%';
+
+	if (!named && (*text < '0' || *text > '9'))
+		return false;
+	tree->bits = !named || text[1] == 'X' ? 1 : text[1] == 'B' ? 8 : text[1] == 'W' ? 16 : 32;
+	for (size_t i = named ? 2 : 0; i < len; i++)
+		tree->number = tree->number * 10 + text[i] - '0';
+	return true;
+}
+
 /* `.Name.Other`, between @at and @stop. */
-static struct step **members(struct parse *p, struct step **end, const char *at, const char *stop)
+static struct step **members(struct parse *p, struct tree *tree, struct step **end, const char *at,
+			     const char *stop)
 {
 	while (at < stop) {
 		const char *dot = memchr(at, '.', (size_t)(stop - at));
 
 		dot = dot ? dot : stop;
+		if (part(tree, at, (size_t)(dot - at)))
+			return end;
 		end = add_step(p, end, (struct step){ .name = at, .len = (int)(dot - at) });
 		at = dot + 1;
 	}
@@ -79,17 +95,27 @@ static struct step **members(struct parse *p, struct step **end, const char *at,
 /* The name in front is read; indices and members follow. */
 static void path(struct parse *p, struct tree *tree, const char *rest, const char *stop)
 {
-	struct step **end = members(p, &tree->step, rest, stop);
+	const struct slot *global = tree->global;
+	const bool reference = global && global->shape && global->var->target->word == REFERENCE_TO &&
+			       !lex_is(&p->lex, "REF");
+	struct step **end = reference ? add_step(p, &tree->step, (struct step){ .through = true }) :
+			    &tree->step;
+
+	end = members(p, tree, end, rest, stop);
 
 	for (;;) {
-		if (lex_accept(&p->lex, "[")) {
+		if (lex_accept(&p->lex, "^")) {
+			end = add_step(p, end, (struct step){ .through = true });
+		} else if (lex_accept(&p->lex, "[")) {
 			do
 				end = add_step(p, end, (struct step){ .index = expression(p, 1) });
 			while (lex_accept(&p->lex, ","));
 			must(p, "]");
 		} else if (lex_is(&p->lex, ".")) {
 			lex_next(&p->lex);
-			end = members(p, end, p->lex.token.text, p->lex.token.text + p->lex.token.len);
+			if (!part(tree, p->lex.token.text, p->lex.token.len))
+				end = members(p, tree, end, p->lex.token.text,
+					      p->lex.token.text + p->lex.token.len);
 			lex_next(&p->lex);
 		} else {
 			return;
@@ -187,6 +213,14 @@ static void call(struct parse *p, struct tree *tree)
 	const struct token token = p->lex.token;
 	struct word_table *words = &p->world->project->words;
 
+	if (lex_is(&p->lex, "REF") || lex_is(&p->lex, "ADR")) {
+		lex_next(&p->lex);
+		lex_next(&p->lex);
+		tree->kind = TREE_REF;
+		tree->left = expression(p, 1);
+		must(p, ")");
+		return;
+	}
 	tree->kind = TREE_CALL;
 	tree->pou = pou_of(p, token.text, token.len);
 	if (!tree->pou) {
@@ -433,8 +467,14 @@ static void statement(struct parse *p, struct stmt *stmt)
 	switch ((int)stmt->kind) {
 	case ST_ASSIGN:
 		stmt->place = expression(p, UNARY);
-		must(p, ":=");
-		stmt->value = expression(p, 1);
+		if (lex_accept(&p->lex, "REF")) {
+			must(p, "=");
+			stmt->value = new_tree(p, (struct tree){ .kind = TREE_REF, .local = -1,
+								 .left = expression(p, 1) });
+		} else {
+			must(p, ":=");
+			stmt->value = expression(p, 1);
+		}
 		p->at++;
 		break;
 	case ST_CALL: call_of(p, stmt); break;

@@ -65,6 +65,7 @@ static const char globals[] =
 	"  wait : TON;\n  late : TOF;\n  pulse : TP;\n  down : CTD;\n  latch : SR;\n  clear : RS;\n  fall : F_TRIG;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
 	"  mix1 : Mix;\n  mix2 : Mix;\n  mixes : ARRAY[0..1, 1..2] OF Mix;\n"
 	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
+	"  pi : REF_TO INT;\n  pp : POINTER TO Point;\n  rd : REFERENCE TO DINT;\n"
 	"  g1 : INT;\n  g2 : INT;\n  g3 : INT;\n  g4 : INT;\n"
 	"END_VAR\n\n";
 
@@ -212,6 +213,16 @@ static void variable(struct maker *m, enum type type)
 		say(m, "%s", chance(m, 50) ? "A" : "Own");
 	else if (m->room == ROOM_BLOCK && type == T_INT && chance(m, 40))
 		say(m, "%s", chance(m, 50) ? "Add" : "Kept");
+	else if (chance(m, 6) && type == T_INT)
+		say(m, "%s", chance(m, 50) ? "pi^" : "pp^.x");
+	else if (chance(m, 10) && type == T_DINT)
+		say(m, "%s", chance(m, 50) ? "rd" : "pp^.y");
+	else if (chance(m, 10) && type == T_STRING)
+		say(m, "pp^.tag");
+	else if (chance(m, 10) && (type == T_BOOL || type == T_BYTE || type == T_WORD))
+		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", "pi^.2", NULL }, 6) :
+		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%B7", NULL }, 5) :
+		    one_of(m, (const char *const[]){ "dw1.%W1", "lw2.%W3", "d2.%W0", NULL }, 4));
 	else if (m->room >= ROOM_ROUTINE && type == T_UINT && chance(m, 20))
 		say(m, "mix1.Total"); /* not while it runs */
 	else
@@ -480,6 +491,17 @@ static void target(struct maker *m, enum type type)
 
 	if (chance(m, 30) && element(m, type, 2))
 		return;
+	if (chance(m, 10) && (type == T_INT || type == T_DINT || type == T_STRING)) {
+		say(m, "%s", type == T_INT ? chance(m, 50) ? "pi^" : "pp^.x" : type == T_STRING ? "pp^.tag" :
+		    chance(m, 50) ? "rd" : "pp^.y");
+		return;
+	}
+	if (chance(m, 10) && (type == T_BOOL || type == T_BYTE || type == T_WORD)) {
+		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", NULL }, 5) :
+		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%B7", NULL }, 5) :
+		    one_of(m, (const char *const[]){ "dw1.%W1", "lw2.%W3", "d2.%W0", NULL }, 4));
+		return;
+	}
 	if (m->room == ROOM_FUNCTION && type == T_INT && chance(m, 60))
 		say(m, "%s", chance(m, 50) ? "Reckon" : "Own");
 	else if (m->room == ROOM_BLOCK && type == T_INT && chance(m, 60))
@@ -502,6 +524,10 @@ static void assignment(struct maker *m)
 	static const char *const whole[] = {
 		"ai := aj", "aj := ai", "ad := ae", "ae := ad", "pt1 := pt2", "pt2 := pt1", "pt1 := pts[k1]",
 		"pts[i1] := pt2", "pts[2] := pts[us2]", "pt1.row := pts[1].row", "ad[1] := ae[k1]",
+		"pt1 := pp^", "pp^ := pt2", "pp^ := pts[k1]", "pts[i1] := pp^", "pt2.row := pp^.row", "pp^.row := pts[2].row",
+		"pi := REF(i4)", "pi := ADR(aj[k1 MOD 5 + 1])", "pi := REF(pt1.x)", "pi := REF(pts[us2 MOD 5].row[2])", "pi := REF(pp^.x)",
+		"pp := REF(pt2)", "pp := ADR(pts[i1 MOD 3 + 1])", "pp := ADR(pts[2])", "rd REF= d3", "rd REF= ad[1, k1 MOD 2]", "rd REF= pp^.y",
+		"pi := REF(k1)", "rd REF= k4", "rd REF= rd",
 		"ae[d3] := ad[0]", "pts[k1] := pts[i1]", "ar[0] := ar[1]", "ar[k1, 1] := ar[0][2]",
 	};
 	const enum type type = (enum type)below(m, TYPES);
@@ -803,6 +829,8 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 	say(&m, action ? "END_SUBROUTINE\n\nPROGRAM Main SFC\n  INITIAL_STEP Always:\n    Do(N);\n  END_STEP\n  ACTION Do:\n" :
 		"END_SUBROUTINE\n\nPROGRAM Main ST\n");
 	m.room = ROOM_MAIN;
+	if (chance(&m, 75))
+		say(&m, "  pi := REF(i4);\n  pp := REF(pts[us2 MOD 3 + 1]);\n  rd REF= d3;\n");
 	statements(&m, 3, 7, 1);
 	say(&m, "  Start();\n%sEND_PROGRAM\n", action ? "  END_ACTION\n" : "");
 	return m.used;

@@ -29,6 +29,28 @@ static bool fits_text(const struct slot *slot, struct value value)
 	return value.type != IEC_STRING || value.len <= slot->value->room;
 }
 
+static bool is_through(const struct tree *place)
+{
+	for (const struct step *step = place->step; step; step = step->next)
+		if (step->through)
+			return true;
+	return false;
+}
+
+/* A pointer gets a place, which may be nowhere. */
+static void refer(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+	struct slot *pointer = tree_slot(f, stmt->place, &chain);
+	struct value index[INDICES_MAX] = { { 0 } };
+
+	target_begin(f, stmt->value->left, &chain, index);
+	if (!chain.on)
+		return;
+	pointer->led = target_slot(f, stmt->value->left, index);
+	pointer->value->i = 1;
+}
+
 /* The value is computed, then the target is found; the last operation stores, a wrapped result too. A
  * target that is not there: one error, whatever the value is. */
 static void assign(struct frame_of *f, const struct stmt *stmt)
@@ -39,6 +61,10 @@ static void assign(struct frame_of *f, const struct stmt *stmt)
 	struct value value, index[INDICES_MAX] = { { 0 } };
 	struct slot *to, *from;
 
+	if (stmt->value->kind == TREE_REF) {
+		refer(f, stmt);
+		return;
+	}
 	target_begin(f, stmt->place, &chain, index);
 	if (first->kind != SLOT_VALUE) {
 		from = chain.on ? tree_slot(f, stmt->value, &chain) : NULL;
@@ -50,7 +76,7 @@ static void assign(struct frame_of *f, const struct stmt *stmt)
 	}
 	chain.nowhere = stmt->value->kind == TREE_CALL ? stmt : NULL;
 	chain.index = index;
-	value = tree_compute(f, stmt->value, first->value->type, &chain);
+	value = tree_compute(f, stmt->value, tree_type(f, stmt->place, IEC_NONE), &chain);
 	to = target_slot(f, stmt->place, index);
 	if (!to) {
 		world->errors += chain.on;
@@ -60,7 +86,12 @@ static void assign(struct frame_of *f, const struct stmt *stmt)
 		return;
 	if (!chain.on && to->var && to->var->range) /* a result that wrapped is beyond its limits */
 		return;
-	if (!fits_text(to, value) && chain.on)
+	if (stmt->place->bits) {
+		if (chain.on)
+			slot_put(world, to, part_put(stmt->place, *to->value, value));
+		return;
+	}
+	if (!fits_text(to, value) && chain.on && !is_through(stmt->place)) /* a pointer cuts it */
 		world->errors++;
 	slot_put(world, to, value);
 }

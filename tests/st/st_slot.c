@@ -85,8 +85,24 @@ static bool make_block(struct st_world *world, struct slot *slot)
 	return true;
 }
 
+static bool make_dims(struct st_world *world, struct slot *slot, int dim, uint32_t *number);
+
+/* What a pointer may lead to. */
+static bool make_shape(struct st_world *world, struct slot *slot)
+{
+	uint32_t number = 0;
+
+	slot->shape = arena_alloc(&world->arena, sizeof(*slot->shape));
+	if (!slot->shape)
+		return false;
+	*slot->shape = (struct slot){ .var = slot->var->target->like, .name = slot->name };
+	return make_dims(world, slot->shape, 0, &number);
+}
+
 static bool make_one(struct st_world *world, struct slot *slot, uint32_t number)
 {
+	if (slot->var->target && !make_shape(world, slot))
+		return false;
 	if (slot->var->type == IEC_NONE)
 		return word_is_own(slot->var->fb) ? make_parts(world, slot) : make_block(world, slot);
 	slot->kind = SLOT_VALUE;
@@ -211,7 +227,7 @@ void slot_show(struct st_world *world, struct slot *slot, const char *before)
 	char name[128];
 
 	for (int i = 0; i < slot->count; i++) {
-		if (slot->part[i].flags & (VAR_TEMP | VAR_IN_OUT | VAR_SFC))
+		if (slot->part[i].flags & (VAR_TEMP | VAR_IN_OUT | VAR_SFC) || slot->part[i].shape)
 			continue;
 		snprintf(name, sizeof(name), "%.60s%s%.60s", before, *before ? "." : "",
 			 slot->part[i].name);

@@ -358,6 +358,19 @@ static void check_located(struct names_check *c)
 	}
 }
 
+static const char *const pointer_words[] = { "POINTER", "REF_TO", "REFERENCE" };
+
+/* A pointer may lead to its type; a type with a name may be anything. */
+static bool leads_well(const struct project *project, const struct var *like)
+{
+	while (like->named && project->named[like->named - 1].like.var)
+		like = project->named[like->named - 1].like.var;
+	if (like->type == IEC_NONE)
+		return !like->array.count &&
+		       words_row(&project->words, like->fb)->kind == WORD_STRUCT;
+	return like->dims < 2 && !(like->array.count && like->type == IEC_STRING) && !like->target;
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint16_t flags)
 {
@@ -388,6 +401,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_var(c, DIAG_CONSTANT_NO_VALUE, pou, var, name);
 	if (var->points)
 		check_points(c, pou, var);
+	if (var->target && !leads_well(c->project, var->target->like))
+		report_line(c, DIAG_POINTER_TYPE, pou, var->line, pointer_words[var->target->word]);
 	check_range(c, var, place);
 	if (init_has_parts(var))
 		c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,

@@ -558,36 +558,52 @@ static void check_bit(struct operand_check *c, struct operand_spot at, uint32_t 
 	operand_report(c, DIAG_NO_SUCH_PART, at, text);
 }
 
-/* May a pointer lead to it? */
-static void check_place(struct operand_check *c, struct operand_spot at, const char *name)
+/* May a pointer lead to the place @node? */
+static void check_place(struct operand_check *c, struct operand_spot at, struct expr *expr,
+			struct expr_node *node)
 {
 	char text[LIMIT_NAME + 4];
+	const struct meaning *m;
 	enum diag_id why;
-	const int len = snprintf(text, sizeof(text), "&%s", name);
+	uint32_t id;
 
-	if (!scope_find(c->scope, c->pou, operand_intern(c, text, (size_t)len), &why) &&
-	    why == DIAG_ADR_OF)
-		operand_report(c, why, at, name);
+	node->whole = true;
+	if (node->op == EXPR_INDEX)
+		id = use_indices(c, at, expr, (int)(node - expr->node));
+	else
+		id = node->op == EXPR_NAME ? operand_intern(c, node->text, node->len) : 0;
+	if (!id && node->op == EXPR_INDEX)
+		return;
+	m = id ? scope_find(c->scope, c->pou, id, &why) : NULL;
+	snprintf(text, sizeof(text), "%.*s", node->len < LIMIT_NAME ? node->len : LIMIT_NAME, node->text);
+	if (id && !m)
+		return; /* the name is told as any other */
+	if (!m)
+		operand_report(c, DIAG_ADR_OF, at, node->len ? text : "+");
+	else if (!m->var || (m->constant && !m->through) || m->addr.area != AREA_NONE ||
+		 m->kind == MEANING_INSTANCE)
+		operand_refuse(c, DIAG_ADR_OF, at, id, m);
+	else
+		uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 }
 
 /* What an assignment writes. */
-static void use_target(struct operand_check *c, struct operand_spot at, const struct expr *expr)
+static void use_target(struct operand_check *c, struct operand_spot at, struct expr *expr)
 {
 	uint32_t id = operand_intern(c, expr->target, expr->target_len);
 
 	if (expr->target_points) {
-		const struct expr_node *root = &expr->node[expr->root];
+		struct expr_node *root = &expr->node[expr->root];
 		char text[2 * LIMIT_NAME + 4];
 		const int len = snprintf(text, sizeof(text), "@%.*s", (int)expr->target_len, expr->target);
 
 		id = operand_intern(c, text, (size_t)len);
 		operand_write(c, at, id, false);
-		snprintf(text, sizeof(text), "%.*s", root->len, root->text);
 		c->spot = root->text;
-		if (root->op != EXPR_NAME || expr->target_index >= 0)
-			operand_report(c, DIAG_ADR_OF, at, text);
+		if (expr->target_index >= 0)
+			operand_report(c, DIAG_ADR_OF, at, text + 1);
 		else
-			check_place(c, at, text);
+			check_place(c, at, expr, root);
 		return;
 	}
 	if (expr->target_index >= 0) {
@@ -672,41 +688,33 @@ static void note_others(struct operand_check *c, struct operand_spot at, struct 
 	}
 }
 
-/* ADR and SIZEOF; false: another call. */
+/* ADR, SIZEOF, __ISVALIDREF; false: another call. */
 static bool use_measured(struct operand_check *c, struct operand_spot at, struct expr *expr,
 			 const struct expr_node *call)
 {
-	bool adr;
-	struct expr_node *of = expr_measured(expr, call, &adr);
+	enum expr_measure what;
+	struct expr_node *of = expr_measured(expr, call, &what);
 	const struct meaning *m;
-	enum diag_id why = DIAG_ADR_OF;
+	enum diag_id why;
 	char text[LIMIT_NAME + 2];
-	int len;
 
 	if (!of)
 		return false;
-	len = snprintf(text, sizeof(text), "&%.*s", of->len < LIMIT_NAME ? of->len : LIMIT_NAME,
-		       of->text);
-	of->whole = true;
 	c->spot = of->text;
-	if (adr && of->op == EXPR_INDEX && of->right < 0 && !of->tail.len) {
-		check_place(c, at, text + 1);
+	if (what == MEASURE_PLACE) {
+		check_place(c, at, expr, of);
 		return true;
 	}
-	if (of->op != EXPR_NAME) {
-		operand_report(c, DIAG_ADR_OF, at, of->len ? text + 1 : "+");
-		return true;
-	}
-	m = scope_find(c->scope, c->pou, operand_intern(c, text + 1, (size_t)len - 1), &why);
-	if (!m)
-		return true; /* the name is told as any other */
-	if (adr && m->opens == 1 && text[len - 1] == ']') {
-		text[expr_array(text, (size_t)len)] = '\0';
-		check_place(c, at, text + 1);
-	} else if (adr) {
-		check_place(c, at, text + 1);
-	}
-	uses_add(c->uses, m, adr ? USE_READ | USE_WRITTEN : USE_READ);
+	of->whole = true;
+	snprintf(text, sizeof(text), "%s%.*s", what == MEASURE_VALID ? "@" : "",
+		 of->len < LIMIT_NAME ? of->len : LIMIT_NAME, of->text);
+	m = of->op == EXPR_NAME ? scope_find(c->scope, c->pou, operand_intern(c, text, strlen(text)), &why) :
+				  NULL;
+	if (of->op != EXPR_NAME || (m && what == MEASURE_VALID && !(m->like && m->like->target)))
+		operand_report(c, what == MEASURE_VALID ? DIAG_NO_REFERENCE : DIAG_ADR_OF, at,
+			       of->len ? text + (*text == '@') : "+");
+	else if (m)
+		uses_add(c->uses, m, USE_READ);
 	return true;
 }
 

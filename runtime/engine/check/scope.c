@@ -450,6 +450,7 @@ struct path {
 	enum diag_id why;
 	bool raw;                /* a REFERENCE is meant, not what it leads to */
 	bool done;               /* a part was named: nothing can follow it   */
+	uint32_t count;          /* elements of the array that a pointer leads to: others may be read, too */
 };
 
 static bool refuse(struct path *path, enum diag_id why)
@@ -750,19 +751,22 @@ static bool mean_target(struct path *path, const struct var_target *target)
 
 	while (like->named && scope_project(path->scope)->named[like->named - 1].like.var)
 		like = scope_project(path->scope)->named[like->named - 1].like.var;
+	if (like->dims > 1 || (like->array.count && (like->type == IEC_NONE || like->type == IEC_STRING)))
+		return refuse(path, DIAG_NOT_POINTER);
 	pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
 	if (!pointer)
 		return refuse(path, DIAG_NO_MEMORY);
 	*pointer = path->m;
 	path->pointer = pointer;
 	path->m = (struct meaning){
-		.kind = target->list ? MEANING_ARRAY : MEANING_ELEMENT, .type = like->type,
+		.kind = like->array.count ? MEANING_ARRAY : MEANING_ELEMENT, .type = like->type,
 		.writable = true, .index = pointer->index, .pou = pointer->pou,
 		.var = pointer->var, .through = true,
 	};
-	if (target->list) {
+	if (like->array.count) {
 		path->m.stride = iec_type_row(like->type)->size;
-		path->m.array = (struct var_array){ target->low, LIMIT_ELEMENTS };
+		path->m.array = (struct var_array){ like->array.low, LIMIT_ELEMENTS };
+		path->count = like->array.count;
 	} else if (like->type == IEC_NONE) {
 		path->m.word = (uint16_t)like->fb;
 		scope_mean_whole(path->scope, like->fb, &path->m);
@@ -873,9 +877,9 @@ static bool finish(struct path *path, struct meaning *out)
 {
 	struct meaning *m = &path->m;
 
-	if (m->through && (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE))
-		return refuse(path, DIAG_THROUGH_WHOLE);
 	m->index_of = path->index_of;
+	if (m->through && m->kind == MEANING_ARRAY && m->array.count == LIMIT_ELEMENTS)
+		m->array.count = path->count;
 	if (m->through)
 		path->open[path->opens++] = (struct open_index){ .of = path->pointer };
 	if (path->opens) {

@@ -20,15 +20,23 @@ bool expr_is_clock(const struct expr_node *node)
 	return node->op == EXPR_CALL && node->left < 0 && ascii_is("TIME", node->text, node->len);
 }
 
-struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call, bool *adr)
+struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
+				enum expr_measure *what)
 {
+	static const struct { const char *word; enum expr_measure what; } rows[] = {
+		{ "ADR", MEASURE_PLACE }, { "REF", MEASURE_PLACE }, { "SIZEOF", MEASURE_SIZE },
+		{ "__ISVALIDREF", MEASURE_VALID },
+	};
 	struct expr_node *arg = call->left >= 0 ? &expr->node[call->left] : NULL;
 
-	*adr = ascii_is("ADR", call->text, call->len) || ascii_is("REF", call->text, call->len);
-	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || arg->len ||
-	    (!*adr && !ascii_is("SIZEOF", call->text, call->len)))
+	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || arg->len)
 		return NULL;
-	return &expr->node[arg->left];
+	for (size_t i = 0; i < sizeof(rows) / sizeof(*rows); i++)
+		if (ascii_is(rows[i].word, call->text, call->len)) {
+			*what = rows[i].what;
+			return &expr->node[arg->left];
+		}
+	return NULL;
 }
 
 int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)

@@ -31,9 +31,12 @@ struct expr_args {
 enum word expr_function(struct word_table *words, const struct expr_node *call);
 /** expr_is_clock - TIME(): the time since the controller started. Scan-safe: yes. */
 bool expr_is_clock(const struct expr_node *node);
-/** expr_measured - the argument of ADR or SIZEOF; NULL: the call is none of them
- * @adr: gets which. Scan-safe: yes. */
-struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call, bool *adr);
+/* ADR and REF; SIZEOF; __ISVALIDREF. */
+enum expr_measure { MEASURE_PLACE, MEASURE_SIZE, MEASURE_VALID };
+/** expr_measured - the argument of ADR, SIZEOF or __ISVALIDREF; NULL: the call is none of them
+ * Scan-safe: yes. */
+struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
+				enum expr_measure *what);
 /**
  * expr_match - matches the arguments of @call to the pins of @row
  *

@@ -57,8 +57,10 @@
  *                               leads to. dst = the value in its place at its position + more +
  *                               (index - low) * size; ok: all of it is in the place (else dst
  *                               = 0, counted). Not on small boards
- *   POKE   en, ok, src, pointer, more, index, low   likewise; else nothing. Only numbers and
- *                               bytes of texts are written
+ *   POKE   en, ok, src, pointer, more, index, low   likewise; else nothing. Only numbers, texts
+ *                               and bytes of texts are written
+ *   PEEK POKE with n 1   en, ok, dst, pointer, more, size, 0   likewise `size` bytes, whose layout
+ *                               must be the same at both places; without it nothing is written
  *   POINT                       a safe point, n: words of code up to the next one or the end.
  *                               Only in programs of tasks; nothing waits in scratch
  */

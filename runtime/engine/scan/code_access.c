@@ -133,10 +133,14 @@ static void visit_tick(const struct visit *visit, const uint32_t *at, uint32_t n
 
 #ifndef RUNGBOARD_SMALL
 /* Without the place that it leads to: code_has_pointers(). */
-static void visit_pointer(const struct visit *visit, const uint32_t *at, bool poke)
+static void visit_pointer(const struct visit *visit, const uint32_t *at, bool poke, bool all)
 {
 	give_gate(visit, at[0], at[1]);
 	give_bytes(visit, CODE_OFFSET(at[3]), sizeof(uint64_t), false);
+	if (all) {
+		give_bytes(visit, at[2], at[5], !poke);
+		return;
+	}
 	give_typed(visit, at[5], false);
 	give_typed(visit, at[2], !poke);
 }
@@ -188,7 +192,7 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	case VM_SWITCH: give_typed(visit, at[0], false); return;
 	case VM_STOP: give_bool(visit, at[0], false); return;
 	case VM_JMPC: give_bool(visit, at[1], false); return;
-	WITH_POINTERS(case VM_PEEK: case VM_POKE: visit_pointer(visit, at, op == VM_POKE); return;)
+	WITH_POINTERS(case VM_PEEK: case VM_POKE: visit_pointer(visit, at, op == VM_POKE, n); return;)
 	case VM_CALL:
 	case VM_JMP:
 	case VM_END:

@@ -118,6 +118,10 @@ static int print_pointer(const uint32_t *code, char *out, size_t size)
 {
 	const uint32_t *at = code + 1;
 
+	if (*code >> 8)
+		return snprintf(out, size, "%s    en b%u ok b%u b%u pointer %s + %u, %u bytes",
+				vm_row((enum vm_op)(*code & 0xff))->word, at[0], at[1], at[2],
+				typed(at[3]).text, at[4], at[5]);
 	return snprintf(out, size, "%s    en b%u ok b%u %s pointer %s + %u + %s - %d",
 			vm_row((enum vm_op)(*code & 0xff))->word, at[0], at[1], typed(at[2]).text,
 			typed(at[3]).text, at[4], typed(at[5]).text, (int)at[6]);

@@ -326,12 +326,20 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 }
 
 #ifndef RUNGBOARD_SMALL
+/* PEEK and POKE of a whole: the scan compares what lies at both places. */
+static bool check_whole(const struct verifier *v, const uint32_t *at)
+{
+	return reads_bool(v, at[0]) && writes_bool(v, at[1]) && at[2] >= v->areas + 2 && at[5] > 0 &&
+	       at[5] <= v->data_size && at[2] <= v->data_size - at[5] && at[4] <= v->data_size &&
+	       CODE_TYPE(at[3]) == IEC_NONE && verify_use(v, CODE_OFFSET(at[3]), IEC_LWORD, false);
+}
+
 /* PEEK and POKE. What the pointer says is compared in the scan. */
 static bool check_pointer(const struct verifier *v, const uint32_t *at, bool poke)
 {
 	const uint32_t type = CODE_TYPE(at[3]), value = CODE_TYPE(at[2]);
 
-	return reads_bool(v, at[0]) && writes_bool(v, at[1]) && type != IEC_STRING &&
+	return reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
 	       type > IEC_NONE && type < IEC_TYPE_COUNT &&
 	       verify_use(v, CODE_OFFSET(at[3]), IEC_LWORD, false) && can_read(v, at[5]) &&
 	       is_of(CODE_TYPE(at[5]), ANY_INT | ANY_BIT) &&
@@ -446,7 +454,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 	case VM_POINT:
 		return n <= LIMIT_IMAGE / 4;
 	WITH_POINTERS(case VM_PEEK: case VM_POKE:
-		return check_pointer(v, at, (*code & 0xff) == VM_POKE);)
+		return n ? n == 1 && check_whole(v, at) :
+			   check_pointer(v, at, (*code & 0xff) == VM_POKE);)
 	case VM_COUNT:
 		break;
 	}

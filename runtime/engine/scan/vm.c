@@ -191,12 +191,79 @@ static bool lead(const struct vm *vm, const uint32_t *at, struct led *out)
 	return true;
 }
 
+/* The same of a text, a structure or an array: its offset. @size: what has to be in its place. */
+static bool lead_whole(const struct vm *vm, const uint32_t *at, uint32_t size, uint32_t *where)
+{
+	const uint64_t pointer = (uint64_t)value_integer(vm->memory + CODE_OFFSET(at[POINTER]), IEC_LWORD);
+	const uint32_t place = (uint32_t)(pointer >> CODE_POINTER_PLACE);
+	const int64_t bytes = pointer >> CODE_POINTER_BYTES & CODE_POINTER_MOST;
+	const int64_t position = ((int32_t)((uint32_t)pointer << 12) >> 12) + (int64_t)at[MORE];
+
+	if (position < 0 || position + size > bytes || place < vm->program->areas.size + 2 ||
+	    place + bytes > vm->program->header->data_size)
+		return false;
+	*where = place + (uint32_t)position;
+	return true;
+}
+
+static bool copy_text(struct vm *vm, const uint32_t *at, bool poke)
+{
+	const struct code_run *run;
+	uint32_t where;
+
+	if (!lead_whole(vm, at, 1, &where))
+		return false;
+	run = code_run_at(vm->program, where);
+	if (!run || run->kind != RUN_VALUES || run->type != IEC_STRING ||
+	    (where - run->offset) % code_run_size(run))
+		return false;
+	where = CODE_OPERAND(IEC_STRING, where);
+	put_text(vm->memory, poke ? where : at[VALUE], text(vm->memory, poke ? at[VALUE] : where));
+	return true;
+}
+
+/* Bytes from @a and @b on that hold values of one type, or nothing; 0: they differ. */
+static uint32_t alike(const struct program *p, uint32_t a, uint32_t b, uint32_t most)
+{
+	const struct code_run *one = code_run_at(p, a), *other = code_run_at(p, b);
+	uint32_t unit, left, right;
+
+	if (!one || !other)
+		return !one && !other;
+	unit = code_run_size(one);
+	if (one->kind != RUN_VALUES || other->kind != RUN_VALUES || one->type != other->type ||
+	    one->word != other->word || (a - one->offset) % unit || (b - other->offset) % unit)
+		return 0;
+	left = one->offset + one->count * unit - a;
+	right = other->offset + other->count * unit - b;
+	left = left < right ? left : right;
+	return left < most ? left : most - most % unit;
+}
+
+static bool copy_whole(struct vm *vm, const uint32_t *at, bool poke)
+{
+	const uint32_t size = at[AT_INDEX];
+	uint32_t where, step;
+
+	if (!lead_whole(vm, at, size, &where))
+		return false;
+	for (uint32_t i = 0; i < size; i += step) {
+		step = alike(vm->program, at[VALUE] + i, where + i, size - i);
+		if (!step)
+			return false;
+	}
+	memmove(vm->memory + (poke ? where : at[VALUE]), vm->memory + (poke ? at[VALUE] : where), size);
+	return true;
+}
+
 static bool peek(struct vm *vm, const uint32_t *at)
 {
 	uint32_t pair[3] = { 0, at[VALUE], 0 };
 	union iec_value byte = { .i = 0 };
 	struct led led;
 
+	if (CODE_TYPE(at[POINTER]) == IEC_STRING)
+		return copy_text(vm, at, false);
 	if (!lead(vm, at, &led))
 		return false;
 	if (led.text) { /* behind its end is a 0 */
@@ -234,6 +301,8 @@ static bool poke(struct vm *vm, const uint32_t *at)
 	const struct code_run *run;
 	struct led led;
 
+	if (type == IEC_STRING)
+		return copy_text(vm, at, true);
 	if (!lead(vm, at, &led))
 		return false;
 	if (led.text)
@@ -764,12 +833,16 @@ static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 static void run_pointer(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 {
 	uint8_t *m = vm->memory;
-	const bool get = (*pc & 0xff) == VM_PEEK;
+	const bool get = (*pc & 0xff) == VM_PEEK, all = *pc >> 8;
+	static const struct iec_string none = { 0, 0 };
 
-	m[pc[2]] = m[pc[1]] && (get ? peek(vm, pc + 1) : poke(vm, pc + 1));
+	m[pc[2]] = m[pc[1]] && (all ? copy_whole(vm, pc + 1, !get) :
+				get ? peek(vm, pc + 1) : poke(vm, pc + 1));
 	if (m[pc[2]])
 		return;
-	if (get)
+	if (get && !all && CODE_TYPE(pc[3]) == IEC_STRING)
+		put_text(m, pc[3], &none);
+	else if (get && !all)
 		put(m, pc[3], (union iec_value){ .i = 0 });
 	if (m[pc[1]])
 		count_error(vm, pc, base);
@@ -1074,6 +1147,8 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 9 + 4 * (n >> 1);
 			break;
 		WITH_POINTERS(case VM_PEEK: case VM_POKE:
+			if (n && !pay(&budget, pc[6] / 4))
+				goto out_of_budget;
 			run_pointer(vm, pc, base);
 			pc += 8;
 			break;)

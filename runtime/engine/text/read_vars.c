@@ -272,8 +272,8 @@ static bool read_pointer(struct reader *r, struct var *var)
 	to->line = var->line;
 	if (!reader_type_of(r, to, 0))
 		return false;
-	if ((to->type == IEC_NONE && words_row(&r->project->words, to->fb)->kind != WORD_STRUCT) ||
-	    (list && to->type == IEC_NONE) || to->type == IEC_STRING || to->dims > 1 || to->target)
+	if ((to->type == IEC_NONE && !to->named && words_row(&r->project->words, to->fb)->kind != WORD_STRUCT) ||
+	    (list && (to->type == IEC_NONE || to->type == IEC_STRING)) || to->dims > 1 || to->target)
 		return reader_fail(r, DIAG_POINTER_TYPE, at.text, at.len);
 	*target = (struct var_target){ .word = word, .type = to->type, .list = list, .low = to->array.low,
 				       .like = to };

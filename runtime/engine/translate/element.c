@@ -121,9 +121,31 @@ static void emit_copy(struct list *list, const struct meaning *m, const struct i
 	emit_indices(list, m, indices, false);
 }
 
+/* PEEK or POKE of a structure or array. */
+static void emit_whole_through(struct list *list, const struct meaning *m, bool put,
+			       const uint32_t operand[3])
+{
+	const uint32_t pointer = layout_spot(list->as, meaning_pointer(m)).offset;
+
+	list_protect(list, 0, UINT32_MAX / 2);
+	list_place(list);
+	emit_op(list->as, put ? VM_POKE : VM_PEEK, 1);
+	emit(list->as, operand[0]);
+	emit(list->as, operand[1]);
+	emit(list->as, operand[2]);
+	emit(list->as, pointer);
+	emit(list->as, m->offset);
+	emit(list->as, scope_size(list->as->translation->scope, m));
+	emit(list->as, 0);
+}
+
 static void emit_whole(struct list *list, const struct meaning *m, bool put,
 		       const uint32_t operand[3])
 {
+	if (m->through) {
+		emit_whole_through(list, m, put, operand);
+		return;
+	}
 	struct indices indices = indices_of(list, m);
 
 	emit_copy(list, m, &indices, put, operand);
@@ -200,7 +222,7 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		return list_deposit_part(list, m, en, from);
 	spot = layout_spot(list->as, m);
 	ok = scratch_new(list->as);
-	if (m->through && (enum iec_type)CODE_TYPE(from) != m->type)
+	if (m->through && !meaning_is_whole(m) && (enum iec_type)CODE_TYPE(from) != m->type)
 		from = widened(list, en, from, m->type);
 
 	/* Ends with the last element: a jump over a call must not skip storing what lies after

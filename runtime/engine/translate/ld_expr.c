@@ -224,7 +224,7 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 	const struct word_row *row = ld_row(c->ld, word);
 	struct expr_args args;
 	const struct var *result;
-	bool adr;
+	enum expr_measure what;
 
 	if (word_is_own(word)) {
 		result = result_of(c, word);
@@ -232,8 +232,8 @@ static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *n
 	}
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return IEC_TIME;
-	if (word == WORD_COUNT && expr_measured(c->ld->expr, node, &adr))
-		return adr ? IEC_LWORD : IEC_NONE;
+	if (word == WORD_COUNT && expr_measured(c->ld->expr, node, &what))
+		return what == MEASURE_PLACE ? IEC_LWORD : what == MEASURE_VALID ? IEC_BOOL : IEC_NONE;
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
 		return IEC_NONE;
@@ -720,7 +720,9 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
 	int size;
 
-	if (strchr(names_text(names, index.operand), '['))
+	const struct meaning *of = meaning(c, index.operand);
+
+	if (strchr(names_text(names, index.operand), '[') || (of && of->through))
 		index = operate(c, FN_MOVE, index, none, index.type, 0);
 	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
 			names_text(names, index.operand), (int)tail.len,
@@ -1046,62 +1048,123 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	return other ? chain_convert(c, out, back, target) : out;
 }
 
-/* ADR(Table[index]): behind the first element. */
-static struct value address_of_element(struct chain *c, uint32_t array, struct value index)
+/* ---- pointers ---- */
+
+/* The operand @sign and @len bytes of @text. */
+static uint32_t signed_operand(struct chain *c, char sign, const char *text, size_t len)
+{
+	char *both = arena_alloc(c->ld->scratch, len + 2);
+
+	if (!both) {
+		c->ld->failed = true;
+		return 0;
+	}
+	both[0] = sign;
+	memcpy(both + 1, text, len);
+	return chain_intern(c, both, 1 + drop_blanks(both + 1, len));
+}
+
+/* @bytes more, as a LINT. */
+static struct value whole_term(struct chain *c, int64_t bytes)
+{
+	char text[32];
+	const int len = snprintf(text, sizeof(text), "LINT#%" PRId64, bytes);
+
+	return (struct value){ .operand = chain_intern(c, text, (size_t)len), .type = IEC_LINT };
+}
+
+/* The next computed index in the text of a place; the text goes behind it. */
+static struct value next_computed(struct chain *c, const char **at)
+{
+	struct value value = { .type = IEC_NONE };
+	const struct meaning *m;
+
+	while ((*at = strpbrk(*at, "[,"))) {
+		const char *text = *at + 1 + strspn(*at + 1, " ");
+		size_t len = strcspn(text, ",]");
+
+		*at = text;
+		while (len && text[len - 1] == ' ')
+			len--;
+		value.operand = chain_intern(c, text, len);
+		m = meaning(c, value.operand);
+		value.type = m ? m->type : IEC_NONE;
+		if (!m || (m->kind != MEANING_LITERAL && !(m->constant && m->var->has_init)))
+			break;
+	}
+	return value;
+}
+
+/* Where the place behind computed indices or a pointer is: what they add to a place that is known. */
+static struct value place_behind(struct chain *c, uint32_t place, const struct meaning *m)
 {
 	const struct value none = { .type = IEC_NONE };
-	const struct names *names = &c->ld->translation->project->names;
-	const struct meaning *m = meaning(c, array);
-	struct value place = { .type = IEC_LWORD };
-	char text[3 * LIMIT_NAME];
-	int len = snprintf(text, sizeof(text), "&%s", names_text(names, array));
+	const char *text = names_text(&c->ld->translation->project->names, place), *at = text;
+	const size_t head = strcspn(text, m->through ? "^" : "[");
+	const bool reference = m->through && !text[head]; /* its name is what it leads to */
+	const size_t len = reference ? strcspn(text, ".[") : head;
+	const uint32_t id = signed_operand(c, m->through ? '@' : '&', text, len);
+	const struct meaning *from = meaning(c, m->through ? id : chain_intern(c, text, len));
+	struct value sum = { .operand = id, .type = IEC_LWORD };
 
-	if (!m || m->kind != MEANING_ARRAY || len >= (int)sizeof(text)) {
+	if (!from || !meaning(c, id)) {
 		c->ld->failed = true;
 		return none;
 	}
-	place.operand = chain_intern(c, text, (size_t)len);
-	place = operate(c, FN_CONVERT, place, none, IEC_LINT, 0);
-	if (index.type != IEC_LINT)
-		index = operate(c, FN_CONVERT, index, none, IEC_LINT, 0);
-	len = snprintf(text, sizeof(text), "LINT#%ld", (long)m->array.low);
-	index = operate(c, FN_SUB, index, (struct value){ .operand = chain_intern(c, text, (size_t)len),
-							  .type = IEC_LINT }, IEC_LINT, 0);
-	len = snprintf(text, sizeof(text), "LINT#%lu", (unsigned long)m->stride);
-	index = operate(c, FN_MUL, index, (struct value){ .operand = chain_intern(c, text, (size_t)len),
-							  .type = IEC_LINT }, IEC_LINT, 0);
-	place = operate(c, FN_ADD, place, index, IEC_LINT, 0);
-	return operate(c, FN_CONVERT, place, none, IEC_LWORD, 0);
+	sum = operate(c, FN_CONVERT, sum, none, IEC_LINT, 0);
+	if (m->offset != (m->through ? 0 : from->offset))
+		sum = operate(c, FN_ADD, sum, whole_term(c, (int64_t)m->offset - (m->through ? 0 : from->offset)),
+			      IEC_LINT, 0);
+	for (int i = 0; i < m->opens; i++) {
+		struct value index = next_computed(c, &at);
+
+		if (index.type != IEC_LINT)
+			index = operate(c, FN_CONVERT, index, none, IEC_LINT, 0);
+		index = operate(c, FN_SUB, index, whole_term(c, m->open[i].array.low), IEC_LINT, 0);
+		index = operate(c, FN_MUL, index, whole_term(c, m->open[i].stride), IEC_LINT, 0);
+		sum = operate(c, FN_ADD, sum, index, IEC_LINT, 0);
+	}
+	return operate(c, FN_CONVERT, sum, none, IEC_LWORD, 0);
 }
 
-/* ADR and SIZEOF. */
-static struct value chain_measure(struct chain *c, const struct expr_node *of, bool adr,
+/* ADR. */
+static struct value chain_place_of(struct chain *c, int index)
+{
+	const uint32_t place = chain_place(c, index).operand;
+	const struct meaning *m = meaning(c, place);
+	const char *text = names_text(&c->ld->translation->project->names, place);
+
+	if (m && meaning_is_indexed(m))
+		return place_behind(c, place, m);
+	return (struct value){ .operand = signed_operand(c, '&', text, strlen(text)), .type = IEC_LWORD };
+}
+
+/* __ISVALIDREF: does the reference lead anywhere? */
+static struct value chain_valid(struct chain *c, const struct expr_node *of)
+{
+	struct value out = { .type = IEC_BOOL };
+
+	ld_emit(c->ld, OP_LD, 0, signed_operand(c, '@', of->text, of->len));
+	fn_line(c, FN_NE, chain_intern(c, "NULL", 4));
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
+static struct value chain_measure(struct chain *c, const struct expr_node *of, enum expr_measure what,
 				  enum iec_type hint)
 {
-	char text[LIMIT_NAME + 2];
-	const uint32_t place = intern_name(c, of->text, of->len);
-	const struct meaning *m = meaning(c, place);
+	const struct meaning *m;
+	char text[24];
 	int len;
 
-	if (adr && of->op == EXPR_INDEX)
-		return address_of_element(c, place, settle(c, chain_compute(c, of->left, IEC_DINT, 0)));
-	if (adr && m && m->opens == 1) {
-		const char *path = scope_text(c->ld->translation->scope, place);
-		const size_t array = expr_array(path, strlen(path));
-		const uint32_t index = chain_intern(c, path + array + 1, strlen(path) - array - 2);
-
-		return address_of_element(c, chain_intern(c, path, array),
-			settle(c, (struct value){ .operand = index, .type = type_of(c, index) }));
-	}
-	if (!adr) {
-		len = snprintf(text, sizeof(text), "%lu",
-			       m ? (unsigned long)scope_bytes(c->ld->translation->scope, m) : 0ul);
-		return constant(c, text, (size_t)len, false, hint);
-	}
-	len = snprintf(text, sizeof(text), "&%s", names_text(&c->ld->translation->project->names, place));
-	if (len >= (int)sizeof(text))
-		c->ld->failed = true;
-	return (struct value){ .operand = chain_intern(c, text, strlen(text)), .type = IEC_LWORD };
+	if (what == MEASURE_PLACE)
+		return chain_place_of(c, (int)(of - c->expr->node));
+	if (what == MEASURE_VALID)
+		return chain_valid(c, of);
+	m = meaning(c, intern_name(c, of->text, of->len));
+	len = snprintf(text, sizeof(text), "%lu",
+		       m ? (unsigned long)scope_bytes(c->ld->translation->scope, m) : 0ul);
+	return constant(c, text, (size_t)len, false, hint);
 }
 
 /* TIME(): milliseconds in 32 bits, which begin again at 0. */
@@ -1139,12 +1202,12 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	struct value none = { .type = IEC_NONE };
 	const struct expr_node *of;
 	struct expr_args args;
-	bool adr;
+	enum expr_measure what;
 
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return chain_clock(c);
-	if (word == WORD_COUNT && (of = expr_measured(c->ld->expr, node, &adr)))
-		return chain_measure(c, of, adr, hint);
+	if (word == WORD_COUNT && (of = expr_measured(c->ld->expr, node, &what)))
+		return chain_measure(c, of, what, hint);
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, ld_row(c->ld, word), &args) != DIAG_COUNT) {
 		c->ld->failed = true;
@@ -1346,12 +1409,9 @@ static void store_reference(struct chain *c)
 {
 	const struct expr *expr = c->expr;
 	const struct value none = { .type = IEC_NONE };
-	char text[2 * LIMIT_NAME + 2];
-	const int len = snprintf(text, sizeof(text), "@%.*s", (int)expr->target_len, expr->target);
-	const uint32_t target = intern_name(c, text, (size_t)len);
+	const uint32_t target = signed_operand(c, '@', expr->target, expr->target_len);
 
-	operate(c, FN_MOVE, chain_measure(c, &expr->node[expr->root], true, IEC_LWORD), none, IEC_LWORD,
-		target);
+	operate(c, FN_MOVE, chain_place_of(c, expr->root), none, IEC_LWORD, target);
 }
 
 static void said_cut(struct chain *c, enum iec_type type, const struct literal *literal,

@@ -438,6 +438,16 @@ static bool has_room(struct st_il *s, const struct st_open *open, enum iec_type 
 	       (!m || !meaning_is_ranged(m) || (value.i >= m->like->range->low && value.i <= m->like->range->high));
 }
 
+/* Is the name at the lexer that of a REFERENCE? */
+static bool leads_on(struct st_il *s, const struct lex *lex)
+{
+	const struct meaning *m = lex->token.kind != TOKEN_NAME ? NULL :
+		ld_meaning(&s->ld, names_intern(&s->translation->project->names, lex->token.text,
+						lex->token.len));
+
+	return m && m->kind != MEANING_LITERAL && m->through;
+}
+
 /* May the statement write the variable with this name? Calls and pointers may write anything. */
 static bool may_write(struct st_il *s, const struct st_item *item, uint32_t variable)
 {
@@ -457,7 +467,8 @@ static bool may_write(struct st_il *s, const struct st_item *item, uint32_t vari
 		    scope_pou(s->translation->scope, s->pou,
 			      names_intern(&s->translation->project->names, lex.token.text, lex.token.len)))
 			return true;
-		if ((lex_is(&lex, name) && lex_is(&ahead, ":=")) || lex_is(&lex, "^"))
+		if ((lex_is(&lex, name) && lex_is(&ahead, ":=")) || lex_is(&lex, "^") ||
+		    leads_on(s, &lex))
 			return true;
 	}
 	return false;
