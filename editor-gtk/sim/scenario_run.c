@@ -129,6 +129,12 @@ static void keep_act(void *context, uint64_t after, const struct act *act)
 	g_array_append_val((GArray *)context, played);
 }
 
+static struct formula_projects projects_of(const struct running *running)
+{
+	return (struct formula_projects){ ladder_project(running->program->ladder),
+		running->plant ? ladder_project(running->plant->ladder) : NULL };
+}
+
 /* Keeps the acts up to the failure, to repeat them in the simulation. */
 static void keep_way(struct running *running, int index, struct scenario_result *result)
 {
@@ -146,7 +152,7 @@ static void keep_way(struct running *running, int index, struct scenario_result 
 		      plant ? running->plant->program : NULL, result->period_ns) &&
 	    scenario_read(running->file->file, running->text, running->len,
 			  &twin->resource.image, plant ? &twin->plant.image : NULL,
-			  ladder_project(running->program->ladder), &arena, &file, diags))
+			  projects_of(running), &arena, &file, diags))
 		scenario_each_act(&file, index, twin, result->scan, keep_act,
 				  result->acts);
 	twin_free(twin);
@@ -229,7 +235,7 @@ static void run_all_of(struct running *running, struct resource *resource,
 	running->file = &file;
 	if (scenario_read(name, running->text, running->len, &resource->image,
 			  plant ? &plant->resource.image : NULL,
-			  ladder_project(running->program->ladder), &arena, &file, diags)) {
+			  projects_of(running), &arena, &file, diags)) {
 		file.stop = &running->job->stop;
 		for (int i = 0; i < file.count && !running->job->stop; i++)
 			run_one(running, i, resource, plant);

@@ -134,7 +134,7 @@ static struct formula *formula_of(struct sim_program *program, struct arena *are
 	if (expr && kept) {
 		memcpy(kept, whole, strlen(whole) + 1);
 		if (expr_parse_text(kept, strlen(kept), expr, ignored, (struct diag){ .id = DIAG_COUNT }))
-			formula = formula_new(&image, NULL, NULL, expr, arena, kept, ignored,
+			formula = formula_new(&image, NULL, (struct formula_projects){ NULL, NULL }, expr, arena, kept, ignored,
 					      (struct diag){ .id = DIAG_COUNT });
 	}
 	g_free(whole);

@@ -115,7 +115,7 @@ static int value_of(const struct asked *asked, const char *text)
 	arena_init(&arena);
 	diag_init(ignored);
 	if (expr_parse_text(text, strlen(text), expr, ignored, (struct diag){ .id = DIAG_COUNT }))
-		formula = formula_new(asked->image, NULL, asked->project, expr, &arena, text, ignored,
+		formula = formula_new(asked->image, NULL, (struct formula_projects){ asked->project, NULL }, expr, &arena, text, ignored,
 				      (struct diag){ .id = DIAG_COUNT });
 	if (formula && formula_kind(formula) == KIND_BOOL &&
 	    formula_value(formula, asked->image, &value))

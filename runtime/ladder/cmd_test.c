@@ -95,8 +95,9 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	       scenario_read(path, text, len, &machine->resource.image,
 			     machine_plant(machine) ?
 			     &machine->plant.resource.image : NULL,
-			     ladder_project(machine->ladder), &arena,
-			     &file, diags);
+			     (struct formula_projects){ ladder_project(machine->ladder),
+				machine->plant_ladder ? ladder_project(machine->plant_ladder) : NULL },
+			     &arena, &file, diags);
 	report_diags(diags);
 	for (int i = 0; good && i < file.count && !is_over(tap); i++)
 		run_one(tap, machine, &file, i);

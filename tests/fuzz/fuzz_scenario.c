@@ -37,7 +37,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	diag_init(&diags);
 	arena_init(&arena);
 	if (!scenario_read("fuzz.scn", (const char *)bytes, len,
-			   &sandbox->resource.image, NULL, NULL, &arena, &file,
+			   &sandbox->resource.image, NULL, (struct formula_projects){ NULL, NULL },
+			   &arena, &file,
 			   &diags)) {
 		fuzz_expect(diags.errors > 0, "a refused file has an error");
 		file.count = 0;

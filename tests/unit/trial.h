@@ -130,7 +130,7 @@ static inline const char *bed_judge(struct bed *bed, const char *text,
 
 	bed_clear(bed);
 	arena_init(&arena);
-	if (!scenario_read("s.scn", text, strlen(text), &bed->resource.image, NULL, NULL,
+	if (!scenario_read("s.scn", text, strlen(text), &bed->resource.image, NULL, (struct formula_projects){ NULL, NULL },
 			   &arena, &file, &bed->diags)) {
 		arena_free(&arena);
 		return bed_first(bed);

@@ -52,8 +52,10 @@ static void complain_leaf(const struct formula *formula, struct diag_list *diags
 	snprintf(name, sizeof(name), "%.*s", at->len < 60 ? (int)at->len : 60,
 		 at->text ? at->text : "");
 	snprintf(told, sizeof(told), "%s", name);
-	if (formula->project)
-		named_tell(formula->project, why, name, told, sizeof(told));
+	if (formula->projects.program)
+		named_tell(formula->projects.program, why, name, told, sizeof(told));
+	if (why == DIAG_AMBIGUOUS_VALUE && formula->plant)
+		snprintf(told + strlen(told), sizeof(told) - strlen(told), " or plant.%s", name);
 	diag_add(diags, place, "%s", told);
 }
 
@@ -184,13 +186,35 @@ static struct location find_name(const struct formula *formula,
 	return value_find(side, name, len, why);
 }
 
-/* `Red`, `Color#Red`. */
-static bool take_value(const struct formula *formula, const struct expr_node *from,
-		       struct formula_term *term, enum diag_id *why)
+static bool take_number(const struct project *project, const char *name, size_t len,
+			int64_t *out, enum diag_id *why)
 {
+	return project && named_number(project, name, len, out, why);
+}
+
+/* `Red`, `Color#Red`, `plant.Open`. */
+static bool take_value(const struct formula *formula, const struct image *image,
+		       const struct expr_node *from, struct formula_term *term, enum diag_id *why)
+{
+	const struct project *plant = formula->plant ? formula->projects.plant : NULL;
+	const char *name = from->text;
+	size_t len = from->len;
+	enum diag_id missing = *why;
+	int64_t other = 0;
+	bool found;
+
 	term->kind = KIND_INT;
-	return formula->project && named_number(formula->project, from->text, from->len,
-						&term->value.i, why);
+	if (value_side(image, formula->plant, &name, &len) != image)
+		return take_number(plant, name, len, &term->value.i, why);
+	found = take_number(formula->projects.program, name, len, &term->value.i, why);
+	if (!take_number(plant, name, len, &other, found ? &missing : why))
+		return found;
+	if (found && term->value.i != other) {
+		*why = DIAG_AMBIGUOUS_VALUE;
+		return false;
+	}
+	term->value.i = other;
+	return true;
 }
 
 static bool take_leaf(const struct formula *formula, const struct image *image,
@@ -200,7 +224,7 @@ static bool take_leaf(const struct formula *formula, const struct image *image,
 	term->op = EXPR_LITERAL;
 	if (from->op == EXPR_LITERAL)
 		return take_literal(term, from->text, from->len, arena, why) ||
-		       take_value(formula, from, term, why);
+		       take_value(formula, image, from, term, why);
 	enum diag_id missing;
 
 	term->at = find_name(formula, image, term, from, &missing);
@@ -211,7 +235,7 @@ static bool take_leaf(const struct formula *formula, const struct image *image,
 		if (take_literal(term, from->text, from->len, arena, why))
 			return true;
 		*why = missing;
-		return take_value(formula, from, term, why);
+		return take_value(formula, image, from, term, why);
 	}
 	term->op = EXPR_NAME;
 	term->kind = (uint8_t)kind_of(term->at.type);
@@ -333,7 +357,7 @@ static struct expr_node blame_leaf(const struct expr_node *from, const struct fo
 }
 
 struct formula *formula_new(const struct image *image, const struct image *plant,
-			    const struct project *project, const struct expr *expr,
+			    struct formula_projects projects, const struct expr *expr,
 			    struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place)
 {
@@ -349,7 +373,7 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 	}
 	formula->constant = true;
 	formula->plant = plant;
-	formula->project = project;
+	formula->projects = projects;
 	formula->count = expr->count;
 	formula->root = expr->root;
 	for (int i = 0; i < expr->count; i++) {

@@ -35,18 +35,23 @@ struct formula_term {
 	union iec_value value; /* of a literal; else of the last evaluation  */
 };
 
+/* They name values of enumerations; NULL: numbers only. */
+struct formula_projects {
+	const struct project *program, *plant;
+};
+
 struct formula {
 	struct formula_term *term; /* children before parents                */
 	int count, root;
 	bool constant;             /* contains no variable                   */
 	const struct image *plant; /* image for names with `plant.`; or NULL */
-	const struct project *project; /* names values of enumerations; or NULL */
+	struct formula_projects projects;
 };
 
 /**
  * formula_new - resolves names and checks kinds
  * @plant:      of the program's plant, whose names begin with `plant.`; or NULL
- * @project:    names values of enumerations; or NULL
+ * @projects:   a value that has another number in each of them needs `plant.` for that of the plant
  * @expr:       what expr_parse gave
  * @line_start: of the source line, for columns
  *
@@ -55,7 +60,7 @@ struct formula {
  * Owns: @arena. Scan-safe: no. Fails: NULL and a diagnostic.
  */
 struct formula *formula_new(const struct image *image, const struct image *plant,
-			    const struct project *project, const struct expr *expr,
+			    struct formula_projects projects, const struct expr *expr,
 			    struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place);
 

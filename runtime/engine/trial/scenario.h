@@ -108,14 +108,14 @@ bool scenario_is_plant(const struct lex *lex);
  * @image: of the program, which gives names their places
  * @plant: of its plant, whose variables are `plant.Level`; borrowed as long as @out.
  *         NULL: none; a scenario that names a plant is an error then
- * @project: of the program; its values of enumerations may be used. NULL: numbers only
+ * @projects: of the program and its plant; borrowed
  *
  * Owns: @arena.   Scan-safe: no.
  * Fails: false and a diagnostic for each error.
  */
 bool scenario_read(const char *file, const char *text, size_t len,
 		   const struct image *image, const struct image *plant,
-		   const struct project *project, struct arena *arena, struct scenario_file *out,
+		   struct formula_projects projects, struct arena *arena, struct scenario_file *out,
 		   struct diag_list *diags);
 
 /**

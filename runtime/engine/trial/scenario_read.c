@@ -14,7 +14,7 @@ struct reader {
 	const char *file;
 	const struct image *image;
 	const struct image *plant; /* NULL: none was given                    */
-	const struct project *project; /* NULL: values of enumerations have no names */
+	struct formula_projects projects;
 	struct token plant_name;   /* the first one; with its quotes          */
 	bool with_plant;           /* before the first scenario: of all       */
 	struct arena *arena;
@@ -128,7 +128,7 @@ static struct formula *take_formula(struct reader *reader)
 	if (!expr_parse(&reader->lex, reader->expr, reader->diags, place))
 		return NULL;
 	drop_comment(&reader->lex);
-	return formula_new(reader->image, plant_of(reader), reader->project, reader->expr,
+	return formula_new(reader->image, plant_of(reader), reader->projects, reader->expr,
 			   reader->arena, line_start, reader->diags, place);
 }
 
@@ -539,11 +539,11 @@ static bool open_reader(struct reader *reader, const char *text, size_t len)
 
 bool scenario_read(const char *file, const char *text, size_t len,
 		   const struct image *image, const struct image *plant,
-		   const struct project *project, struct arena *arena, struct scenario_file *out,
+		   struct formula_projects projects, struct arena *arena, struct scenario_file *out,
 		   struct diag_list *diags)
 {
 	struct reader reader = { .file = file, .image = image, .plant = plant,
-				 .project = project, .arena = arena, .diags = diags, .out = out };
+				 .projects = projects, .arena = arena, .diags = diags, .out = out };
 	int errors = diags->errors;
 
 	memset(out, 0, sizeof(*out));

@@ -236,7 +236,7 @@ static bool leaf_value(const struct why_place *at, struct span leaf, struct expr
 	if (!ignored || !len ||
 	    !expr_parse_text(text, len, expr, ignored, (struct diag){ .line = 0 }))
 		return false;
-	formula = formula_new(&at->resource->image, NULL, at->project, expr, arena, text, ignored,
+	formula = formula_new(&at->resource->image, NULL, (struct formula_projects){ at->project, NULL }, expr, arena, text, ignored,
 			      (struct diag){ .line = 0 });
 	if (!formula || formula_kind(formula) != KIND_BOOL ||
 	    !formula_value(formula, &at->resource->image, &value))

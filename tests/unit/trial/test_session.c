@@ -233,7 +233,8 @@ static int run_text(const char *text, const struct program *program, uint64_t *s
 	sink_memory_init(&report);
 	out = sink_to_memory(&report);
 	resource_init(resource, program, memory);
-	if (scenario_read("s.scn", text, strlen(text), &resource->image, NULL, NULL, &arena, &file,
+	if (scenario_read("s.scn", text, strlen(text), &resource->image, NULL,
+			  (struct formula_projects){ NULL, NULL }, &arena, &file,
 			  diags)) {
 		const bool held = scenario_run(&file, 0, resource, NULL, &out);
 
@@ -266,7 +267,8 @@ static bool same_end(const char *text, const struct twin *there)
 	diag_init(diags);
 	arena_init(&arena);
 	twin_init(&twin, there->resource.image.program, NULL, 1);
-	if (scenario_read("s.scn", text, strlen(text), &twin.resource.image, NULL, NULL, &arena, &file,
+	if (scenario_read("s.scn", text, strlen(text), &twin.resource.image, NULL,
+			  (struct formula_projects){ NULL, NULL }, &arena, &file,
 			  diags)) {
 		scenario_each_act(&file, 0, &twin, there->scan, do_again, &acts);
 		same = twin.scan == there->scan && twin.now_ns == there->now_ns &&

@@ -403,7 +403,7 @@ static void add_if(struct bench *bench, struct arena *arena, const char *instanc
 
 	diag_init(diags);
 	CHECK(expr_parse_text(text, strlen(text), expr, diags, (struct diag){ .line = 1 }));
-	formula = formula_new(&bench->twin.resource.image, NULL, NULL, expr, arena, text, diags,
+	formula = formula_new(&bench->twin.resource.image, NULL, (struct formula_projects){ NULL, NULL }, expr, arena, text, diags,
 			      (struct diag){ .line = 1 });
 	CHECK(formula && stops_add(bench->stops, pou_of(bench, "Fill"), 15, formula, instance, false));
 }

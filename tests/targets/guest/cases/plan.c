@@ -463,7 +463,9 @@ static bool read_scenarios(const char *scn, const char *text, size_t len,
 		image = &maker.plant.resource.image;
 	}
 	return scenario_read(scn, text, len, &maker.resource.image, image,
-			     ladder_project(maker.ladder), &maker.arena, file, &maker.diags);
+			     (struct formula_projects){ ladder_project(maker.ladder),
+				maker.plant_ladder ? ladder_project(maker.plant_ladder) : NULL },
+			     &maker.arena, file, &maker.diags);
 }
 
 static bool make_all(const char *scn)
