@@ -11,6 +11,7 @@
 
 #include "engine/base/name.h"
 #include "engine/ladder.h"
+#include "engine/model/sfc.h"
 #include "engine/model/st.h"
 #include "engine/trial/formula.h"
 
@@ -267,6 +268,20 @@ void sim_stops_give(const struct sim_stops *stops, struct stops *to)
 
 #define HEAD "IF "
 
+/* The line of the first statement of a body, of a chart that of an action; 0: none. */
+static int first_statement(const struct pou *pou)
+{
+	int first = pou->sfc ? -1 : 0;
+
+	for (int i = 0; first < 0 && i < pou->sfc->action_count; i++) {
+		const struct sfc_body *body = &pou->sfc->action[i].body;
+
+		if (body->kind == BODY_ST && body->count)
+			first = body->first;
+	}
+	return pou->st && first >= 0 && first < pou->st->count ? pou->st->item[first].line : 0;
+}
+
 /* The text of the file with the condition in front of the first statement of the body. Caller frees;
  * *line: where, from 1. NULL: there is none. */
 static char *with_condition(LadderDocument *document, const struct pou *pou, const char *condition,
@@ -276,7 +291,7 @@ static char *with_condition(LadderDocument *document, const struct pou *pou, con
 	const char *at;
 	char *with;
 
-	*line = pou->st && pou->st->count ? pou->st->item[0].line : 0;
+	*line = first_statement(pou);
 	at = *line ? from_line(text, *line) : NULL;
 	with = at ? g_strdup_printf("%.*s" HEAD "%s THEN ; END_IF;\n%s", (int)(at - text), text,
 				    condition, at) : NULL;

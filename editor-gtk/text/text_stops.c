@@ -69,7 +69,7 @@ static bool has_stops(const struct text_stops *stops)
 {
 	const struct pou *pou = pou_of(stops);
 
-	return stops->sim && pou && pou->language == LANGUAGE_ST &&
+	return stops->sim && pou && (pou->language == LANGUAGE_ST || (pou->sfc && pou->st)) &&
 	       ladder_sim_document(stops->sim) == stops->document;
 }
 

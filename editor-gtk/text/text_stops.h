@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_stops - the breakpoints of a program in Structured Text on its sheet: marks that move with the
+ * text_stops - the breakpoints of a program in Structured Text, or of the actions of a chart, on its sheet: marks that move with the
  * lines, the line before which the program stands, and the question for a condition.
  */
 #ifndef EDITOR_TEXT_STOPS_H

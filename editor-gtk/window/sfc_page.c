@@ -150,14 +150,27 @@ static void show_rungs(LadderSfcPage *page, int first)
 	page->shown = heading;
 }
 
-static void show_text(LadderSfcPage *page, int line)
+static void open_text(LadderSfcPage *page)
 {
 	close_below(page);
 	page->text = ladder_text_view_new(page->document, page->pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
 	follow_focus(page, page->text, G_CALLBACK(below_entered));
 	put_below(page, page->text, _("Text of the program"), false);
+}
+
+static void show_text(LadderSfcPage *page, int line)
+{
+	open_text(page);
 	ladder_text_view_go(LADDER_TEXT_VIEW(page->text), line, 5);
+	set_active(page, true);
+}
+
+void ladder_sfc_page_show_line(LadderSfcPage *page, int line)
+{
+	if (!page->text)
+		open_text(page);
+	ladder_text_view_go_here(LADDER_TEXT_VIEW(page->text), line + 1, 1);
 	set_active(page, true);
 }
 

@@ -23,6 +23,9 @@ LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page);
 LadderGridView *ladder_sfc_page_sheet(LadderSfcPage *page);
 /** ladder_sfc_page_text - the text below, if it has the focus, or had it last; or NULL. */
 LadderTextView *ladder_sfc_page_text(LadderSfcPage *page);
+/** ladder_sfc_page_show_line - shows the text of the chart below it, with the cursor in line @line,
+ * from 0, of it. */
+void ladder_sfc_page_show_line(LadderSfcPage *page, int line);
 /** ladder_sfc_page_show_rung - goes to a rung of the POU in the chart, and opens it below
  * if it belongs to a body of rungs. */
 void ladder_sfc_page_show_rung(LadderSfcPage *page, int rung, int row, int col);

@@ -55,7 +55,7 @@ static void go(struct stand_bar *bar, const struct stops_frame *frame)
 	if (pou < 0)
 		return;
 	if (frame->at.line)
-		tabs_go(bar->core->tabs, pou, -1, MAX(line, 0), 0);
+		tabs_go_line(bar->core->tabs, pou, MAX(line, 0));
 	else
 		tabs_go(bar->core->tabs, pou, (int)frame->at.rung - 1, (int)frame->at.row - 1,
 			(int)frame->at.col - 1);

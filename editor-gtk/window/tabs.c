@@ -475,6 +475,16 @@ void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
 		ladder_text_view_go_here(LADDER_TEXT_VIEW(page_content(page)), row + 1, col + 1);
 }
 
+void tabs_go_line(struct tabs *tabs, int pou, int line)
+{
+	AdwTabPage *page;
+
+	tabs_go(tabs, pou, -1, line, 0);
+	page = front_tab(tabs->core->front);
+	if (page && LADDER_IS_SFC_PAGE(page_content(page)))
+		ladder_sfc_page_show_line(LADDER_SFC_PAGE(page_content(page)), line);
+}
+
 /* ---- closing ---- */
 
 struct closing {

@@ -55,6 +55,8 @@ bool tabs_save_parts(struct tabs *tabs);
 /** tabs_close - closes the page in front; asks first if its file has unsaved changes. */
 void tabs_close(struct tabs *tabs);
 /** tabs_go - goes to the place of a diagnostic or a use; -1: the whole. */
+/** tabs_go_line - the same for line @line, from 0, of the text of a POU; a chart shows its text below. */
+void tabs_go_line(struct tabs *tabs, int pou, int line);
 void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col);
 /** tabs_step - undoes or redoes a step, and shows what it changed. */
 void tabs_step(struct tabs *tabs, bool redo);

@@ -146,6 +146,36 @@ def watched(screen):
         editor.finish()
 
 
+def stops(screen):
+    """F9 in an action sets a breakpoint, also with a condition; where the scan stands, the text below the chart shows it, also after it was closed"""
+    editor = Editor(screen, new_file(screen, COUNTED))
+    on_chart(editor)
+    editor.click(shape(editor, 'Fill does: N Count'), count=2)
+    view = text_of(editor)
+    onto(editor, view, 'Runs := Runs + 1')
+    line = view.text()[:view.text().index('Runs := Runs + 1')].count('\n') + 1
+    editor.keys('F9')
+    until(lambda: 'breakpoint' in described(view), 'the breakpoint')
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    editor.click(editor.find('Go, %IX0.0', 'check box'))
+    until(lambda: editor.all('Stands before line %d of Mixer' % line, 'label'), 'the action')
+    editor.shot('chart-text-stands')
+    editor.keys('F8')
+    until(lambda: editor.all('Stands before line %d of Mixer' % (line + 1), 'label'), 'the next line')
+    editor.click(max(editor.all('Close', 'push button'), key=lambda node: node.box()[1]))
+    until(lambda: not editor.all('Text of the program'), 'the text to be gone')
+    editor.click(editor.find('Step over', 'push button'))
+    until(lambda: not editor.all('Stands before line %d of Mixer' % (line + 1), 'label'), 'another line')
+    view = text_of(editor)
+    onto(editor, view, 'Runs := Runs + 1')
+    editor.keys('shift+F9')
+    editor.focus_on('Condition of the breakpoint')
+    editor.type('Runs = 2')
+    editor.keys('Return')
+    until(lambda: 'breakpoint, if Runs = 2' in described(view), 'the condition')
+
+
 def rename(editor, text):
     line = until(editor.asked, 'the new name')[0]
     until(lambda: line.has(12), 'the focus in the line')
@@ -173,4 +203,4 @@ def renamed(screen):
 
 
 if __name__ == '__main__':
-    main([written, watched, renamed])
+    main([written, watched, stops, renamed])
