@@ -25,6 +25,7 @@ struct st_open {
 	uint32_t variable, by, to; /* of FOR: operands                        */
 	bool bits;            /* of FOR: its variable is a bit string         */
 	bool once;            /* of FOR: one more step cannot overflow        */
+	uint32_t near;        /* of FOR: a BOOL, FALSE: likewise; 0: it is not known */
 	int choices;          /* of CASE: so far                              */
 	uint32_t first;       /* of CASE: number of the first label           */
 	struct level level;   /* before it                                    */
@@ -409,7 +410,7 @@ static uint32_t for_limit(struct st_il *s, const struct st_open *open, enum iec_
 {
 	const struct meaning *m = ld_meaning(&s->ld, open->variable);
 	const struct iec_type_row *row = iec_type_row(type);
-	union iec_value value = { .i = high ? row->high : row->low };
+	union iec_value value = { .i = !high ? row->low : iec_is_wide(type) ? -1 : row->high }; /* of 64 bits */
 	char text[40];
 	int len;
 
@@ -509,12 +510,28 @@ static void for_begin(struct st_il *s, struct st_open *open, uint32_t from)
 	jump(s, MOD_C | MOD_N, open->out);
 }
 
+/* What is asked of the end once need not be asked of the variable in each round. */
+static void note_end(struct st_il *s, struct st_open *open, enum iec_type type)
+{
+	union iec_value by = { .i = 1 };
+	int64_t to;
+
+	if (literal_value(s, open->to, type, &to) ||
+	    (open->by && !literal_value(s, open->by, IEC_LINT, &by.i)))
+		return;
+	open->near = temps_number(s->ld.temps, IEC_BOOL);
+	ld_emit(&s->ld, OP_LD, 0, open->to);
+	compare(s, by.i < 0 ? FN_LT : FN_GT, for_limit(s, open, type, by.i >= 0, by));
+	ld_emit(&s->ld, OP_ST, 0, open->near);
+}
+
 static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 {
 	struct st_open *open = push_block(s, ST_FOR);
 	enum iec_type type = IEC_NONE;
 	struct st_part part;
 	uint32_t good;
+	bool steady;
 	int64_t by;
 
 	begins(s);
@@ -536,7 +553,10 @@ static void begin_for(struct st_il *s, struct st_walk *walk, int at)
 				st_report(s, DIAG_LOOP_STEP, part.text, "");
 		}
 	}
-	open->once = !open->bits && has_room(s, open, type) && is_steady(s, open, at);
+	steady = !open->bits && is_steady(s, open, at);
+	open->once = steady && has_room(s, open, type);
+	if (steady && !open->once)
+		note_end(s, open, type);
 	open->top = new_label(s);
 	open->again = new_label(s);
 	at_item(s);
@@ -568,7 +588,14 @@ static void leave_at_limit(struct st_il *s, const struct st_open *open, enum iec
 	uint32_t up, step, limit;
 
 	if (!open->by || literal_value(s, open->by, IEC_LINT, &by.i)) {
+		step = open->near ? new_label(s) : 0;
+		if (step) {
+			ld_emit(&s->ld, OP_LD, 0, open->near);
+			jump(s, MOD_C | MOD_N, step);
+		}
 		leave_at(s, open, by.i < 0 ? FN_LT : FN_GT, for_limit(s, open, type, by.i >= 0, by));
+		if (step)
+			here(s, step);
 		return;
 	}
 	up = new_label(s);
