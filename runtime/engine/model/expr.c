@@ -252,12 +252,11 @@ static size_t bit_len(const struct token *token)
 	struct iec_addr addr;
 	size_t len = 0;
 
-	if (token->kind != TOKEN_NAME ||
-	    iec_addr_parse(token->text, token->len, &addr) != ADDR_NONE) /* I0.3 */
-		return 0;
-	while (len < token->len && ascii_digit(token->text[token->len - 1 - len]))
+	while (token->kind == TOKEN_NAME && len < token->len && ascii_digit(token->text[token->len - 1 - len]))
 		len++;
-	return len && len + 1 < token->len && token->text[token->len - 1 - len] == '.' ? len : 0;
+	if (!len || len + 1 >= token->len || token->text[token->len - 1 - len] != '.')
+		return 0;
+	return iec_addr_parse(token->text, token->len, &addr) == ADDR_NONE ? len : 0; /* I0.3 */
 }
 
 static bool is_number(const struct token *token)
@@ -585,10 +584,13 @@ static bool close_parens(struct parser *parser, bool *more)
 /* The binary operator at the token; -1: none, the expression ends. */
 static int binary_at(const struct lex *lex)
 {
+	char first;
+
 	if (lex->token.kind != TOKEN_SYMBOL && lex->token.kind != TOKEN_NAME)
 		return -1;
+	first = ascii_upper(lex->token.text[0]);
 	for (int i = OPERATOR_BINARY; i < OPERATORS; i++)
-		if (lex_is(lex, operators[i].word))
+		if (operators[i].word[0] == first && lex_is(lex, operators[i].word))
 			return i;
 	return -1;
 }

@@ -13,9 +13,13 @@
 
 void words_push(struct assembler *as, struct words *words, uint32_t word)
 {
-	uint32_t *slot = arena_push(as->arena, &words->word, &words->count,
-				    sizeof(*slot));
+	uint32_t *slot;
 
+	if (words->count > 8 && words->count & (words->count - 1)) { /* arena_push() has room */
+		words->word[words->count++] = word;
+		return;
+	}
+	slot = arena_push(as->arena, &words->word, &words->count, sizeof(*slot));
 	if (slot)
 		*slot = word;
 	else
