@@ -106,8 +106,8 @@ fact('docs/editor.md', qr/from scan to scan \(with `Shift` (\w+), with/, $shift_
 fact('docs/editor.md', qr/with\s`Ctrl` a (\w+)\), `Home`/, $control_scans);
 fact('docs/editor.md', qr/All programs together take (\d+) MB at most/,
      constant('editor-gtk/sim/sim.h', 'SIM_BYTES') >> 20);
-fact('docs/editor.md', qr/at the latest (\w+) seconds after a change/,
-     constant('editor-gtk/document/draft.c', 'DRAFT_SECONDS'));
+fact('docs/editor.md', qr/draft, (\d+) ms after the last change/, constant('editor-gtk/document/draft.c', 'PAUSE_MS'));
+fact('docs/editor.md', qr/at the latest (\d+) ms after the first one/, constant('editor-gtk/document/draft.c', 'LATEST_MS'));
 fact('docs/editor.md', qr/slow motion \(1 to (\d+) scans a second\)/,
      (slurp('editor-gtk/ui/sim_pace.ui') =~ /id="speed".*?name="upper">(\d+)</s)[0]);
 fact('docs/pictures.md', qr/type is smaller than (\d+) pt/,

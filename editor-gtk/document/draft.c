@@ -5,6 +5,9 @@
  * A draft is a file "PID-RANDOM-NUMBER.draft". Its first line has the path as a URI, the
  * digest of that file and, for a file beside a project, the URI of the project, as far as
  * they are known. The text follows. A draft whose process is alive belongs to that process.
+ *
+ * A thread writes the drafts, because a disk may take longer than a frame. Only the latest text
+ * of a draft is written.
  */
 #include "editor-gtk/document/draft.h"
 
@@ -15,15 +18,35 @@
 #include <string.h>
 #include <unistd.h>
 
-#define DRAFT_SECONDS 2 /* after the last change                               */
+#define PAUSE_MS  250  /* after the last change …                              */
+#define LATEST_MS 1000 /* … and behind the first one that no draft has         */
+#define SHARE     25   /* making the text takes at most this part of the time  */
 #define DRAFT_HEAD    "RUNGBOARD-DRAFT 1 "
 
 #define DRAFT_BESIDE  "beside:"
 #define DRAFT_SAMPLE  "sample:"
 
-struct keeper {
+/* The file of a draft, for the keeper and the texts that wait to be written. */
+struct slot {
+	gatomicrefcount count;
+	GMutex lock;            /* held while the file is written or deleted   */
 	char *file;
+	guint wanted;           /* number of the text that the file should have */
+};
+
+struct job {
+	struct slot *slot;
+	guint number;
+	char *whole;
+	GWeakRef object;
+	char *why;              /* it could not be written                     */
+};
+
+struct keeper {
+	struct slot *slot;
 	guint timer;
+	gint64 since;           /* of the first change that no draft has; 0: none */
+	guint cost_ms;          /* of making the text                          */
 	LadderDocument *beside; /* of a file beside it; NULL: of a document    */
 	char *sample;           /* the sample that the document is a copy of; NULL: none */
 	bool told;              /* the failure was reported                    */
@@ -106,47 +129,165 @@ static void tell_failed(gpointer object, struct keeper *keeper, const char *why)
 	keeper->told = true;
 }
 
-static void write_draft(gpointer object)
+/* ---- writing ---- */
+
+static struct slot *slot_new(char *file)
 {
-	struct keeper *keeper = keeper_of(object);
-	char *whole = keeper->beside ? file_draft(object, keeper->beside) :
-				       document_draft(object);
-	char *dir = g_path_get_dirname(keeper->file);
+	struct slot *slot = g_new0(struct slot, 1);
+
+	g_atomic_ref_count_init(&slot->count);
+	g_mutex_init(&slot->lock);
+	slot->file = file;
+	return slot;
+}
+
+static void slot_unref(struct slot *slot)
+{
+	if (!g_atomic_ref_count_dec(&slot->count))
+		return;
+	g_mutex_clear(&slot->lock);
+	g_free(slot->file);
+	g_free(slot);
+}
+
+/* The number of a further text; those before it are not written any more. */
+static guint slot_next(struct slot *slot)
+{
+	guint number;
+
+	g_mutex_lock(&slot->lock);
+	number = ++slot->wanted;
+	g_mutex_unlock(&slot->lock);
+	return number;
+}
+
+static void slot_delete(struct slot *slot)
+{
+	g_mutex_lock(&slot->lock);
+	slot->wanted++;
+	g_unlink(slot->file);
+	g_mutex_unlock(&slot->lock);
+}
+
+static void job_write(struct job *job)
+{
+	struct slot *slot = job->slot;
+	char *dir = g_path_get_dirname(slot->file);
 	GError *error = NULL;
 
+	g_mutex_lock(&slot->lock);
 	g_mkdir_with_parents(dir, 0700);
-	if (g_file_set_contents_full(keeper->file, whole, (gssize)strlen(whole),
-		    G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0600,
-		    &error))
-		keeper->told = false;
-	else
-		tell_failed(object, keeper, error->message);
+	if (job->number == slot->wanted &&
+	    !g_file_set_contents_full(slot->file, job->whole, (gssize)strlen(job->whole),
+		    G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0600, &error))
+		job->why = g_strdup(error->message);
+	g_mutex_unlock(&slot->lock);
 	g_clear_error(&error);
 	g_free(dir);
-	g_free(whole);
+}
+
+static void job_free(struct job *job)
+{
+	g_weak_ref_clear(&job->object);
+	slot_unref(job->slot);
+	g_free(job->whole);
+	g_free(job->why);
+	g_free(job);
+}
+
+static void job_tell(struct job *job, gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+
+	if (keeper && job->why)
+		tell_failed(object, keeper, job->why);
+	else if (keeper)
+		keeper->told = false;
+}
+
+static gboolean job_ended(gpointer pointer)
+{
+	struct job *job = pointer;
+	gpointer object = g_weak_ref_get(&job->object);
+
+	if (object) {
+		job_tell(job, object);
+		g_object_unref(object);
+	}
+	job_free(job);
+	return G_SOURCE_REMOVE;
+}
+
+static void job_run(gpointer job, G_GNUC_UNUSED gpointer data)
+{
+	job_write(job);
+	g_idle_add(job_ended, job);
+}
+
+static struct job *job_new(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+	struct job *job = g_new0(struct job, 1);
+	const gint64 begin = g_get_monotonic_time();
+
+	job->whole = keeper->beside ? file_draft(object, keeper->beside) : document_draft(object);
+	job->slot = keeper->slot;
+	g_atomic_ref_count_inc(&job->slot->count);
+	job->number = slot_next(job->slot);
+	g_weak_ref_init(&job->object, object);
+	keeper->cost_ms = (guint)((g_get_monotonic_time() - begin) / 1000);
+	keeper->since = 0;
+	return job;
 }
 
 void draft_write(gpointer object)
 {
-	if (keeper_of(object) && !is_saved(object))
-		write_draft(object);
+	struct job *job;
+
+	if (!keeper_of(object) || is_saved(object))
+		return;
+	job = job_new(object);
+	job_write(job);
+	job_tell(job, object);
+	job_free(job);
 }
 
-static gboolean write_now(gpointer object)
+static gboolean write_soon(gpointer object)
 {
+	static GThreadPool *pool;
+
 	keeper_of(object)->timer = 0;
-	draft_write(object);
+	if (is_saved(object))
+		return G_SOURCE_REMOVE;
+	if (!pool)
+		pool = g_thread_pool_new(job_run, NULL, 1, FALSE, NULL);
+	g_thread_pool_push(pool, job_new(object), NULL);
 	return G_SOURCE_REMOVE;
+}
+
+/* Milliseconds until the draft is written. */
+static guint delay_of(struct keeper *keeper)
+{
+	const guint least = SHARE * keeper->cost_ms;
+	const guint pause = MAX(PAUSE_MS, least), latest = MAX(LATEST_MS, least);
+	const gint64 now = g_get_monotonic_time();
+	gint64 left;
+
+	if (!keeper->since)
+		keeper->since = now;
+	left = latest - (now - keeper->since) / 1000;
+	return (guint)CLAMP(left, 0, (gint64)pause);
 }
 
 static void state_changed(gpointer object, struct keeper *keeper)
 {
+	g_clear_handle_id(&keeper->timer, g_source_remove);
 	if (is_saved(object)) {
-		g_unlink(keeper->file);
+		keeper->since = 0;
+		slot_delete(keeper->slot);
 		return;
 	}
-	if (!keeper->timer)
-		keeper->timer = g_timeout_add_seconds(DRAFT_SECONDS, write_now, object);
+	keeper->timer = g_timeout_add(delay_of(keeper), write_soon, object);
 }
 
 static void keeper_free(gpointer pointer)
@@ -157,7 +298,7 @@ static void keeper_free(gpointer pointer)
 		g_source_remove(keeper->timer);
 	g_clear_object(&keeper->beside);
 	g_free(keeper->sample);
-	g_free(keeper->file);
+	slot_unref(keeper->slot);
 	g_free(keeper);
 }
 
@@ -169,7 +310,7 @@ static void keep(gpointer object, LadderDocument *beside)
 	char *name = g_strdup_printf("%s%d.draft", own_begin(), ++number);
 
 	keeper->beside = beside ? g_object_ref(beside) : NULL;
-	keeper->file = g_build_filename(dir, name, NULL);
+	keeper->slot = slot_new(g_build_filename(dir, name, NULL));
 	g_object_set_data_full(G_OBJECT(object), "draft", keeper, keeper_free);
 	g_signal_connect(object, "state-changed", G_CALLBACK(state_changed), keeper);
 	draft_write(object);
@@ -211,10 +352,9 @@ void draft_remove(gpointer object)
 
 	if (!keeper)
 		return;
-	if (keeper->timer)
-		g_source_remove(keeper->timer);
-	keeper->timer = 0;
-	g_unlink(keeper->file);
+	g_clear_handle_id(&keeper->timer, g_source_remove);
+	keeper->since = 0;
+	slot_delete(keeper->slot);
 }
 
 bool draft_is_kept(gpointer object)
