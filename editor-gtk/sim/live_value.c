@@ -33,7 +33,8 @@ struct location live_value_find(const struct image *image, const char *name)
 
 bool live_value_is_same(struct location a, struct location b)
 {
-	return a.type != IEC_NONE && a.type == b.type && a.area == b.area && a.where == b.where;
+	return a.type != IEC_NONE && a.type == b.type && a.area == b.area && a.where == b.where &&
+	       a.number == b.number && a.first == b.first;
 }
 
 union iec_value live_value_get(LadderSim *sim, bool plant, struct location at)

@@ -249,6 +249,7 @@ static bool knows(struct sim_source *source, struct location at)
 	struct sim_mirror *mirror = mirror_of(source);
 	guint32 word;
 
+	at = location_whole(at);
 	if (mirror->plays || at.type == IEC_NONE || at.constant)
 		return true;
 	word = place_word(program_of(mirror), at);
@@ -366,6 +367,7 @@ static void add_place(struct places *places, struct location at)
 {
 	const gpointer word = GUINT_TO_POINTER(place_word(places->program, at));
 
+	at = location_whole(at);
 	if (at.type == IEC_NONE || at.constant || g_hash_table_contains(places->words, word))
 		return;
 	if (places->at->len == places->most) {

@@ -264,12 +264,29 @@ void image_end(struct image *image)
 	hold(image);
 }
 
+#ifdef RUNGBOARD_SMALL
+#define IS_PART(at) false /* no names, so no parts                            */
+#else
+#define IS_PART(at) ((at).number != IEC_NONE)
+#endif
+
+/* The bits of a part of @number. */
+static union iec_value part_of(union iec_value number, struct location at)
+{
+	const uint32_t bits = at.type == IEC_BOOL ? 1 : 8u * iec_type_row(at.type)->size;
+
+	return (union iec_value){ .i = (int64_t)((uint64_t)number.i >> at.first &
+						 ((UINT64_C(2) << (bits - 1)) - 1)) };
+}
+
 union iec_value image_get(const struct image *image, struct location at)
 {
 	union iec_value value = { .i = 0 };
 
 	if (at.type == IEC_NONE)
 		return value;
+	if (IS_PART(at))
+		return part_of(iec_load(image->memory + at.where, (enum iec_type)at.number), at);
 	if (at.area == AREA_NONE)
 		return iec_load(image->memory + at.where, at.type);
 	value.i = image_get_bit(image, at.area, at.where);

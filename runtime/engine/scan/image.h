@@ -25,7 +25,16 @@ struct location {
 	enum iec_area area;     /* AREA_NONE: at `where` in memory           */
 	uint32_t where;         /* offset in memory, or bit number of area   */
 	bool constant;
+	uint8_t number, first;  /* of a part, Word.3: the type of the number at `where`, whose bits
+	                           from `first` on it is. IEC_NONE: it is no part. Always constant */
 };
+
+/** location_whole - where the number is of which @at is a part; else @at. Scan-safe: yes. */
+static inline struct location location_whole(struct location at)
+{
+	return at.number == IEC_NONE ? at :
+		(struct location){ .type = (enum iec_type)at.number, .where = at.where };
+}
 
 struct force {
 	struct location at;

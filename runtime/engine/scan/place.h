@@ -10,9 +10,10 @@
 
 #include "engine/scan/image.h"
 
-/** place_word - the word of a location of @program. Scan-safe: yes. */
+/** place_word - the word of a location of @program; of a part that of its number. Scan-safe: yes. */
 static inline uint32_t place_word(const struct program *program, struct location at)
 {
+	at = location_whole(at);
 	if (at.area == AREA_NONE)
 		return CODE_OPERAND(at.type, at.where);
 	return CODE_OPERAND((uint32_t)at.type | SYMBOL_BIT,

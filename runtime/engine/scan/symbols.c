@@ -290,8 +290,8 @@ static bool find_system(const struct image *image, const char *text, size_t len,
 	return false;
 }
 
-struct location image_find(const struct image *image, const char *name,
-			   size_t len)
+/* What no part of a number is. */
+static struct location find_whole(const struct image *image, const char *name, size_t len)
 {
 	struct location at = find_declared(image->program, name, len);
 	struct iec_addr addr;
@@ -302,6 +302,58 @@ struct location image_find(const struct image *image, const char *name,
 	    iec_addr_parse(name, len, &addr) == ADDR_OK)
 		return image_locate(image, addr);
 	return at;
+}
+
+/* Bits of a size letter, of the digits alone 1; 0: it is none. @at moves behind it. */
+static uint32_t part_size(const char **at, const char *end)
+{
+	static const char letters[] = "XBWDL";
+	const char *letter;
+
+	if (*at < end && ascii_digit(**at))
+		return 1;
+	if (end - *at < 3 || **at != '%')
+		return 0;
+	letter = strchr(letters, ascii_upper((*at)[1]));
+	*at += 2;
+	return !letter || !*letter ? 0 : letter == letters ? 1 : 4u << (letter - letters);
+}
+
+/* `Word.3`, `Table[2].%B1` */
+static struct location find_part(const struct image *image, const char *name, size_t len)
+{
+	struct location part = { .type = IEC_NONE }, at;
+	const char *end = name + len, *tail = end;
+	uint32_t bits, number = 0;
+
+	while (tail > name && tail[-1] != '.')
+		tail--;
+	if (tail - name < 2)
+		return part;
+	len = (size_t)(tail - name) - 1;
+	bits = part_size(&tail, end);
+	for (; tail < end && ascii_digit(*tail) && number < 100; tail++)
+		number = number * 10 + (uint32_t)(*tail - '0');
+	if (!bits || tail < end)
+		return part;
+	at = find_whole(image, name, len);
+	if (at.area != AREA_NONE || !(iec_type_row(at.type)->class & (ANY_INT | CLASS_BITS)) ||
+	    bits * (number + 1) > 8u * iec_type_row(at.type)->size)
+		return part;
+	at.number = (uint8_t)at.type;
+	at.first = (uint8_t)(bits * number);
+	at.constant = true;
+	at.type = bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD :
+		  bits == 32 ? IEC_DWORD : IEC_LWORD;
+	return at;
+}
+
+struct location image_find(const struct image *image, const char *name,
+			   size_t len)
+{
+	const struct location at = find_whole(image, name, len);
+
+	return at.type == IEC_NONE ? find_part(image, name, len) : at;
 }
 
 /* A local is shown without its POU unless another symbol has the same name. */

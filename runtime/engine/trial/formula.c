@@ -356,6 +356,16 @@ static struct expr_node blame_leaf(const struct expr_node *from, const struct fo
 	return at;
 }
 
+/* `Word.3` as one name. */
+static struct expr_node part_name(const struct expr *expr, const struct expr_node *from)
+{
+	const struct expr_node *of = &expr->node[from->left];
+	const char *text = of->text;
+
+	return (struct expr_node){ .op = EXPR_NAME, .text = text, .left = -1, .right = -1,
+		.len = (uint16_t)(text ? from->tail.text + from->tail.len - text : 0) };
+}
+
 struct formula *formula_new(const struct image *image, const struct image *plant,
 			    struct formula_projects projects, const struct expr *expr,
 			    struct arena *arena, const char *line_start,
@@ -394,7 +404,13 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 			return NULL;
 		}
 		if (from->op == EXPR_BIT) {
-			complain(diags, place, DIAG_SYNTAX, line_start, from);
+			const struct expr_node part = part_name(expr, from);
+
+			if (take_leaf(formula, image, &part, term, arena, &why)) {
+				formula->constant = false;
+				continue;
+			}
+			complain_leaf(formula, diags, place, why, line_start, &part);
 			return NULL;
 		}
 		if (from->op == EXPR_CALL || from->op == EXPR_ARG) {

@@ -232,7 +232,7 @@ static bool check_setting(struct reader *reader, const struct token *name,
 
 	place.id = DIAG_COUNT;
 	if (target.constant)
-		place.id = DIAG_WRITE_CONSTANT;
+		place.id = target.number ? DIAG_PART_ALONE : DIAG_WRITE_CONSTANT;
 	else if (!formula_can_set(formula, target.type))
 		place.id = DIAG_WRONG_TYPE;
 	else if (formula->constant &&

@@ -75,7 +75,8 @@ int session_expects(const struct session *session)
 
 static bool is_same(struct location a, struct location b)
 {
-	return a.type == b.type && a.area == b.area && a.where == b.where;
+	return a.type == b.type && a.area == b.area && a.where == b.where && a.number == b.number &&
+	       a.first == b.first;
 }
 
 static bool is_found(const struct image *image, const char *name, struct location at)

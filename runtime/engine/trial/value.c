@@ -327,7 +327,7 @@ bool setting_parse(const struct image *image, const struct project *project, con
 	}
 	out->at = value_find(image, text, name, &why);
 	if (out->at.type == IEC_NONE || out->at.constant) {
-		place.id = out->at.type == IEC_NONE ? why : DIAG_WRITE_CONSTANT;
+		place.id = out->at.type == IEC_NONE ? why : out->at.number ? DIAG_PART_ALONE : DIAG_WRITE_CONSTANT;
 		return diag_add(diags, place, "%.*s",
 				(int)(name < 60 ? name : 60), text);
 	}

@@ -149,7 +149,7 @@ static void keeps_limits(void)
 	CHECK(!image_set_bit(image, AREA_COUNT, 0, true));
 	CHECK(!rig_release(&rig, "Motor"));
 	for (uint32_t i = 0; i < LIMIT_FORCES; i++) {
-		struct location at = { IEC_BOOL, AREA_V, i, false };
+		struct location at = { .type = IEC_BOOL, .area = AREA_V, .where = i };
 
 		if (!image_force(image, at, one))
 			CHECK_AS(false, "LIMIT_FORCES variables can be forced");
@@ -159,7 +159,7 @@ static void keeps_limits(void)
 	CHECK_AS(rig_set(&rig, "V0", 0) && rig_force(&rig, "V0", 0),
 		 "a forced variable takes a new value when all forces are used");
 	for (uint32_t i = 0; i < LIMIT_FORCES; i++) {
-		struct location at = { IEC_BOOL, AREA_V, i, false };
+		struct location at = { .type = IEC_BOOL, .area = AREA_V, .where = i };
 
 		if (!image_unforce(image, at))
 			CHECK_AS(false, "each force can be removed");
