@@ -10,6 +10,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/name.h"
 #include "engine/ladder.h"
+#include "engine/model/expr.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -100,6 +101,27 @@ static const char *index_end(const char *at, const char *end)
 	return lex_is(&lex, "]") ? lex.token.text + 1 : NULL;
 }
 
+static bool is_number(enum iec_type type)
+{
+	return iec_type_row(type)->class & (ANY_INT | CLASS_BITS);
+}
+
+/* `.3`, `.%X3`, `.%B1` from the dot to @end: the bits of a number. False: it has no such part. */
+static bool take_part(const char *dot, const char *end, struct entry_target *out)
+{
+	const struct expr_tail tail = { dot + 1, (uint16_t)(end - dot - 1) };
+	unsigned int bits, number;
+
+	if (out->array || !is_number(out->type) || !expr_part(tail, &bits, &number) ||
+	    bits * (number + 1) > 8u * iec_type_row(out->type)->size)
+		return false;
+	out->type = bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD :
+		    bits == 32 ? IEC_DWORD : IEC_LWORD;
+	out->word = WORD_COUNT;
+	out->var = NULL;
+	return true;
+}
+
 /* The end of a step, `[3]` or `.Q`, at @at; NULL: wrong. */
 static const char *step(const struct entry_place *place, const char *at, const char *end,
 			struct entry_target *out)
@@ -116,6 +138,8 @@ static const char *step(const struct entry_place *place, const char *at, const c
 	}
 	while (stop < end && *stop != '.' && *stop != '[')
 		stop++;
+	if (*at == '.' && is_number(out->type))
+		return take_part(at, end, out) ? end : NULL;
 	if (*at != '.' || out->type != IEC_NONE || out->array || stop == at + 1)
 		return NULL;
 	row = words_row(&place->project->words, out->word);
@@ -137,6 +161,8 @@ static void walk(const struct entry_place *place, const char *at, const char *en
 	if (!at)
 		fail(out, out->type == IEC_NONE && !out->array ?
 		     N_("“%s” is not a pin or member") :
+		     is_number(out->type) && !out->array ?
+		     N_("“%s”: the number has no such bit") :
 		     N_("“%s” does not exist: the variable has no elements and no members"));
 	else
 		out->means = out->type == IEC_NONE ? MEANS_INSTANCE : MEANS_VALUE;
@@ -206,6 +232,19 @@ static void take_address(const struct entry_place *place, const char *text, size
 	const struct var *var = NULL;
 	char address[40];
 
+	if (head < len && text[head] == '.') {
+		out->type = iec_addr_type(out->addr);
+		if (!project_has(place->project, out->addr) || !take_part(text + head, text + len, out)) {
+			fail(out, N_("“%s”: the number has no such bit"));
+			return;
+		}
+		out->means = MEANS_VALUE;
+		out->write = iec_area_row(out->addr.area)->access == ACCESS_WRITE;
+		iec_addr_print(out->addr, address, sizeof(address));
+		snprintf(out->text, sizeof(out->text), "%s%.*s", address, (int)(len - head), text + head);
+		out->addr = (struct iec_addr){ .area = AREA_NONE };
+		return;
+	}
 	if (head < len && index_end(text + head, text + len) != text + len) {
 		fail(out, N_("“%s” has no valid index: write a number or a variable"));
 		return;
@@ -332,7 +371,7 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		return;
 	while (head < len && text[head] != '.' && text[head] != '[')
 		head++;
-	while (whole < len && text[whole] != '[')
+	while (whole < len && text[whole] != '[' && strncmp(text + whole, ".%", 2) != 0)
 		whole++;
 	if (find_step(place, text, head, len, out))
 		return;

@@ -72,6 +72,11 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "P /Start", "N Start" }, { "P NOT Start", "N Start" }, { "N NOT Start", "P Start" },
 	{ "NC NOT Start", "NO Start" }, { "COIL NOT Motor", "COILNOT Motor" },
 	{ "FanDelay", "NO FanDelay.Q" }, { "FanDelay.Q", "NO FanDelay.Q" },
+	{ "Level.3", "NO Level.3" }, { ">level.%X15", "COIL Level.%X15" }, { "S P1.Low.4", "S P1.Low.4" },
+	{ "/Level.0", "NC Level.0" }, { "Level.16", "! “Level.16”: the number has no such bit" },
+	{ "%MW4.%X3", "NO %MW4.%X3" }, { ">%MW4.3", "COIL %MX4.3" }, { "FanDelay.Q.1", "! “FanDelay.Q.1” does not exist: the variable has no elements and no members" },
+	{ "Heat.1", "! “Heat.1” does not exist: the variable has no elements and no members" },
+	{ "Level.%B0", "! “Level.%B0” is not a BOOL: compare it, as in Level > 5" }, { "MOVE IN:=Level.%B1", "MOVE IN:=Level.%B1" },
 	{ "Lamps[3]", "NO Lamps[3]" }, { ">lamps[i]", "COIL Lamps[i]" },
 	{ "P1.On", "NO P1.On" },
 	/* addresses */

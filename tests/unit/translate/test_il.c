@@ -279,7 +279,7 @@ static void test_many_edges(int rows)
 	if (good)
 		memory = calloc(1, image_memory_size(program));
 	if (memory) {
-		struct location x = { IEC_NONE, AREA_NONE, 0, false };
+		struct location x = { .type = IEC_NONE };
 
 		resource_init(&resource, program, memory);
 		resource_start(&resource);
