@@ -264,12 +264,6 @@ void image_end(struct image *image)
 	hold(image);
 }
 
-#ifdef RUNGBOARD_SMALL
-#define IS_PART(at) false /* no names, so no parts                            */
-#else
-#define IS_PART(at) ((at).number != IEC_NONE)
-#endif
-
 /* The bits of a part of @number. */
 static union iec_value part_of(union iec_value number, struct location at)
 {
@@ -285,7 +279,7 @@ union iec_value image_get(const struct image *image, struct location at)
 
 	if (at.type == IEC_NONE)
 		return value;
-	if (IS_PART(at))
+	if (LOCATION_IS_PART(at))
 		return part_of(iec_load(image->memory + at.where, (enum iec_type)at.number), at);
 	if (at.area == AREA_NONE)
 		return iec_load(image->memory + at.where, at.type);

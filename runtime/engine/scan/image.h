@@ -29,10 +29,16 @@ struct location {
 	                           from `first` on it is. IEC_NONE: it is no part. Always constant */
 };
 
+/* A board that knows no names knows no parts. */
+#ifdef RUNGBOARD_SMALL
+#define LOCATION_IS_PART(at) false
+#else
+#define LOCATION_IS_PART(at) ((at).number != IEC_NONE)
+#endif
 /** location_whole - where the number is of which @at is a part; else @at. Scan-safe: yes. */
 static inline struct location location_whole(struct location at)
 {
-	return at.number == IEC_NONE ? at :
+	return !LOCATION_IS_PART(at) ? at :
 		(struct location){ .type = (enum iec_type)at.number, .where = at.where };
 }
 
