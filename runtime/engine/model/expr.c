@@ -378,6 +378,21 @@ static bool take_pin(struct parser *parser)
 	return true;
 }
 
+/* The argument at the lexer. Those with nothing behind := or => are passed over, as if they were not there.
+ * @more: an operand follows; false on failure, too. */
+static bool open_argument(struct parser *parser, bool *more)
+{
+	const struct expr_call *call = &parser->out->call[parser->called - 1];
+
+	*more = false;
+	do {
+		if (!take_pin(parser))
+			return false;
+		*more = !call->pin.len || (!lex_is(parser->lex, ",") && !lex_is(parser->lex, ")"));
+	} while (!*more && lex_accept(parser->lex, ","));
+	return true;
+}
+
 static bool add_call(struct parser *parser, const struct expr_call *call)
 {
 	return add_node(parser, (struct expr_node){
@@ -400,8 +415,8 @@ static bool open_call(struct parser *parser, bool *more)
 	parser->out->call[parser->called++] = call;
 	parser->opened++;
 	*more = !lex_is(parser->lex, ")");
-	if (*more)
-		return take_pin(parser);
+	if (*more && (!open_argument(parser, more) || *more))
+		return *more;
 	parser->pending_count--; /* F() */
 	parser->opened--;
 	parser->nested--;
@@ -555,8 +570,8 @@ static bool close_one(struct parser *parser, bool *more)
 		return false;
 	if (comma) {
 		lex_next(parser->lex);
-		*more = true;
-		return take_pin(parser);
+		if (!open_argument(parser, more) || *more)
+			return *more;
 	}
 	parser->pending_count--;
 	parser->opened--;

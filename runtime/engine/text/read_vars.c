@@ -226,7 +226,7 @@ static bool may_hold_blocks(const struct reader *r)
 		return true;
 	if (r->var_flags & VAR_EXTERNAL)
 		return true;
-	return !(r->var_flags & (VAR_INPUT | VAR_OUTPUT)) &&
+	return !(r->var_flags & VAR_INPUT) &&
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 

@@ -588,6 +588,8 @@ void reader_end_head(struct reader *r)
 {
 	if (!r->plain)
 		reader_end_line(r);
+	else if (reader_is(r, ';'))
+		reader_next(r);
 }
 
 void reader_end_line(struct reader *r)
