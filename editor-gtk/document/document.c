@@ -513,7 +513,7 @@ static bool is_pou_word(const struct token *token, bool ends)
 	if (token->kind != TOKEN_NAME || token->len <= skip ||
 	    (ends && g_ascii_strncasecmp(token->text, "END_", skip) != 0))
 		return false;
-	for (int i = 0; i <= POU_SUBROUTINE; i++) {
+	for (int i = 0; i < POU_KINDS; i++) {
 		const char *word = pou_word((enum pou_kind)i);
 
 		if (ascii_is(word, token->text + skip, token->len - skip))

@@ -44,7 +44,7 @@ char *pou_free_name(LadderDocument *document, enum pou_kind kind)
 {
 	static const char *const base[] = {
 		[POU_PROGRAM] = "Program", [POU_FUNCTION] = "Function", [POU_BLOCK] = "Block",
-		[POU_SUBROUTINE] = "Routine",
+		[POU_SUBROUTINE] = "Routine", [POU_ACTION] = "Action",
 	};
 	const struct project *project = ladder_document_project(document);
 	char *name = NULL;

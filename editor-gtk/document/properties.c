@@ -180,6 +180,7 @@ static char *kind_of(const struct pou *pou)
 	case POU_FUNCTION: return g_strdup(_("Function"));
 	case POU_BLOCK: return g_strdup(_("Function block"));
 	case POU_SUBROUTINE: return g_strdup(_("Subroutine"));
+	case POU_ACTION: return g_strdup(_("Action"));
 	}
 	return NULL;
 }

@@ -22,6 +22,7 @@
 #include "engine/exchange/iec_file/iec_file.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -531,12 +532,28 @@ static bool begin_translation(struct ladder *ladder)
 
 /* ---- further instances of programs ---- */
 
+/* Is POU @pou an action of the program that @entry is an instance of? */
+static bool is_action_of(const struct project *project, int pou, const struct config_entry *entry)
+{
+	const char *of = project_text(project, entry->pou);
+
+	return project->pou[pou].kind == POU_ACTION &&
+	       pou_owner(project, &project->pou[pou]) == project_find_pou(project, of, strlen(of));
+}
+
 static int count_further(struct project *project)
 {
 	int count = 0;
 
-	for (int i = 0; project->config && i < project->config->count; i++)
-		count += project_is_further(project, &project->config->entry[i]);
+	for (int i = 0; project->config && i < project->config->count; i++) {
+		const struct config_entry *entry = &project->config->entry[i];
+
+		if (!project_is_further(project, entry))
+			continue;
+		count++;
+		for (int k = 0; k < project->pou_count; k++)
+			count += is_action_of(project, k, entry);
+	}
 	return count;
 }
 
@@ -547,6 +564,7 @@ static bool add_further(struct project *project, int count)
 {
 	const struct config *config = project->config;
 	int at = project->pou_count, room = 8;
+	char name[2 * LIMIT_NAME + 2];
 	struct pou *pou;
 
 	while (room < at + count)
@@ -565,6 +583,14 @@ static bool add_further(struct project *project, int count)
 		pou[at].name = entry->name;
 		if (!located_further(project, &pou[at++]))
 			return false;
+		for (int k = 0; k < project->pou_count; k++) {
+			if (!is_action_of(project, k, entry))
+				continue;
+			snprintf(name, sizeof(name), "%s.%s", project_text(project, entry->name),
+				 pou_own_name(project, &pou[k]));
+			pou[at] = pou[k];
+			pou[at++].name = names_intern(&project->names, name, strlen(name));
+		}
 	}
 	project->pou = pou;
 	project->pou_count = at;

@@ -21,14 +21,14 @@ struct calls {
 	uint8_t *state;   /* by POU                                          */
 	uint8_t *called;  /* by POU                                          */
 	int *deep;        /* by POU: calls inside one another from it on     */
-	int *stack, *at;  /* stack of POUs; next line of each                */
+	int *stack, *at;  /* stack of POUs; next line of each, twice: an instance, its action */
 	int depth;
 	bool good;
 };
 
-/* The POU that a line calls; -1: none. */
+/* The POU that a line calls; -1: none. @action: of an action of an instance the action, not the block. */
 static int callee(struct calls *c, const struct pou *pou,
-		  const struct il_line *line)
+		  const struct il_line *line, bool action)
 {
 	const struct meaning *m;
 	const struct pou *to = NULL;
@@ -43,7 +43,9 @@ static int callee(struct calls *c, const struct pou *pou,
 		to = shape_pou(c->project, (enum word)line->word);
 	if (line->kind == IL_OP && line->op == OP_CAL) {
 		m = scope_find(c->scope, pou, line->operand, &why);
-		if (m && m->kind == MEANING_INSTANCE)
+		if (m && m->kind == MEANING_INSTANCE && m->action && action)
+			to = &c->project->pou[m->action - 1];
+		else if (m && m->kind == MEANING_INSTANCE)
 			to = shape_pou(c->project, m->word);
 	}
 	return to ? (int)(to - c->project->pou) : -1;
@@ -96,13 +98,17 @@ static void step(struct calls *c)
 	const struct il_line *line;
 	int to;
 
-	if (c->at[c->depth - 1] == il->count) {
+	if (c->at[c->depth - 1] == 2 * il->count) {
 		c->state[top] = STATE_DONE;
 		c->depth--;
 		return;
 	}
-	line = &il->line[c->at[c->depth - 1]];
-	to = callee(c, c->list[top].pou, line);
+	line = &il->line[c->at[c->depth - 1] / 2];
+	to = callee(c, c->list[top].pou, line, c->at[c->depth - 1] % 2);
+	if (c->at[c->depth - 1] % 2 && to == callee(c, c->list[top].pou, line, false)) {
+		c->at[c->depth - 1]++;
+		return;
+	}
 	if (to >= 0)
 		c->called[to] = 1;
 	if (to >= 0 && c->state[to] == STATE_OPEN) {
@@ -147,7 +153,7 @@ static void warn_of_uncalled(struct calls *c, int count)
 		struct diag place = { .id = pou->kind == POU_PROGRAM ? DIAG_NOT_RUN : DIAG_NEVER_CALLED,
 				      .file = pou->file, .line = pou->line, .pou = name_of(c, i) };
 
-		if (!c->called[i] && (pou->kind == POU_SUBROUTINE ||
+		if (!c->called[i] && (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION ||
 				      (pou->kind == POU_PROGRAM && is_left_out(c, pou))))
 			diag_add(c->diags, place, "%s", name_of(c, i));
 	}

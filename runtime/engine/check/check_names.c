@@ -536,6 +536,23 @@ static void check_named(struct names_check *c)
 	}
 }
 
+/* The action of a POU that there is; its name is one like others. */
+static void check_action(struct names_check *c, const struct pou *pou)
+{
+	const char *name = text_of(c, pou->name), *own = pou_own_name(c->project, pou);
+	const uint32_t id = names_intern(&c->project->names, own, strlen(own));
+	char owner[LIMIT_ARG];
+
+	if (!pou->name) /* the reader told it */
+		return;
+	if (pou_owner(c->project, pou) < 0) {
+		snprintf(owner, sizeof(owner), "%.*s", own == name ? 60 : (int)(own - name) - 1, name);
+		report_line(c, DIAG_UNKNOWN_NAME, pou, pou->line, owner);
+	} else if (is_reserved(c, own, names_fold(&c->project->names, id))) {
+		report_line(c, DIAG_RESERVED_NAME, pou, pou->line, own);
+	}
+}
+
 static void check_pous(struct names_check *c)
 {
 	struct project *project = c->project;
@@ -548,8 +565,9 @@ static void check_pous(struct names_check *c)
 		struct mark *mark = mark_of(c, fold);
 		const char *name = text_of(c, pou->name);
 
-		if (is_reserved(c, name, fold) ||
-		    (pou_has_frame(pou) && is_taken(c, name)))
+		if (pou->kind == POU_ACTION)
+			check_action(c, pou);
+		else if (is_reserved(c, name, fold) || (pou_has_frame(pou) && is_taken(c, name)))
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
 		if (mark && mark->pou)

@@ -461,7 +461,7 @@ static void check_routine(struct operand_check *c, struct operand_spot at, uint3
 
 	if (!pou && !scope_find(c->scope, c->pou, name, &why))
 		report_unknown(c, at, name, DIAG_UNKNOWN_NAME, EXPECT_SUBROUTINE);
-	else if (!pou || pou->kind != POU_SUBROUTINE)
+	else if (!pou || (pou->kind != POU_SUBROUTINE && pou->kind != POU_ACTION))
 		operand_report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
 }
 

@@ -49,7 +49,8 @@ static void check_counter(struct operand_check *c, struct expr *expr)
 /* Does CAL run it without an instance? */
 static bool is_routine(const struct pou *pou)
 {
-	return pou && (pou->kind == POU_SUBROUTINE || pou->kind == POU_PROGRAM);
+	return pou && (pou->kind == POU_SUBROUTINE || pou->kind == POU_PROGRAM ||
+		       pou->kind == POU_ACTION);
 }
 
 /* True: an instance or a subroutine, whose arguments follow. */
@@ -141,7 +142,8 @@ static void check_program_argument(struct operand_check *c, struct callee *calle
 	m = scope_find(c->scope, c->pou, names_intern(names, text, (size_t)len), &why);
 	if (m)
 		uses_add(c->uses, m, output ? USE_READ : USE_WRITTEN);
-	check_part(c, expr, output ? OPERAND_WRITTEN : table->var[at].array.count ||
+	check_part(c, expr, output ? OPERAND_WRITTEN :
+		   vars_flags(table, at) & VAR_IN_OUT ? OPERAND_CHANGED : table->var[at].array.count ||
 		   table->var[at].type == IEC_NONE ? OPERAND_WHOLE : OPERAND_READ);
 }
 
@@ -199,12 +201,18 @@ static void check_argument(struct operand_check *c, struct callee *callee, const
 /* Is the statement the call of a function, whose result is not used? An instance may have the name of one. */
 static bool is_function(struct operand_check *c, const struct expr_node *callee)
 {
+	const struct pou *pou;
 	const struct meaning *m;
 	enum diag_id why;
+	uint32_t id;
 
 	if (callee->op != EXPR_NAME || expr_function(&c->project->words, callee) == WORD_COUNT)
 		return false;
-	m = scope_find(c->scope, c->pou, names_intern(&c->project->names, callee->text, callee->len), &why);
+	id = names_intern(&c->project->names, callee->text, callee->len);
+	pou = scope_pou(c->scope, c->pou, id);
+	if (pou && pou->kind == POU_ACTION) /* it may have the name of a function, too */
+		return false;
+	m = scope_find(c->scope, c->pou, id, &why);
 	return !m || m->kind != MEANING_INSTANCE;
 }
 

@@ -1358,6 +1358,7 @@ static const char *const *ends_of_block(const struct before *b)
 		[POU_FUNCTION] = { STATEMENTS, "VAR", "VAR_INPUT", "END_FUNCTION" },
 		[POU_BLOCK] = { STATEMENTS, "VAR", "VAR_INPUT", "END_FUNCTION_BLOCK" },
 		[POU_SUBROUTINE] = { STATEMENTS, "VAR", "END_SUBROUTINE" },
+		[POU_ACTION] = { STATEMENTS, "END_ACTION" },
 	};
 	static const char *const action[] = { STATEMENTS, "END_ACTION", NULL };
 	const struct st_block *block = st_place_block(&b->st);

@@ -41,6 +41,8 @@ struct scope {
 	uint32_t count, mask;
 	struct answer **answer; /* by text: its first answer                 */
 	uint32_t answers;       /* texts there is room for                   */
+	uint32_t *owner;        /* by table: that of the POU whose action it is; 0: none */
+	bool actions;           /* there are some                            */
 };
 
 #define POUS UINT32_MAX         /* the table of the names of POUs */
@@ -145,8 +147,12 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	scope->mask = size - 1;
 	scope->slot = arena_alloc(arena, size * sizeof(*scope->slot));
 	scope->declared = arena_alloc(arena, (names + 1) * sizeof(struct declared));
-	if (!scope->slot || !scope->declared)
+	scope->owner = arena_alloc(arena, ((size_t)project->pou_count + 1) * sizeof(*scope->owner));
+	if (!scope->slot || !scope->declared || !scope->owner)
 		return NULL;
+	for (int i = 0; i < project->pou_count; i++)
+		if (project->pou[i].kind == POU_ACTION)
+			scope->actions = true, scope->owner[i + 1] = (uint32_t)(pou_owner(project, &project->pou[i]) + 1);
 	declare_table(scope, 0, &project->globals);
 	for (int i = 0; i < project->pou_count; i++)
 		declare_table(scope, (uint32_t)i + 1, &project->pou[i].vars);
@@ -176,7 +182,7 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index)
 	return first && first->index < index ? first->index : -1;
 }
 
-/* The local of this name, else the global; NULL: neither. */
+/* The local of this name, or of the POU whose action it is, else the global; NULL: neither. */
 static const struct declared *find_declared(const struct scope *scope,
 					    uint32_t table, uint32_t fold)
 {
@@ -184,6 +190,8 @@ static const struct declared *find_declared(const struct scope *scope,
 
 	if (table_of(scope, table)->count)
 		declared = find_in(scope, table, fold);
+	if (!declared && scope->owner[table])
+		declared = find_in(scope, scope->owner[table], fold);
 	return declared || !table ? declared : find_in(scope, 0, fold);
 }
 
@@ -522,6 +530,30 @@ static const struct var *declares(const struct scope *scope, uint16_t word, int 
 
 static bool step_part(struct path *path, struct expr_tail tail);
 
+/* The action @name of the POU @owner; -1: it has none. */
+static int action_of(struct scope *scope, const struct pou *owner, const char *name, size_t len)
+{
+	struct project *project = scope->project;
+	char text[2 * LIMIT_NAME + 2];
+	const int size = snprintf(text, sizeof(text), "%s.%.*s", project_text(project, owner->name),
+				  (int)(len < LIMIT_NAME ? len : LIMIT_NAME), name);
+	const struct declared *found = find_in(scope, POUS, names_fold(&project->names,
+					       names_intern(&project->names, text, (size_t)size)));
+
+	return found && project->pou[found->index].kind == POU_ACTION ? found->index : -1;
+}
+
+/* `Pump.Reset`, an action of a block. */
+static bool step_action(struct path *path, const struct word_row *row, const char *name, size_t len)
+{
+	const struct project *project = path->scope->project;
+	const int action = row->kind == WORD_FB && row->owner >= 0 && !path->m.action ?
+			   action_of(path->scope, &project->pou[row->owner], name, len) : -1;
+
+	path->m.action = (uint16_t)(action + 1);
+	return action >= 0 || refuse(path, DIAG_NO_PIN);
+}
+
 /* `.Speed`. Inner variables of a block cannot be named from outside. */
 static bool step_into(struct path *path)
 {
@@ -539,9 +571,9 @@ static bool step_into(struct path *path)
 		return refuse(path, m->kind == MEANING_VARIABLE ?
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
-	index = word_pin_find(row, name, len);
+	index = m->action ? -1 : word_pin_find(row, name, len);
 	if (index < 0)
-		return refuse(path, DIAG_NO_PIN);
+		return step_action(path, row, name, len);
 	if (path->pin < 0)
 		path->pin = index;
 	if (row->kind == WORD_FB)
@@ -1074,6 +1106,15 @@ const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t
 	if (!fold || find_declared(scope, table_number(scope, pou), fold))
 		return NULL;
 	declared = find_in(scope, POUS, fold);
+	if (pou && scope->actions) {
+		const uint32_t owner = scope->owner[table_number(scope, pou)];
+		const int action = action_of(scope, owner ? &scope->project->pou[owner - 1] : pou,
+					     names_text(&scope->project->names, text),
+					     names_len(&scope->project->names, text));
+
+		if (action >= 0)
+			return &scope->project->pou[action];
+	}
 	return declared ? &scope->project->pou[declared->index] : NULL;
 }
 

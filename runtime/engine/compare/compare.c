@@ -1035,7 +1035,8 @@ static const char *kind_text(const struct pou *pou)
 {
 	return pou->kind == POU_PROGRAM ? "program" :
 	       pou->kind == POU_FUNCTION ? "function" :
-	       pou->kind == POU_BLOCK ? "function block" : "subroutine";
+	       pou->kind == POU_BLOCK ? "function block" :
+	       pou->kind == POU_ACTION ? "action" : "subroutine";
 }
 
 static void compare_pous(struct diff *diff)

@@ -10,17 +10,36 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The function that runs in each scan: it is called main, needs no argument, and there is no
- * program. -1: none. */
+/* Does the function call a program? */
+static bool calls_program(struct project *project, const struct pou *function)
+{
+	for (int i = 0; function->st && i < function->st->count; i++) {
+		const struct st_item *item = &function->st->item[i];
+		const char *text = project_text(project, item->text);
+		int pou;
+
+		if (item->kind != ST_CALL)
+			continue;
+		pou = project_find_pou(project, text, strcspn(text, "(. \t\r\n"));
+		if (pou >= 0 && project->pou[pou].kind == POU_PROGRAM)
+			return true;
+	}
+	return false;
+}
+
+/* The function that runs in each scan: it is called main and needs no argument; there is no
+ * program, or it calls one. -1: none. */
 static int find_main(struct project *project)
 {
 	int found = -1;
+	bool programs = false;
 
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *pou = &project->pou[i];
 
-		if (pou->kind == POU_PROGRAM || project->config)
+		if (project->config)
 			return -1;
+		programs |= pou->kind == POU_PROGRAM;
 		if (pou->kind == POU_FUNCTION && name_is("main", project_text(project, pou->name),
 							 names_len(&project->names, pou->name)))
 			found = i;
@@ -28,6 +47,8 @@ static int find_main(struct project *project)
 	for (int i = 0; found >= 0 && i < project->pou[found].vars.count; i++)
 		if (vars_flags(&project->pou[found].vars, i) & (VAR_INPUT | VAR_IN_OUT))
 			return -1;
+	if (programs && found >= 0 && !calls_program(project, &project->pou[found]))
+		return -1;
 	return found;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * caller - a text without a program whose function main needs no argument: as in other languages,
- * it runs.
+ * caller - a text whose function main needs no argument, without a program or with one that main
+ * calls: as in other languages, it runs.
  */
 #ifndef MODEL_CALLER_H
 #define MODEL_CALLER_H

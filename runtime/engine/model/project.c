@@ -152,7 +152,7 @@ const char *pou_word(enum pou_kind kind)
 	static const char *const words[] = {
 		[POU_PROGRAM] = "PROGRAM", [POU_FUNCTION] = "FUNCTION",
 		[POU_BLOCK] = "FUNCTION_BLOCK",
-		[POU_SUBROUTINE] = "SUBROUTINE",
+		[POU_SUBROUTINE] = "SUBROUTINE", [POU_ACTION] = "ACTION",
 	};
 
 	return words[kind];
@@ -186,6 +186,23 @@ int project_find_pou(const struct project *project, const char *name, size_t len
 		if (name_is(project_text(project, project->pou[i].name), name, len))
 			return i;
 	return -1;
+}
+
+const char *pou_own_name(const struct project *project, const struct pou *pou)
+{
+	const char *name = project_text(project, pou->name);
+	const char *dot = pou->kind == POU_ACTION ? strchr(name, '.') : NULL;
+
+	return dot ? dot + 1 : name;
+}
+
+int pou_owner(const struct project *project, const struct pou *pou)
+{
+	const char *name = project_text(project, pou->name), *own = pou_own_name(project, pou);
+	const int owner = own == name ? -1 : project_find_pou(project, name, (size_t)(own - name) - 1);
+
+	return owner >= 0 && (project->pou[owner].kind == POU_PROGRAM ||
+			      project->pou[owner].kind == POU_BLOCK) ? owner : -1;
 }
 
 bool project_has_head(const struct project *project)

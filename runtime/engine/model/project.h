@@ -58,7 +58,9 @@ struct config {
 struct advice;
 struct st;
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST };
-enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
+enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE,
+		POU_ACTION }; /* its name is that of its owner, a dot and its own */
+#define POU_KINDS (POU_ACTION + 1)
 
 /* The statements of an EXECUTE box. Its cell has their canonical text as `args`, which
  * text_take_boxes() and text_give_boxes() keep the same. */
@@ -241,6 +243,10 @@ bool project_view_is_last(const struct project *project);
 /** project_set_view - replaces the view; a new one becomes the last part; "" removes it.
  * @text is copied. Fails: false: no memory, nothing changed. */
 bool project_set_view(struct project *project, const char *text);
+/** pou_owner - number of the POU that has the action @pou; -1: there is none. Scan-safe: yes. */
+int pou_owner(const struct project *project, const struct pou *pou);
+/** pou_own_name - the name of an action without that of its owner; of others their name. */
+const char *pou_own_name(const struct project *project, const struct pou *pou);
 /** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Static. */
 const char *pou_word(enum pou_kind kind);
 /** pou_language_word - LD, IL, SFC, ST. Static. */

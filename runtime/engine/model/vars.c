@@ -161,10 +161,11 @@ int vars_argument(const struct var_table *table, uint32_t fold, bool output, int
 	int index = fold ? vars_find(table, fold) : *last;
 
 	if (fold)
-		return index >= 0 && vars_flags(table, index) & (output ? VAR_OUTPUT : VAR_INPUT) ? index : -1;
+		return index >= 0 && vars_flags(table, index) & (output ? VAR_OUTPUT :
+			VAR_INPUT | VAR_IN_OUT) ? index : -1;
 	do
 		index++;
-	while (index < table->count && !(vars_flags(table, index) & VAR_INPUT));
+	while (index < table->count && !(vars_flags(table, index) & (VAR_INPUT | VAR_IN_OUT)));
 	*last = index;
 	return index < table->count ? index : -1;
 }

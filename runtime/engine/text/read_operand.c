@@ -214,6 +214,11 @@ bool reader_instance(struct reader *r, uint32_t *id)
 {
 	const struct token *token = &r->lex.token;
 
+	if (r->plain && token->kind == TOKEN_NAME && memchr(token->text, '.', token->len) &&
+	    !reader_peek(r, "[")) { /* an action: Pump.Reset */
+		*id = reader_intern(r, token->text, token->len);
+		return check_length(r);
+	}
 	if (!reader_name(r, "name", id))
 		return false;
 	if (!reader_peek(r, "["))

@@ -21,17 +21,67 @@ static const struct {
 			"function blocks" },
 	[POU_SUBROUTINE] = { "END_SUBROUTINE", "name of the subroutine",
 			     "subroutines" },
+	[POU_ACTION] = { "END_ACTION", "name of the action", "actions" },
 };
+
+/* Does an action begin here, of a POU that is no chart? */
+static bool begins_action(const struct reader *r)
+{
+	struct lex lex = r->lex;
+
+	if (!r->plain || !lex_is(&lex, "ACTION"))
+		return false;
+	lex.newlines = lex.comments = false;
+	return lex_next(&lex) == TOKEN_NAME;
+}
 
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
 {
-	for (size_t i = 0; i < sizeof(kinds) / sizeof(*kinds); i++)
+	*kind = POU_ACTION;
+	if (begins_action(r))
+		return true;
+	for (size_t i = 0; i < POU_ACTION; i++)
 		if (lex_is(&r->lex, pou_word((enum pou_kind)i))) {
 			*kind = (enum pou_kind)i;
 			return true;
 		}
 	*kind = POU_BLOCK;
 	return lex_is(&r->lex, "FUNCTIONBLOCK"); /* CODESYS 2.3 reads and exports it */
+}
+
+/* ---- object-oriented parts, which no language here has ---- */
+
+static const struct { const char *word, *end; } objects[] = {
+	{ "METHOD", "END_METHOD" }, { "PROPERTY", "END_PROPERTY" },
+	{ "CLASS", "END_CLASS" }, { "INTERFACE", "END_INTERFACE" },
+};
+
+bool reader_skip_objects(struct reader *r)
+{
+	for (size_t i = 0; r->plain && i < sizeof(objects) / sizeof(*objects); i++) {
+		if (!lex_is(&r->lex, objects[i].word) || reader_peek(r, ":=") || reader_peek(r, ":"))
+			continue;
+		reader_fail_token(r, DIAG_OBJECTS);
+		while (r->lex.token.kind != TOKEN_END && !lex_is(&r->lex, objects[i].end))
+			reader_next(r);
+		if (r->lex.token.kind != TOKEN_END)
+			reader_next(r);
+		reader_skip_newlines(r);
+		return true;
+	}
+	return false;
+}
+
+/* A word beside the name of a block: ABSTRACT, EXTENDS Base. */
+static bool is_object_word(const struct reader *r)
+{
+	static const char *const words[] = { "ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED",
+					     "INTERNAL", "EXTENDS", "IMPLEMENTS" };
+
+	for (size_t i = 0; r->plain && i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&r->lex, words[i]))
+			return true;
+	return false;
 }
 
 /* ---- bodies ---- */
@@ -275,9 +325,64 @@ static enum pou_language language_of_body(const struct reader *r)
 	return st_begins(lex) ? LANGUAGE_ST : LANGUAGE_IL;
 }
 
+/* The last POU of the file that may have actions, or the one that ACTIONS names; NULL: there is none. */
+static const struct pou *last_owner(const struct reader *r, int index)
+{
+	const struct project *project = r->project;
+	const int named = r->actions_of ? project_find_pou(project, project_text(project, r->actions_of),
+							   names_len(&project->names, r->actions_of)) : -1;
+
+	if (named >= 0)
+		return &project->pou[named];
+	while (index-- > 0) {
+		const struct pou *pou = &project->pou[index];
+
+		if (pou->file == r->place.file && (pou->kind == POU_PROGRAM || pou->kind == POU_BLOCK))
+			return pou;
+	}
+	return NULL;
+}
+
+/* `ACTION Start:` of the POU above, `ACTION Pump.Start:` of another one. */
+static void read_action_line(struct reader *r, struct pou *pou, int index)
+{
+	const struct pou *owner = last_owner(r, index);
+	const struct token *token = &r->lex.token;
+	char name[2 * LIMIT_NAME + 2];
+
+	pou->language = LANGUAGE_ST;
+	pou->unsaid = true;
+	reader_next(r);
+	if (token->len > LIMIT_NAME || (!owner && !memchr(token->text, '.', token->len))) {
+		reader_fail_word(r, DIAG_MISPLACED, "ACTION");
+		reader_skip_line(r);
+		return;
+	}
+	if (memchr(token->text, '.', token->len))
+		snprintf(name, sizeof(name), "%.*s", (int)token->len, token->text);
+	else
+		snprintf(name, sizeof(name), "%s.%.*s", project_text(r->project, owner->name),
+			 (int)token->len, token->text);
+	pou->name = reader_intern(r, name, strlen(name));
+	reader_next(r);
+	if (reader_is(r, ':'))
+		reader_next(r);
+	r->place.pou = names_text(&r->project->names, pou->name);
+	pou->language = language_of_body(r);
+	reader_end_head(r);
+}
+
 static void read_first_line(struct reader *r, struct pou *pou, int index)
 {
+	if (pou->kind == POU_ACTION) {
+		read_action_line(r, pou, index);
+		return;
+	}
 	reader_next(r);
+	if (is_object_word(r)) {
+		reader_fail_token(r, DIAG_OBJECTS);
+		reader_next(r);
+	}
 	if (!reader_name(r, kinds[pou->kind].name, &pou->name)) {
 		reader_skip_line(r);
 		return;
@@ -289,6 +394,12 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 				     WORD_FB : WORD_FN, index);
 	if (pou->kind == POU_FUNCTION && !read_result(r, pou)) {
 		reader_skip_line(r);
+		return;
+	}
+	if (is_object_word(r)) {
+		reader_fail_token(r, DIAG_OBJECTS);
+		reader_skip_line(r);
+		pou->language = language_of_body(r);
 		return;
 	}
 	pou->unsaid = !lex_is(&r->lex, "IL") && !lex_is(&r->lex, "LD") && !lex_is(&r->lex, "SFC") &&
@@ -386,6 +497,13 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	pou->tail = buffer_take(r, &r->above);
 	add_temps(r, pou, index);
 	add_edges(r, &pou->vars);
+	while (kind != POU_ACTION) { /* inside it, as TwinCAT has them */
+		reader_skip_newlines(r);
+		if (begins_action(r))
+			read_pou(r, POU_ACTION);
+		else if (!reader_skip_objects(r))
+			break;
+	}
 	if (lex_is(&r->lex, kinds[kind].end)) {
 		reader_next(r);
 		r->place.pou = NULL;

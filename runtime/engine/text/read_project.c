@@ -322,7 +322,7 @@ bool read_ends_block(const struct reader *r)
 		"INCLUDE", "VIEW", "PROJECT", "CONFIGURATION",
 		"END_CONFIGURATION", "FUNCTION", "END_FUNCTION",
 		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
-		"SUBROUTINE", "END_SUBROUTINE",
+		"SUBROUTINE", "END_SUBROUTINE", "END_ACTION", "END_ACTIONS",
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
 		"VAR_ACCESS",
 	};
@@ -333,7 +333,10 @@ bool read_ends_block(const struct reader *r)
 		return false;
 	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
 		found = lex_is(&r->lex, words[i]);
-	return found && !reader_peek(r, ":") && !reader_peek(r, ",") &&
+	found |= r->plain && (lex_is(&r->lex, "ACTION") || lex_is(&r->lex, "METHOD") ||
+			      lex_is(&r->lex, "PROPERTY")) &&
+		 !reader_peek(r, "(") && !reader_peek(r, ";");
+	return found && !reader_peek(r, ":") && !reader_peek(r, ":=") && !reader_peek(r, ",") &&
 	       !reader_peek(r, "AT");
 }
 
@@ -397,6 +400,23 @@ static bool is_foreign(const struct reader *r)
 	       lex_is(&r->lex, "CONFIGURATION");
 }
 
+/* ACTIONS and END_ACTIONS, which stand around the actions of the POU above. */
+static bool skip_actions(struct reader *r)
+{
+	if (!r->plain || (!lex_is(&r->lex, "ACTIONS") && !lex_is(&r->lex, "END_ACTIONS")))
+		return false;
+	r->actions_of = 0;
+	if (lex_is(&r->lex, "ACTIONS")) {
+		reader_next(r);
+		if (r->lex.token.kind == TOKEN_NAME && !lex_is(&r->lex, "ACTION"))
+			reader_name(r, "name of the program", &r->actions_of);
+	}
+	if (r->lex.token.kind == TOKEN_NAME && !lex_is(&r->lex, "ACTION"))
+		reader_next(r);
+	reader_end_head(r);
+	return true;
+}
+
 static void read_parts(struct reader *r)
 {
 	enum pou_kind kind;
@@ -423,7 +443,7 @@ static void read_parts(struct reader *r)
 			read_configuration(r);
 		else if (lex_is(&r->lex, "INCLUDE"))
 			read_include(r, false);
-		else
+		else if (!skip_actions(r) && !reader_skip_objects(r))
 			reader_skip_odd_line(r);
 	}
 }
@@ -432,6 +452,7 @@ bool text_is_plain(const char *text, size_t len)
 {
 	static const char *const words[] = {
 		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "FUNCTIONBLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
+		"CLASS", "INTERFACE", /* told as what they are */
 	};
 	struct lex lex;
 

@@ -610,7 +610,7 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 	if (flag == VAR_TEMP || flag == VAR_EXTERNAL)
 		return !global;
 	/* A program without a caller that gives its inputs: variables with initial values. */
-	if (flag & (VAR_INPUT | VAR_OUTPUT))
+	if (flag & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT))
 		return callable || (r->pou && r->pou->kind == POU_PROGRAM && !global &&
 				    (r->pou->language == LANGUAGE_ST ||
 				     (r->plain && r->pou->language == LANGUAGE_IL)));

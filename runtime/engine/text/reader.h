@@ -70,6 +70,8 @@ struct reader {
 	int arg_count;
 	struct il *il;              /* of the POU, for COMMENT_IL             */
 	const struct pou *pou;      /* the current POU; NULL: none            */
+	uint32_t actions_of;        /* string id: whose the actions are, by ACTIONS Name; 0: of
+	                               the POU above                          */
 	uint16_t var_flags;          /* of the current VAR block               */
 	bool paths;                 /* reading VAR_CONFIG: names are paths    */
 	bool members;               /* reading the members of a structure     */
@@ -168,6 +170,9 @@ bool reader_pin(struct reader *r, uint32_t *id);
 /** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */
 bool reader_arg(struct reader *r);
 
+/** reader_skip_objects - steps over a METHOD, PROPERTY, CLASS or INTERFACE at the cursor, with a
+ * message. False: there is none. */
+bool reader_skip_objects(struct reader *r);
 /** reader_sign - appends a sign under the cursor and steps past it; true if there is one. */
 bool reader_sign(struct reader *r);
 /** reader_written - the record of a declaration with constant expressions; one of them, at

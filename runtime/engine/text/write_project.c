@@ -295,6 +295,16 @@ static void write_body(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_BODY, number, false);
 }
 
+/* Does an action stand behind its owner, or another action of it? */
+static bool is_below_owner(const struct project *project, const struct pou *pou)
+{
+	const int owner = pou_owner(project, pou);
+
+	while (pou > project->pou && pou->kind == POU_ACTION)
+		pou--;
+	return owner >= 0 && pou == &project->pou[owner];
+}
+
 /* One POU, from its heading to its end. @plain: its file needs no language. Scan-safe: no. */
 static void text_write_pou(const struct project *project, const struct pou *pou, bool plain,
 			   const struct sink *sink)
@@ -303,12 +313,17 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, " ");
-	write_id(sink, project, pou->name);
+	if (pou->kind == POU_ACTION && is_below_owner(project, pou)) {
+		sink_text(sink, pou_own_name(project, pou));
+		sink_text(sink, ":");
+	} else {
+		write_id(sink, project, pou->name);
+	}
 	if (pou->kind == POU_FUNCTION && pou->vars.count > 0 && !pou->no_result) {
 		sink_text(sink, " : ");
 		project_write_type(project, &pou->vars.var[0], sink);
 	}
-	if (!plain || !pou->unsaid) {
+	if ((!plain || !pou->unsaid) && pou->kind != POU_ACTION) {
 		sink_text(sink, " ");
 		sink_text(sink, pou_language_word(pou->language));
 	}

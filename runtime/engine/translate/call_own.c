@@ -183,13 +183,24 @@ static void keep_power_of(struct list *list, const struct meaning *instance,
 			.unit = list_row(list, instance->word)->size });
 }
 
+/* The frame of a block, and the list that is called: its own, or that of an action. */
+static const struct frame *callee_of(const struct list *list, const struct meaning *instance,
+				     uint32_t *entry)
+{
+	const struct frame *frame = layout_pou(list->as, instance->word, entry);
+
+	if (instance->action)
+		*entry = instance->action - 1u;
+	return frame;
+}
+
 /* An element's frame is filled from it before the inputs. */
 static void call_element(struct list *list, const struct meaning *instance,
 			 const uint32_t fetched[LIMIT_ARGS])
 {
 	const struct word_row *row = list_row(list, instance->word);
 	uint32_t entry;
-	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
+	const struct frame *frame = callee_of(list, instance, &entry);
 	struct indices indices;
 	const int skip = list_skip_unborrowed(list, list_borrow(list, instance, frame->offset,
 								&indices));
@@ -208,7 +219,7 @@ static void call_instance(struct list *list, const struct meaning *instance,
 	const struct word_row *row = list_row(list, instance->word);
 	const uint32_t base = layout_spot(list->as, instance).offset;
 	uint32_t entry;
-	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
+	const struct frame *frame = callee_of(list, instance, &entry);
 
 	feed_all(list, row, base, fetched);
 	emit_block(list->as, frame->offset, base, row->size);

@@ -995,7 +995,9 @@ static void program_arguments(struct st_il *s, const struct pou *program, struct
 										 part.pin.len)) : 0;
 		const int at = vars_argument(&program->vars, fold, part.role == ST_OUTPUT, &last);
 
-		if (at < 0 || (part.role == ST_OUTPUT) != output)
+		const bool both = at >= 0 && vars_flags(&program->vars, at) & VAR_IN_OUT;
+
+		if (at < 0 || ((part.role == ST_OUTPUT) != output && !both))
 			continue;
 		name = variable_of(s, program, at, &len);
 		if (output)
@@ -1046,7 +1048,7 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 		call_program(s, pou, walk);
 		return;
 	}
-	if (!is_function(s, &s->ld.expr->node[s->ld.expr->root])) {
+	if ((pou && pou->kind == POU_ACTION) || !is_function(s, &s->ld.expr->node[s->ld.expr->root])) {
 		const uint32_t instance = ld_target(&s->ld, &good);
 
 		call_instance(s, walk, instance, good);

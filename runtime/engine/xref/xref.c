@@ -658,6 +658,20 @@ static void walk_table(struct xref_walk *walk, int number)
 	}
 }
 
+/* The name of a POU in its heading; before that of an action stands its owner's. */
+static void add_heading(struct xref_walk *walk, struct pou *pou, struct xref_target target)
+{
+	const char *name = project_text(walk->project, pou->name);
+	const char *own = pou_own_name(walk->project, pou);
+	const int owner = pou_owner(walk->project, pou);
+
+	walk->slot = &pou->name;
+	if (owner >= 0)
+		xref_add(walk, (struct xref_target){ .what = XREF_POU, .index = owner }, XREF_TYPE, 0,
+			 (uint32_t)(own - name) - 1);
+	xref_add(walk, target, XREF_DECLARED, (uint32_t)(own - name), (uint32_t)strlen(own));
+}
+
 static void begin_place(struct xref_walk *walk, int pou, const char *file, int line,
 			bool included)
 {
@@ -725,7 +739,7 @@ static void walk_declarations(struct xref_walk *walk)
 		struct xref_target target = { .what = XREF_POU, .index = i };
 
 		begin_place(walk, i, pou->file, pou->line, pou->included);
-		xref_whole(walk, &pou->name, target, XREF_DECLARED);
+		add_heading(walk, pou, target);
 		walk->pou = pou;
 		walk_table(walk, i + 1);
 		walk_external(walk, &pou->external);
@@ -1125,6 +1139,21 @@ static enum word word_called(struct xref_walk *walk, const struct expr *expr)
 	return m && m->kind == MEANING_INSTANCE ? (enum word)m->word : WORD_COUNT;
 }
 
+/* `Start()` and `Pump.Start()`: the action, and the POU before it. */
+static void add_called(struct xref_walk *walk, const struct pou *pou, const char *name, size_t len,
+		       uint32_t at)
+{
+	const struct project *project = walk->project;
+	const int owner = pou_owner(project, pou);
+	const char *dot = owner >= 0 ? memchr(name, '.', len) : NULL;
+	const uint32_t head = dot ? (uint32_t)(dot - name) + 1 : 0;
+
+	if (head)
+		xref_add(walk, (struct xref_target){ .what = XREF_POU, .index = owner }, XREF_TYPE, at, head - 1);
+	xref_add(walk, (struct xref_target){ .what = XREF_POU, .index = (int)(pou - project->pou) },
+		 XREF_CALLED, at + head, (uint32_t)len - head);
+}
+
 static void walk_callee(struct xref_walk *walk, const struct st_part *part, const struct st_walk *parts,
 			const struct expr *expr, enum word *word)
 {
@@ -1135,9 +1164,7 @@ static void walk_callee(struct xref_walk *walk, const struct st_part *part, cons
 
 	*word = pou && pou->kind == POU_FUNCTION ? pou->word : word_called(walk, expr);
 	if (pou)
-		xref_add(walk, (struct xref_target){ .what = XREF_POU,
-			.index = (int)(pou - walk->project->pou) }, XREF_CALLED,
-			 (uint32_t)(root->text - text), root->len);
+		add_called(walk, pou, root->text, root->len, (uint32_t)(root->text - text));
 	else
 		walk_part(walk, part, parts, XREF_CALLED);
 }

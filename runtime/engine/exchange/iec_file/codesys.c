@@ -32,8 +32,8 @@ enum line_kind { LINE_TEXT, LINE_POU, LINE_END, LINE_BODY, LINE_PART };
 static enum line_kind kind_of(const char *name, size_t len, bool inside)
 {
 	static const char *const pous[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK",
-					    "FUNCTIONBLOCK" };
-	static const char *const parts[] = { "LIBRARY", "VISUALISATION", "ACTION", "TRANSITION" };
+					    "FUNCTIONBLOCK", "ACTION" };
+	static const char *const parts[] = { "LIBRARY", "VISUALISATION", "TRANSITION" };
 	static const char body[] = "_BODY";
 
 	if (ascii_prefix("END_", name, len))
@@ -113,8 +113,7 @@ static void leave_out(struct scan *s, enum line_kind kind)
 	const struct token token = s->lex.token;
 	const bool body = kind == LINE_BODY;
 	const int skip = body ? 1 : 0, less = body ? 6 : 0;
-	const bool action = ascii_is("ACTION", token.text, token.len) ||
-			    ascii_is("TRANSITION", token.text, token.len);
+	const bool action = ascii_is("TRANSITION", token.text, token.len);
 
 	s->place.id = body ? DIAG_OTHER_BODY : action ? DIAG_OBJECT_PART : DIAG_OTHER_PART;
 	s->place.line = token.line;
@@ -146,6 +145,7 @@ void codesys_blank(const char *file, char *text, size_t len, struct diag_list *d
 		else if (kind == LINE_END && !ascii_is("END_VAR", token.text, token.len) &&
 			 !ascii_is("END_IF", token.text, token.len))
 			inside = inside && !(ascii_is("END_PROGRAM", token.text, token.len) ||
+					     ascii_is("END_ACTION", token.text, token.len) ||
 					     ascii_prefix("END_FUNCTION", token.text, token.len));
 		if (kind != LINE_BODY && kind != LINE_PART)
 			continue;

@@ -17,7 +17,8 @@
 #define NAME_MOST 40
 
 /* What an element means. */
-enum element { ELEMENT_OTHER, ELEMENT_POU, ELEMENT_TEXT, ELEMENT_IMPLEMENTATION, ELEMENT_SKIP };
+enum element { ELEMENT_OTHER, ELEMENT_POU, ELEMENT_TEXT, ELEMENT_IMPLEMENTATION, ELEMENT_ACTION,
+	       ELEMENT_SKIP };
 
 struct twincat {
 	const char *at, *end, *begin;
@@ -187,7 +188,7 @@ static bool is(const char *word, const char *name, size_t len)
 /* The parts of a POU that the languages here have no form for. */
 static bool is_object_part(const char *name, size_t len)
 {
-	return is("Method", name, len) || is("Property", name, len) || is("Action", name, len) ||
+	return is("Method", name, len) || is("Property", name, len) ||
 	       is("Transition", name, len) || is("Itf", name, len);
 }
 
@@ -208,6 +209,8 @@ static enum element element_of(struct twincat *t, const char *name, size_t len, 
 	}
 	if (is("POU", name, len))
 		return ELEMENT_POU;
+	if (is("Action", name, len) && value && outer == ELEMENT_POU)
+		return ELEMENT_ACTION;
 	if (is("Declaration", name, len))
 		return ELEMENT_TEXT;
 	if (is("Implementation", name, len))
@@ -236,6 +239,40 @@ static const char *end_of_tag(const struct twincat *t)
 	return NULL;
 }
 
+/* On a line of its own: the body may end with a // comment. A line that is there is used, so that all
+ * others keep their numbers. */
+static void put_end(struct twincat *t, const char *word)
+{
+	size_t at = t->len;
+
+	while (at > 0 && t->out[at - 1] == ' ')
+		at--;
+	if (at == 0 || t->out[at - 1] != '\n')
+		t->out[t->len++] = '\n';
+	memcpy(t->out + t->len, word, strlen(word));
+	t->len += strlen(word);
+	if (t->at < t->end && !strcmp(word, "END_ACTION"))
+		return;
+	t->out[t->len++] = '\n';
+}
+
+/* `ACTION Name:` in place of `<Action Name="Name" …`. */
+static void put_action(struct twincat *t, size_t at, const char *tag, const char *to)
+{
+	static const char word[] = "ACTION";
+	const char *name = find(tag, to, "Name=\""), *quote;
+
+	if (!name)
+		return;
+	name += strlen("Name=\"");
+	quote = memchr(name, '"', (size_t)(to - name));
+	if (!quote)
+		return;
+	memcpy(t->out + at + 1, word, strlen(word));
+	memcpy(t->out + at + (name - tag), name, (size_t)(quote - name));
+	t->out[at + (size_t)(quote - tag)] = ':';
+}
+
 static void close_element(struct twincat *t)
 {
 	if (!t->depth) {
@@ -245,12 +282,11 @@ static void close_element(struct twincat *t)
 	t->depth--;
 	if (t->skip > t->depth)
 		t->skip = 0;
+	if (t->open[t->depth] == ELEMENT_ACTION && !t->skip)
+		put_end(t, "END_ACTION");
 	if (t->open[t->depth] != ELEMENT_POU || !t->close)
 		return;
-	t->out[t->len++] = '\n'; /* the body may end with a // comment */
-	memcpy(t->out + t->len, t->close, strlen(t->close));
-	t->len += strlen(t->close);
-	t->out[t->len++] = '\n';
+	put_end(t, t->close);
 	t->close = NULL;
 }
 
@@ -280,7 +316,12 @@ static void read_tag(struct twincat *t)
 		if (!t->skip && t->open[t->depth - 1] == ELEMENT_SKIP)
 			t->skip = t->depth;
 	}
+	const size_t at = t->len;
+	const char *tag = t->at;
+
 	pass(t, to);
+	if (to[-2] != '/' && t->open[t->depth - 1] == ELEMENT_ACTION)
+		put_action(t, at, tag, to);
 }
 
 static void read_markup(struct twincat *t)
