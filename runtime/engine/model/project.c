@@ -353,6 +353,10 @@ void project_write_type(const struct project *project, const struct var *var,
 	}
 	if (var->wide)
 		sink_text(sink, "W");
+	if (var->letter) {
+		sink_text(sink, "CHAR");
+		return;
+	}
 	if (!var->enumeration || project->enumeration[var->enumeration - 1].based)
 		sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
 							iec_type_row(var->type)->word);

@@ -315,6 +315,20 @@ static void read_include(struct reader *r, bool library)
 
 /* ---- words that begin a part ---- */
 
+/* Does a part of a POU that is no chart begin or end here, as others have it: ACTION Name? */
+static bool begins_member(const struct reader *r)
+{
+	static const char *const words[] = { "ACTION", "END_ACTION", "ACTIONS", "END_ACTIONS", "METHOD",
+					     "PROPERTY" };
+	bool found = false;
+
+	if (!r->plain || (r->pou && r->pou->sfc))
+		return false;
+	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
+		found = lex_is(&r->lex, words[i]);
+	return found && !reader_peek(r, "(") && !reader_peek(r, ";");
+}
+
 bool read_ends_block(const struct reader *r)
 {
 	static const char *const words[] = {
@@ -322,7 +336,7 @@ bool read_ends_block(const struct reader *r)
 		"INCLUDE", "VIEW", "PROJECT", "CONFIGURATION",
 		"END_CONFIGURATION", "FUNCTION", "END_FUNCTION",
 		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
-		"SUBROUTINE", "END_SUBROUTINE", "END_ACTION", "END_ACTIONS",
+		"SUBROUTINE", "END_SUBROUTINE",
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
 		"VAR_ACCESS",
 	};
@@ -333,9 +347,7 @@ bool read_ends_block(const struct reader *r)
 		return false;
 	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
 		found = lex_is(&r->lex, words[i]);
-	found |= r->plain && (lex_is(&r->lex, "ACTION") || lex_is(&r->lex, "METHOD") ||
-			      lex_is(&r->lex, "PROPERTY")) &&
-		 !reader_peek(r, "(") && !reader_peek(r, ";");
+	found |= begins_member(r);
 	return found && !reader_peek(r, ":") && !reader_peek(r, ":=") && !reader_peek(r, ",") &&
 	       !reader_peek(r, "AT");
 }

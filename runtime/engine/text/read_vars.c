@@ -287,6 +287,23 @@ static bool is_wide_text(const struct reader *r)
 	return ascii_is("WSTRING", r->lex.token.text, r->lex.token.len);
 }
 
+/* CHAR and WCHAR: a text of one letter. False: none stands here. */
+static bool read_letter(struct reader *r, struct var *var)
+{
+	const bool wide = ascii_is("WCHAR", r->lex.token.text, r->lex.token.len);
+
+	if ((!wide && !ascii_is("CHAR", r->lex.token.text, r->lex.token.len)) || is_named(r, var))
+		return false;
+	if (wide)
+		reader_fail_word(r, DIAG_WIDE_TEXT, "");
+	var->type = IEC_STRING;
+	var->letter = true;
+	var->wide = wide;
+	var->capacity = wide ? 4 : 1; /* bytes of UTF-8 */
+	reader_step(r);
+	return true;
+}
+
 bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 {
 	const struct token *token = &r->lex.token;
@@ -301,6 +318,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
+	if (r->plain && read_letter(r, var))
+		return true;
 	if (r->plain && is_wide_text(r)) {
 		reader_fail_word(r, DIAG_WIDE_TEXT, "");
 		var->type = IEC_STRING;

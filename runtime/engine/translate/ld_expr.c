@@ -275,6 +275,13 @@ static bool is_integer_power(struct chain *c, enum word word, const struct expr_
 	       is_power(c, args->arg[0].at, args->arg[1].at);
 }
 
+/* 2 * T#1s is T#1s * 2, and T#1h + Begin is Begin + T#1h: the functions take the other first. */
+static bool is_turned(const struct expr_node *node, enum iec_type left, enum iec_type right)
+{
+	return (node->fn == FN_MUL || node->fn == FN_ADD) && fn_overload(node->fn, left, right) == node->fn &&
+	       fn_overload(node->fn, right, left) != node->fn;
+}
+
 /* Type of a part; constants without a type take that of their neighbours. */
 static enum iec_type chain_infer(struct chain *c, int index)
 {
@@ -311,6 +318,14 @@ static enum iec_type chain_infer(struct chain *c, int index)
 		return infer_power(c, node->left, node->right);
 	left = chain_infer(c, node->left);
 	right = chain_infer(c, node->right);
+	if (is_turned(node, left, right)) {
+		struct expr_node *turned = &c->ld->expr->node[index];
+		const int16_t first = turned->left;
+
+		turned->left = turned->right;
+		turned->right = first;
+		return chain_infer(c, index);
+	}
 	if (fn_overload(node->fn, left, right) != node->fn)
 		return fn_result(word_row(fn_overload(node->fn, left, right)), left,
 				 IEC_NONE);
@@ -686,6 +701,7 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 		return is_power(c, node->left, node->right) ?
 			compute_power(c, node->left, node->right, hint, target) :
 			compute_root(c, node->left, node->right, hint, target);
+	chain_infer(c, index); /* it may turn the sides */
 	word = fn_overload(node->fn, chain_infer(c, node->left), chain_infer(c, node->right));
 	if (word != node->fn)
 		return compute_overload(c, node, word, type, target);
