@@ -571,7 +571,7 @@ static bool step_into(struct path *path)
 		return refuse(path, m->kind == MEANING_VARIABLE ?
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
-	index = m->action ? -1 : word_pin_find(row, name, len);
+	index = m->kind == MEANING_INSTANCE && m->action ? -1 : word_pin_find(row, name, len);
 	if (index < 0)
 		return step_action(path, row, name, len);
 	if (path->pin < 0)

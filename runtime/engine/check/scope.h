@@ -46,10 +46,12 @@ struct meaning {
 		uint32_t stride;  /* of ARRAY: bytes from one to the next     */
 		const struct meaning *number; /* of a part: of which it is one */
 	};
-	uint16_t action;          /* of an INSTANCE that a path of an action names:
-				     number of the POU + 1; 0: none          */
 	uint16_t word;            /* enum word of INSTANCE, STRUCT, an ARRAY of such */
-	uint16_t capacity;        /* of an ARRAY of STRING                    */
+	union {
+		uint16_t capacity; /* of an ARRAY of STRING                   */
+		uint16_t action;  /* of an INSTANCE that a path of an action names: number of
+				     the POU + 1; 0: none                     */
+	};
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
 	uint32_t offset;          /* of a part or element: bytes behind the
