@@ -103,7 +103,9 @@ static void test_pins(struct scope *scope)
 	CHECK(reason(scope, "Delay.start") == DIAG_NO_PIN);
 	CHECK(reason(scope, "Delay.") == DIAG_NO_PIN);
 	CHECK(reason(scope, "Motor.Q") == DIAG_UNKNOWN_NAME);
-	CHECK(reason(scope, "Main.motor") == DIAG_UNKNOWN_NAME);
+	m = find(scope, "Main.motor"); /* of a program, by its name */
+	CHECK(m && m->kind == MEANING_VARIABLE && m->type == IEC_INT && m->pou == project->pou);
+	CHECK(reason(scope, "Main.engine") == DIAG_NO_PIN);
 	CHECK(reason(scope, ".Q") == DIAG_UNKNOWN_NAME);
 }
 
