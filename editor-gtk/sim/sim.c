@@ -48,6 +48,7 @@ struct _LadderSim {
 	guint64 version;            /* of the document, when that was built     */
 	struct rebuild *building;   /* NULL: nothing is built                   */
 	struct rebuild *ahead;      /* built for a text that the document may get; NULL: none */
+	int rest;                   /* texts that are not foreseen, as the last one did not come */
 	guint soon;                 /* source that builds an edit; 0: none      */
 	LadderBreakpoints *points;
 };
@@ -1004,6 +1005,10 @@ static void number_again(LadderSim *sim)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 }
 
+/* A text in another form than the document writes does not come as it was typed, and neither do the
+ * next ones: a build in vain takes as long as the other. */
+#define RESTS 20
+
 /* @text: taken. */
 static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, bool foreseen)
 {
@@ -1053,11 +1058,13 @@ static void build_edit(LadderSim *sim)
 	text = ladder_document_text(sim->document, &len);
 	if (sim->building) {
 		sim->building->missed = !came_true(sim, sim->building, text);
+		sim->rest = sim->building->missed ? RESTS : sim->rest;
 		g_free(text);
 	} else if (came_true(sim, ahead, text)) {
 		g_free(text);
 		use(sim, ahead);
 	} else {
+		sim->rest = ahead ? RESTS : sim->rest;
 		build_text(sim, text, len, ladder_document_version(sim->document), false);
 	}
 	rebuild_free(ahead);
@@ -1065,7 +1072,10 @@ static void build_edit(LadderSim *sim)
 
 void ladder_sim_foresee(LadderSim *sim, char *text)
 {
-	if (!text || !sim->thread || sim->building || !ladder_document_is_whole(sim->document)) {
+	const bool rests = sim->rest > 0;
+
+	sim->rest -= rests;
+	if (rests || !text || !sim->thread || sim->building || !ladder_document_is_whole(sim->document)) {
 		g_free(text);
 		return;
 	}

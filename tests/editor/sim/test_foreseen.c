@@ -25,7 +25,9 @@ static char *adds(int step)
 
 static void foresee(const char *list)
 {
-	ladder_sim_foresee(sim, ladder_document_with_list(document, 0, list));
+	/* After a text that did not come, some are not foreseen. */
+	for (int i = 0; i < 21 && ladder_sim_is_on(sim) && !ladder_sim_is_building(sim); i++)
+		ladder_sim_foresee(sim, ladder_document_with_list(document, 0, list));
 }
 
 static void wait_built(void)
