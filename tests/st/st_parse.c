@@ -70,9 +70,16 @@ static bool part(struct tree *tree, const char *text, size_t len)
 
 	if (!named && (*text < '0' || *text > '9'))
 		return false;
+	const int below = tree->bits * tree->number; /* of a part of a part */
+	int number = 0;
+	size_t i = named ? 2 : 0;
+
 	tree->bits = !named || text[1] == 'X' ? 1 : text[1] == 'B' ? 8 : text[1] == 'W' ? 16 : 32;
-	for (size_t i = named ? 2 : 0; i < len; i++)
-		tree->number = tree->number * 10 + text[i] - '0';
+	for (; i < len && text[i] != '.'; i++)
+		number = number * 10 + text[i] - '0';
+	tree->number = number + below / tree->bits;
+	if (i < len)
+		part(tree, text + i + 1, len - i - 1);
 	return true;
 }
 

@@ -220,8 +220,8 @@ static void variable(struct maker *m, enum type type)
 	else if (chance(m, 10) && type == T_STRING)
 		say(m, "pp^.tag");
 	else if (chance(m, 10) && (type == T_BOOL || type == T_BYTE || type == T_WORD))
-		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", "pi^.2", NULL }, 6) :
-		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%B7", NULL }, 5) :
+		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", "pi^.2", "dw2.%W1.%X9", "lw2.%D1.%B2.7", NULL }, 8) :
+		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%D1.%W0.%B1", NULL }, 5) :
 		    one_of(m, (const char *const[]){ "dw1.%W1", "lw2.%W3", "d2.%W0", NULL }, 4));
 	else if (m->room >= ROOM_ROUTINE && type == T_UINT && chance(m, 20))
 		say(m, "mix1.Total"); /* not while it runs */
@@ -497,8 +497,8 @@ static void target(struct maker *m, enum type type)
 		return;
 	}
 	if (chance(m, 10) && (type == T_BOOL || type == T_BYTE || type == T_WORD)) {
-		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", NULL }, 5) :
-		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%B7", NULL }, 5) :
+		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", "dw2.%W1.%X9", "lw2.%D1.%B2.7", NULL }, 7) :
+		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%D1.%W0.%B1", NULL }, 5) :
 		    one_of(m, (const char *const[]){ "dw1.%W1", "lw2.%W3", "d2.%W0", NULL }, 4));
 		return;
 	}

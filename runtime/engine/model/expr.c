@@ -223,16 +223,17 @@ size_t expr_array(const char *text, size_t len)
 
 /* ---- parts of bit strings ---- */
 
-bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number)
+/* `3`, `%X3`, `%B1`. */
+static bool one_part(const char *at, size_t len, unsigned int *bits, unsigned int *number)
 {
 	static const struct { char letter; uint8_t bits; } sizes[] = {
 		{ 'X', 1 }, { 'B', 8 }, { 'W', 16 }, { 'D', 32 }, { 'L', 64 },
 	};
-	const char *at = tail.text, *end = at + tail.len;
+	const char *end = at + len;
 
-	*bits = tail.len && *at != '%' ? 1 : 0;
+	*bits = len && *at != '%' ? 1 : 0;
 	*number = 0;
-	for (size_t i = 0; tail.len > 2 && *at == '%' && i < sizeof(sizes) / sizeof(*sizes); i++)
+	for (size_t i = 0; len > 2 && *at == '%' && i < sizeof(sizes) / sizeof(*sizes); i++)
 		if (ascii_upper(at[1]) == sizes[i].letter)
 			*bits = sizes[i].bits;
 	at += *at == '%' ? 2 : 0;
@@ -243,6 +244,30 @@ bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number)
 			return false;
 		*number = *number * 10 + (unsigned int)(*at - '0');
 	}
+	return true;
+}
+
+bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number)
+{
+	const char *at = tail.text, *end = at + tail.len;
+	unsigned int below = 0, before = 0;
+
+	do {
+		const char *dot, *stop;
+
+		at += at != tail.text; /* the dot */
+		dot = memchr(at, '.', (size_t)(end - at));
+		stop = dot ? dot : end;
+		while (at < stop && *at == ' ')
+			at++;
+		if (!one_part(at, (size_t)(stop - at), bits, number) ||
+		    (before && (*bits >= before || *bits * (*number + 1) > before)))
+			return false;
+		below += *bits * *number;
+		before = *bits;
+		at = stop;
+	} while (at < end);
+	*number = below / *bits;
 	return true;
 }
 
@@ -268,8 +293,17 @@ static bool is_number(const struct token *token)
 	return digits == token->len;
 }
 
+/* @bit, a part so far, goes on with the token. */
+static void take_part(struct expr_tail *bit, const struct token *token)
+{
+	const char *begin = bit->len ? bit->text : token->text;
+	const size_t len = (size_t)(token->text + token->len - begin);
+
+	*bit = (struct expr_tail){ begin, (uint16_t)(len < LIMIT_NAME ? len : LIMIT_NAME) };
+}
+
 /* On the last token of a path: where the path ends, without the bit behind it. parser->bit gets
- * that bit, or what follows in tokens of their own: `.%B1`. */
+ * that bit, or what follows in tokens of their own: `.%W1.%X3`. */
 static const char *take_bit(struct parser *parser)
 {
 	struct lex *lex = parser->lex;
@@ -281,15 +315,14 @@ static const char *take_bit(struct parser *parser)
 	parser->bit = (struct expr_tail){ end - len, (uint16_t)len };
 	if (len)
 		return end - len - 1;
-	if (lex_next(&ahead) != TOKEN_SYMBOL || !lex_is(&ahead, "."))
-		return end;
-	lex_next(&ahead);
-	if (ahead.token.kind != TOKEN_ADDRESS &&
-	    (ahead.token.kind != TOKEN_NUMBER || !is_number(&ahead.token)))
-		return end;
-	parser->bit = (struct expr_tail){ ahead.token.text, (uint16_t)(ahead.token.len < LIMIT_NAME ?
-								       ahead.token.len : LIMIT_NAME) };
-	*lex = ahead;
+	while (lex_next(&ahead) == TOKEN_SYMBOL && lex_is(&ahead, ".")) {
+		lex_next(&ahead);
+		if (ahead.token.kind != TOKEN_ADDRESS &&
+		    (ahead.token.kind != TOKEN_NUMBER || !is_number(&ahead.token)))
+			break;
+		take_part(&parser->bit, &ahead.token);
+		*lex = ahead;
+	}
 	return end;
 }
 

@@ -8,6 +8,8 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/ascii.h"
+
 #include "engine/base/literal.h"
 #include "engine/model/named.h"
 
@@ -328,6 +330,26 @@ static void add_struct(struct reader *r, const struct structure *head, struct pa
 		reader_skip_line(r);
 }
 
+/* A word of other tools. */
+static bool is_word(const struct reader *r, const char *word)
+{
+	return ascii_is(word, r->lex.token.text, r->lex.token.len);
+}
+
+/* Members that share memory: the layout of data has one type for each value. */
+static void refuse_union(struct reader *r, const struct structure *head)
+{
+	reader_fail_word(r, DIAG_UNION, project_text(r->project, head->name));
+	r->across_lines = false;
+	while (r->lex.token.kind != TOKEN_END && !read_ends_block(r) && !is_word(r, "END_UNION") &&
+	       !lex_is(&r->lex, "END_TYPE"))
+		reader_next(r);
+	if (is_word(r, "END_UNION"))
+		reader_next(r);
+	if (reader_is(r, ';'))
+		reader_next(r);
+}
+
 /* `Name : … ;` @comment: gets the place of its comment. */
 static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 {
@@ -340,6 +362,10 @@ static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 		add_struct(r, &head, part);
 		*comment = part->count ? &r->project->structure[r->project->structure_count - 1].comment :
 					 NULL;
+		return;
+	}
+	if (good && is_word(r, "UNION")) {
+		refuse_union(r, &head);
 		return;
 	}
 	r->begun = r->lex.token.line;
