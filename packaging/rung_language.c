@@ -125,6 +125,15 @@ static void ends_of_charts(void)
 			also(&first, sfc_word(i)->word, "");
 }
 
+/* Around the lines of an EXECUTE box. */
+static void words_of_bodies(void)
+{
+	bool first = true;
+
+	also(&first, word_row(ELEM_EXECUTE)->word, "");
+	also(&first, "END_EXECUTE", "");
+}
+
 static void match(const char *id, const char *style, const char *before, void (*words)(void),
 		  const char *behind)
 {
@@ -193,7 +202,7 @@ static void rung_files(void)
 {
 	static const char *const order[] = {
 		"block-comment", "line-comment", "string", "text", "address", "element",
-		"type", "chart", "chart-end", "operator", "keyword", "constant", "number", NULL,
+		"type", "chart", "chart-end", "body", "operator", "keyword", "constant", "number", NULL,
 	};
 
 	head("rung", "Rungboard", "text/x-rungboard", "*.rung");
@@ -202,6 +211,7 @@ static void rung_files(void)
 	match("type", "type", ":\\s*", types, "\\b");
 	match("chart", "keyword", "^\\s*", words_of_charts, "\\b(?!\\s*[:,])");
 	match("chart-end", "keyword", "\\b", ends_of_charts, "\\b");
+	match("body", "keyword", "^\\s*", words_of_bodies, "\\b(?!\\s*(:=|\\())");
 	match("operator", "operator", "^\\s*(?:\\w+:\\s*)?", operators, "\\b(?!\\s*:)");
 	printf("    <context id=\"keyword\" style-ref=\"keyword\">\n");
 	keywords(false);
@@ -287,7 +297,7 @@ static void structured_text(void)
 {
 	static const char *const order[] = {
 		"block-comment", "pragma", "line-comment", "string", "text", "address", "literal",
-		"block", "chart", "chart-end", "keyword", "type", "constant", "function", "number", NULL,
+		"block", "chart", "chart-end", "body", "keyword", "type", "constant", "function", "number", NULL,
 	};
 
 	head("rung-st", "Structured Text", "text/x-iec-st", "*.st;*.iec");
@@ -295,6 +305,7 @@ static void structured_text(void)
 	match("block", "type", "(?::|\\bOF\\b)\\s*", blocks, "\\b");
 	match("chart", "keyword", "^\\s*", heads_of_charts, "\\b(?!\\s*[:(.\\[])");
 	match("chart-end", "keyword", "\\b", ends_of_charts, "\\b");
+	match("body", "keyword", "^\\s*", words_of_bodies, "\\b(?!\\s*(:=|[(.\\[]))");
 	st_keywords();
 	match("function", "function", "\\b", functions, "\\b(?=\\s*\\()");
 	foot("rung-st", order);

@@ -80,9 +80,13 @@ static void lines_inside(const struct nib *nib, const struct glyph *glyph)
 {
 	float y = glyph->y + 4.5f - (float)(glyph->framed->lines - 1) * FRAMED_LINE / 2;
 
-	for (int i = 0; i < glyph->framed->lines; i++)
-		centred(nib, nib->ink, LETTER_OPERAND, glyph->framed->line[i], glyph->x,
+	for (int i = 0; i < glyph->framed->lines; i++) {
+		const struct lettered *line = &glyph->framed->line[i];
+		const float aside = glyph->framed->left ? (line->width - glyph->framed->width) / 2 : 0;
+
+		centred(nib, nib->ink, LETTER_OPERAND, *line, glyph->x + aside,
 			y + (float)(i * FRAMED_LINE));
+	}
 }
 
 static void middle(const struct nib *nib, const struct glyph *glyph)

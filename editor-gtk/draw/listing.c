@@ -179,7 +179,7 @@ static void note_cell(struct listing_reads *reads, const struct cell *cell)
 		note_expression(reads, operand, strlen(operand));
 	else if ((word->operand == OPND_ASSIGN || word->operand == OPND_LOOP) && source)
 		note_expression(reads, source + 2, strlen(source + 2));
-	while (args_next(&at, &arg))
+	while (cell->word != ELEM_EXECUTE && args_next(&at, &arg))
 		if (!arg.output)
 			note_expression(reads, arg.value, arg.value_len);
 }

@@ -105,6 +105,40 @@ static struct rung_framed in_lines(const struct drafting *drafting, const char *
 	return framed;
 }
 
+/* A line of statements; @more: it is the last one that fits, and others follow. */
+static void add_statement(const struct drafting *drafting, const char *line, size_t len, bool more,
+			  struct rung_framed *framed)
+{
+	char *text = g_strdup_printf("%.*s%s", (int)len, line, more ? " …" : "");
+	const struct lettered fits = fit(drafting, LETTER_OPERAND, text, FRAMED_BOUND);
+
+	framed->line[framed->lines++] = fits;
+	framed->width = MAX(framed->width, fits.width);
+	g_free(text);
+}
+
+/* The name of an EXECUTE box and its first lines. */
+static struct rung_framed statements(const struct drafting *drafting, const struct cell *cell)
+{
+	const char *name = project_text(drafting->project, cell->operand);
+	const char *line = project_text(drafting->project, cell->args), *end;
+	struct rung_framed framed = { .left = true };
+	char *title = g_strdup_printf("%s%s%s", word_row(cell->word)->word, *name ? " " : "", name);
+
+	add_statement(drafting, title, strlen(title), false, &framed);
+	g_free(title);
+	for (; *line && framed.lines < FRAMED_LINES; line = end) {
+		const size_t len = strcspn(line, "\n");
+
+		end = line + len + strspn(line + len, "\n");
+		line += g_str_has_prefix(line, "  ") ? 2 : 0; /* the usual indent */
+		add_statement(drafting, line, strcspn(line, "\n"),
+			      *end && framed.lines == FRAMED_LINES - 1, &framed);
+	}
+	framed.up = MAX((float)(framed.lines * FRAMED_LINE) / 2 + 2, RUNG_HALF);
+	return framed;
+}
+
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell)
 {
 	const struct word_row *word = word_row(cell->word);
@@ -114,6 +148,8 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 	struct rung_framed framed;
 	char *text;
 
+	if (word->operand == OPND_EXECUTE)
+		return statements(drafting, cell);
 	if (!says_word && !is_word)
 		return in_lines(drafting, operand);
 	text = g_strdup_printf("%s%s%s", word->word, is_word ? "" : " ",

@@ -32,6 +32,7 @@ struct rung_framed {
 	struct lettered line[FRAMED_LINES];
 	int lines;
 	float width;         /* of the widest line                              */
+	bool left;           /* its lines begin below each other                */
 	float up;            /* from the wire to the upper end of its strokes    */
 };
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);

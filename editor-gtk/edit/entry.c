@@ -781,8 +781,11 @@ static bool intern(struct project *project, const char *text, uint32_t *id)
 
 bool entry_cell(struct project *project, const struct entry *entry, struct cell *cell)
 {
+	/* A new EXECUTE box has one empty statement, beside which there is room for others. */
+	const char *args = entry->word == ELEM_EXECUTE ? "  ;\n" : entry->args;
+
 	*cell = (struct cell){ .word = (uint16_t)entry->word };
 	return entry->sense == ENTRY_ELEMENT &&
 	       intern(project, entry->operand, &cell->operand) &&
-	       intern(project, entry->args, &cell->args);
+	       intern(project, args, &cell->args);
 }

@@ -8,6 +8,9 @@
 
 G_DEFINE_FINAL_TYPE(LadderGridView, ladder_grid_view, LADDER_TYPE_CANVAS)
 
+/* (int rung, int row, int col), of the POU, 0-based: Enter at an EXECUTE box. */
+static guint statements_wanted;
+
 /* ---- drawing ---- */
 
 #define AHEAD 1.3 /* pages above and below the screen that are drawn before      */
@@ -512,10 +515,26 @@ static bool changes(enum verb verb)
 	       verb != VERB_cancel;
 }
 
+/* Enter at an EXECUTE box: somebody shows its statements. */
+static bool wants_statements(LadderGridView *view, enum verb verb)
+{
+	int row, col;
+	const struct cell *cell = verb == VERB_enter && sheet_pou(view) && sheet_rungs(view) > 0 ?
+				  cursor_cell(view, &row, &col) : NULL;
+
+	if (!cell || cell->word != ELEM_EXECUTE ||
+	    !g_signal_has_handler_pending(view, statements_wanted, 0, TRUE))
+		return false;
+	g_signal_emit(view, statements_wanted, 0, view->first + view->cursor.at.rung, row, col);
+	return true;
+}
+
 static void do_verb(LadderCanvas *canvas, enum verb verb)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 
+	if (wants_statements(view, verb))
+		return;
 	if ((changes(verb) && canvas_is_fixed(canvas)) || act_do(view, verb) ||
 	    edit_do(view, verb))
 		return;
@@ -853,6 +872,9 @@ static void ladder_grid_view_finalize(GObject *object)
 static void ladder_grid_view_class_init(LadderGridViewClass *class)
 {
 	LadderCanvasClass *canvas = LADDER_CANVAS_CLASS(class);
+
+	statements_wanted = g_signal_new("statements-wanted", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0,
+					 NULL, NULL, NULL, G_TYPE_NONE, 3, G_TYPE_INT, G_TYPE_INT, G_TYPE_INT);
 
 	G_OBJECT_CLASS(class)->dispose = ladder_grid_view_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_grid_view_finalize;

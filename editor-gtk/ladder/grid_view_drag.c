@@ -148,7 +148,7 @@ static char *variables_of(LadderGridView *view, const struct cell *cell)
 	char *all;
 
 	take_names(view, project_text(project, cell->operand), false, names);
-	if (names->len == 0 && cell->args)
+	if (names->len == 0 && cell->args && cell->word != ELEM_EXECUTE)
 		take_names(view, project_text(project, cell->args), true, names);
 	g_ptr_array_add(names, NULL);
 	all = g_strjoinv(" ", (char **)names->pdata);

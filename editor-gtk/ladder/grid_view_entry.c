@@ -155,7 +155,7 @@ static void advance(LadderGridView *view, const struct grid_at *at)
 	cursor_set(view, to, false);
 }
 
-/* Another instance of the same block keeps the arguments. */
+/* Another instance of the same block keeps the arguments, an EXECUTE box its statements. */
 static void keep_args(const struct asked *asked, struct cell *cell)
 {
 	const struct cell *old = cursor_cell(asked->view, NULL, NULL);
@@ -177,7 +177,7 @@ static bool element_taken(void *context, const char *line)
 	bool good = entry_read(&place, whole, entry) &&
 		entry_cell(place.project, entry, &cell);
 
-	if (good && entry->proposed && asked->edit)
+	if (good && (entry->proposed || cell.word == ELEM_EXECUTE) && asked->edit)
 		keep_args(asked, &cell);
 	if (good) {
 		struct rung *edited = put_element(asked, cell, entry->below, &at);
@@ -364,6 +364,8 @@ static char *line_now(LadderGridView *view)
 	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 
+	if (cell->word == ELEM_EXECUTE)
+		return g_strdup(project_text(project, cell->operand));
 	return g_strdup_printf("%s%s%s", project_text(project, cell->operand),
 			       cell->operand && cell->args ? " " : "",
 			       project_text(project, cell->args));

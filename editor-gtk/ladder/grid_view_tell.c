@@ -16,6 +16,19 @@
 /* ---- accessible names ---- */
 
 /* "Rung 3, contact, closed while TRUE: Start, %IX0.0". */
+/* Arguments, or statements in one line. */
+static void say_args(const struct project *project, const struct cell *cell, GString *text)
+{
+	const char *args = project_text(project, cell->args);
+	char **word = g_strsplit_set(args, " \n", -1);
+
+	g_string_append(text, ",");
+	for (int i = 0; word[i]; i++)
+		if (word[i][0])
+			g_string_append_printf(text, " %s", word[i]);
+	g_strfreev(word);
+}
+
 static void say_element(LadderGridView *view, int rung, const struct cell *cell,
 			GString *text)
 {
@@ -35,7 +48,7 @@ static void say_element(LadderGridView *view, int rung, const struct cell *cell,
 	if (name.address[0] && !name_equal(name.address, operand))
 		g_string_append_printf(text, ", %s", name.address);
 	if (cell->args)
-		g_string_append_printf(text, ", %s", project_text(project, cell->args));
+		say_args(project, cell, text);
 }
 
 char *tell_cell(LadderGridView *view, int rung, int row, int col, const struct cell *cell)
@@ -130,8 +143,12 @@ static void add_name(LadderGridView *view, GString *text, const struct cell *cel
 		g_string_append_printf(line, " · %s", name.type);
 	if (operand[0])
 		add_line(text, line->str);
-	if (cell->args)
-		add_line(text, project_text(project, cell->args));
+	if (cell->args) {
+		char *args = g_strchomp(g_strdup(project_text(project, cell->args)));
+
+		add_line(text, args);
+		g_free(args);
+	}
 	add_comment(text, name.comment);
 	g_string_free(line, TRUE);
 }

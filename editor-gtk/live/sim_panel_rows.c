@@ -269,7 +269,7 @@ static bool find_arg(const struct maker *maker, int pou, const char *name,
 		const struct rung *rung = in->rung[r];
 
 		for (int c = 0; c < rung->rows * rung->cols; c++)
-			if (rung->cell[c].args &&
+			if (rung->cell[c].args && rung->cell[c].word != ELEM_EXECUTE &&
 			    is_name(maker, rung->cell[c].operand, name, len) &&
 			    args_find(project_text(maker->project, rung->cell[c].args), pin,
 				      strlen(pin), out))

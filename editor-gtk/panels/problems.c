@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/draw/place.h"
+#include "engine/model/st.h"
 #include "engine/xref/xref.h"
 
 #include <string.h>
@@ -63,10 +64,23 @@ static bool is_list(const struct project *project, int pou)
 	return pou >= 0 && project->pou[pou].language != LANGUAGE_LD;
 }
 
+/* Is the line one of the statements of an EXECUTE box? */
+static bool is_boxed(const struct pou *pou, int line)
+{
+	for (int i = 0; i < pou->boxed_count; i++) {
+		const struct boxed *boxed = &pou->boxed[i];
+
+		if (boxed->count > 0 && line > boxed->line &&
+		    line <= pou->st->item[boxed->first + boxed->count - 1].line)
+			return true;
+	}
+	return false;
+}
+
 /* In a list, the line in its text, whose first line is the heading. */
 static int list_row(const struct project *project, int pou, int line)
 {
-	if (!is_list(project, pou) || !line)
+	if (!line || (!is_list(project, pou) && (pou < 0 || !is_boxed(&project->pou[pou], line))))
 		return -1;
 	return MAX(line - project->pou[pou].line, 0);
 }

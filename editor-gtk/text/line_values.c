@@ -323,7 +323,7 @@ static void find_places(LadderLineValues *values)
 	struct ladder *ladder = ladder_sim_ladder(values->sim);
 	const struct project *project = ladder ? ladder_project(ladder) : NULL;
 	const struct pou *pou = find_pou(project, values->pou);
-	const char *text = pou && pou->language != LANGUAGE_LD && !pou->included ?
+	const char *text = pou && (pou->language != LANGUAGE_LD || pou->boxed_count > 0) && !pou->included ?
 		text_from_line(ladder_sim_text(values->sim), pou->line) : NULL;
 	char *shown = text ? text_of_buffer(values) : NULL;
 

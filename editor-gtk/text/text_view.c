@@ -957,6 +957,8 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	build(view);
 	gtk_text_view_set_editable(GTK_TEXT_VIEW(view->view),
 				   !ladder_document_is_fixed(document));
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(document_changed),
+				 view);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(document_changed),
 				 view);
 	g_signal_connect_swapped(document, "variable-changed",

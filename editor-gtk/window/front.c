@@ -43,13 +43,21 @@ static GtkWidget *seen(struct front *front)
 	return page ? page_inside(page) : NULL;
 }
 
+/* The text below a ladder, if it has the focus, or had it last; NULL: the sheet. */
+static LadderTextView *text_below(GtkWidget *content)
+{
+	LadderRungPage *page = LADDER_IS_GRID_VIEW(content) ? ladder_rung_page_of(content) : NULL;
+
+	return page ? ladder_rung_page_text(page) : NULL;
+}
+
 LadderGridView *front_seen_sheet(struct front *front)
 {
 	GtkWidget *content = seen(front);
 
 	if (LADDER_IS_SFC_PAGE(content))
 		return ladder_sfc_page_sheet(LADDER_SFC_PAGE(content));
-	return LADDER_IS_GRID_VIEW(content) ? LADDER_GRID_VIEW(content) : NULL;
+	return LADDER_IS_GRID_VIEW(content) && !text_below(content) ? LADDER_GRID_VIEW(content) : NULL;
 }
 
 LadderSfcView *front_seen_chart(struct front *front)
@@ -91,6 +99,8 @@ LadderTextView *front_list(struct front *front)
 
 	if (LADDER_IS_SFC_PAGE(content))
 		return ladder_sfc_page_text(LADDER_SFC_PAGE(content));
+	if (text_below(content))
+		return text_below(content);
 	return LADDER_IS_TEXT_VIEW(content) &&
 	       ladder_text_view_pou(LADDER_TEXT_VIEW(content)) >= 0 ?
 	       LADDER_TEXT_VIEW(content) : NULL;
@@ -112,6 +122,8 @@ bool front_enter_program(struct front *front)
 		gtk_widget_grab_focus(GTK_WIDGET(canvas));
 	else if (LADDER_IS_TEXT_VIEW(content))
 		gtk_widget_grab_focus(content);
+	else if (text_below(content))
+		gtk_widget_grab_focus(GTK_WIDGET(text_below(content)));
 	else
 		return false;
 	return true;

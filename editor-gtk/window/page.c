@@ -5,7 +5,6 @@
 #include "editor-gtk/window/page.h"
 
 #include "editor-gtk/iomap/iomap_view.h"
-#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/panels/interface_view.h"
 #include "editor-gtk/text/file_view.h"
 #include "editor-gtk/window/messages.h"
@@ -16,6 +15,8 @@ GtkWidget *page_inside(GtkWidget *child)
 {
 	if (GTK_IS_BOX(child) && LADDER_IS_INTERFACE_VIEW(gtk_widget_get_first_child(child)))
 		child = gtk_widget_get_last_child(child);
+	if (LADDER_IS_RUNG_PAGE(child))
+		return GTK_WIDGET(ladder_rung_page_sheet(LADDER_RUNG_PAGE(child)));
 	return GTK_IS_SCROLLED_WINDOW(child) ?
 	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
 }
@@ -60,7 +61,7 @@ void page_set_pou(GtkWidget *content, int pou)
 	if (LADDER_IS_TEXT_VIEW(content))
 		ladder_text_view_set_pou(LADDER_TEXT_VIEW(content), pou);
 	else if (LADDER_IS_GRID_VIEW(content))
-		ladder_canvas_set_pou(LADDER_CANVAS(content), pou);
+		ladder_rung_page_set_pou(ladder_rung_page_of(content), pou);
 	else
 		ladder_sfc_page_set_pou(LADDER_SFC_PAGE(content), pou);
 }
@@ -156,13 +157,10 @@ static GtkWidget *with_interface(LadderDocument *document, GtkWidget *sheet, Gtk
 static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou)
 {
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
-	GtkWidget *scroller = gtk_scrolled_window_new();
 
 	ladder_canvas_set_sim(LADDER_CANVAS(sheet), core->sim);
 	listen(core, sheet);
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
-	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
-	return with_interface(document, sheet, scroller);
+	return with_interface(document, sheet, ladder_rung_page_new(document, sheet, core->sim));
 }
 
 static GtkWidget *new_chart(struct core *core, LadderDocument *document, int pou)

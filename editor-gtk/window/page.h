@@ -11,6 +11,7 @@
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/text/text_view.h"
 #include "editor-gtk/window/core.h"
+#include "editor-gtk/window/rung_page.h"
 #include "editor-gtk/window/sfc_page.h"
 
 /** page_new - a sheet, a chart or a list for POU @pou of @document, in a scrolled window if

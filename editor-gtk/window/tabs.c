@@ -430,6 +430,15 @@ static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
 		ladder_sfc_view_go_row(ladder_sfc_page_chart(page), row);
 }
 
+/* Without a rung: to a line of the program, in the statements of a box. */
+static void go_in_ladder(LadderGridView *sheet, int rung, int row, int col)
+{
+	if (rung < 0 && row > 0)
+		ladder_rung_page_go(ladder_rung_page_of(GTK_WIDGET(sheet)), row + 1, col + 1);
+	else
+		ladder_grid_view_go(sheet, rung, row, col);
+}
+
 static void go_in_symbols(struct tabs *tabs, int table, int index)
 {
 	const struct project *project = ladder_document_project(tabs->core->document);
@@ -451,7 +460,7 @@ static void go_in_symbols(struct tabs *tabs, int table, int index)
 
 void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
 {
-	LadderGridView *sheet;
+	GtkWidget *content;
 	AdwTabPage *page;
 
 	if (!ladder_document_project(tabs->core->document)) {
@@ -466,13 +475,14 @@ void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
 	}
 	tabs_show(tabs, pou);
 	page = front_tab(tabs->core->front);
-	sheet = front_sheet(tabs->core->front);
-	if (page && LADDER_IS_SFC_PAGE(page_content(page)))
-		go_in_chart(LADDER_SFC_PAGE(page_content(page)), rung, row, col);
-	else if (sheet && ladder_canvas_pou(LADDER_CANVAS(sheet)) == pou)
-		ladder_grid_view_go(sheet, rung, row, col);
-	else if (page && LADDER_IS_TEXT_VIEW(page_content(page)))
-		ladder_text_view_go_here(LADDER_TEXT_VIEW(page_content(page)), row + 1, col + 1);
+	content = page_content(page);
+	if (LADDER_IS_SFC_PAGE(content))
+		go_in_chart(LADDER_SFC_PAGE(content), rung, row, col);
+	else if (LADDER_IS_GRID_VIEW(content) && page_pou(content) == pou &&
+		 !front_is_older(tabs->core->front))
+		go_in_ladder(LADDER_GRID_VIEW(content), rung, row, col);
+	else if (LADDER_IS_TEXT_VIEW(content))
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(content), row + 1, col + 1);
 }
 
 void tabs_go_line(struct tabs *tabs, int pou, int line)

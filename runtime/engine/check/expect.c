@@ -30,6 +30,7 @@ struct before {
 	struct token token[TOKENS_MOST];
 	int count;
 	struct st_place st; /* in Structured Text                              */
+	bool boxed;         /* in an EXECUTE box                               */
 };
 
 struct offer {
@@ -1187,7 +1188,33 @@ static bool is_sfc_step(const struct token *token)
 
 /* ---- Structured Text ---- */
 
-/* Where the lines below the heading of the POU begin; of a chart below that of the action. */
+static bool has_rungs(const struct before *b)
+{
+	return b->pou && (b->pou->language == LANGUAGE_LD || b->pou->sfc);
+}
+
+/* Is the line at @line one of the statements of an EXECUTE box? */
+static bool in_box(const struct before *b, const char *text, size_t line)
+{
+	static const char *const outside[] = { "RUNG", "END_EXECUTE", "PROGRAM", "FUNCTION", "FUNCTION_BLOCK",
+					       "SUBROUTINE", "END_VAR", "ACTION", "TRANSITION", "STEP" };
+	size_t begin = has_rungs(b) ? line : 0;
+
+	while (begin > 0) {
+		const size_t end = begin - 1;
+
+		begin = expect_line(text, end);
+		if (begins(text, begin, end, "EXECUTE"))
+			return true;
+		for (size_t i = 0; i < sizeof(outside) / sizeof(*outside); i++)
+			if (begins(text, begin, end, outside[i]))
+				return false;
+	}
+	return false;
+}
+
+/* Where the lines below the heading of the POU begin; of a chart below that of the action, of a ladder
+ * below that of the box. */
 static size_t body_of(const struct before *b, const char *text, size_t line)
 {
 	static const char *const heads[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "SUBROUTINE" };
@@ -1201,6 +1228,8 @@ static size_t body_of(const struct before *b, const char *text, size_t line)
 		for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
 			if (begins(text, begin, end, heads[i]))
 				return end + 1;
+		if (has_rungs(b) && begins(text, begin, end, "EXECUTE"))
+			return end + 1;
 		if (chart && (begins(text, begin, end, "ACTION") || begins(text, begin, end, "TRANSITION")))
 			return end + 1;
 	}
@@ -1361,8 +1390,11 @@ static const char *const *ends_of_block(const struct before *b)
 		[POU_ACTION] = { STATEMENTS, "END_ACTION" },
 	};
 	static const char *const action[] = { STATEMENTS, "END_ACTION", NULL };
+	static const char *const box[] = { STATEMENTS, "END_EXECUTE", NULL };
 	const struct st_block *block = st_place_block(&b->st);
 
+	if (!block && b->boxed)
+		return box;
 	if (!block)
 		return b->pou->sfc ? action : outside[b->pou->kind];
 	if (block->kind == ST_IF)
@@ -1493,6 +1525,9 @@ static struct expect_want want_at(struct before *b, const char *text, size_t lin
 		expect_tokens(b, text, line, to);
 		return declaration_want(b);
 	}
+	b->boxed = in_box(b, text, line);
+	if (b->boxed)
+		return expect_st(b, text, line, to);
 	if (b->pou && b->pou->language == LANGUAGE_SFC)
 		return expect_sfc(b, text, line, bar, to);
 	if (b->pou && b->pou->language == LANGUAGE_LD && bar > line) {
@@ -1641,7 +1676,7 @@ static bool find_call(struct before *b, const char *text, size_t at, int line,
 
 	b->pou = pou_at(scope_project(b->scope), text, from, line);
 	body = body_of(b, text, from);
-	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !is_st_action(b, text, from)))
+	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !in_box(b, text, from) && !is_st_action(b, text, from)))
 		return false;
 	st_place_find(&b->st, text + body, at - body);
 	open = st_place_open(&b->st);

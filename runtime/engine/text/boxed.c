@@ -8,6 +8,7 @@
 #include "engine/text/reader.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct taking {
 	struct diag_list *ignored;
@@ -33,27 +34,42 @@ static struct boxed *add_box(struct taking *t, int rung, int cell, const struct 
 	return box;
 }
 
-/* Reads the text of a cell; its lines are counted from the RUNG of its rung on. */
+/* The text of a cell behind a colon, as it stands in a file. Caller frees. */
+static char *with_colon(const struct names *names, uint32_t text, size_t *len)
+{
+	char *whole;
+
+	*len = names_len(names, text) + 1;
+	whole = malloc(*len + 1);
+	if (!whole)
+		return NULL;
+	whole[0] = ':';
+	memcpy(whole + 1, names_text(names, text), *len);
+	return whole;
+}
+
+/* Reads the text of a cell; its lines are counted from the rows of its rung on. */
 static void read_cell(struct taking *t, int rung, struct boxed *box)
 {
-	const struct names *names = &t->project->names;
-	const size_t len = names_len(names, box->text);
 	struct reader *r = reader_new(t->project, "", t->ignored);
-	const int first = t->made.st ? t->made.st->count : 0;
-	char *copy = r ? reader_open(r, names_text(names, box->text), len) : NULL;
+	const int first = t->made.st->count;
+	size_t len;
+	char *text = with_colon(&t->project->names, box->text, &len), *copy = NULL;
 
-	t->failed |= !copy;
-	if (copy) {
+	t->failed |= !r || !text;
+	if (!t->failed) {
+		copy = reader_open(r, text, len);
 		r->boxed = true;
 		read_st_behind(r, &t->made);
 		t->failed |= r->no_memory;
 	}
 	box->first = first;
-	box->count = t->made.st ? t->made.st->count - first : 0;
+	box->count = t->made.st->count - first;
 	box->line = rung_line(t->pou->rung[rung], t->pou->rung[rung]->rows) + 1;
 	for (int i = first; i < first + box->count; i++)
 		t->made.st->item[i].line += box->line;
 	free(copy);
+	free(text);
 	if (r)
 		reader_free(r);
 }

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_page - the page of a ladder; see rung_page.h.
+ */
+#include "editor-gtk/window/rung_page.h"
+
+#include "editor-gtk/document/boxed_line.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+
+#define TEXT_HEIGHT 220 /* px of the text below, with its heading           */
+
+struct _LadderRungPage {
+	GtkBox parent;
+	LadderDocument *document;
+	LadderSim *sim;
+	GtkWidget *sheet, *below, *place;
+	GtkWidget *text;      /* NULL: closed                                  */
+	bool below_active;    /* it has the focus, or had it last              */
+};
+
+G_DEFINE_FINAL_TYPE(LadderRungPage, ladder_rung_page, GTK_TYPE_BOX)
+
+LadderGridView *ladder_rung_page_sheet(LadderRungPage *page)
+{
+	return LADDER_GRID_VIEW(page->sheet);
+}
+
+LadderRungPage *ladder_rung_page_of(GtkWidget *sheet)
+{
+	GtkWidget *page = gtk_widget_get_ancestor(sheet, LADDER_TYPE_RUNG_PAGE);
+
+	return page ? LADDER_RUNG_PAGE(page) : NULL;
+}
+
+LadderTextView *ladder_rung_page_text(LadderRungPage *page)
+{
+	return page->below_active && page->text ? LADDER_TEXT_VIEW(page->text) : NULL;
+}
+
+static void set_active(LadderRungPage *page, bool below)
+{
+	if (page->below_active == below)
+		return;
+	page->below_active = below;
+	g_signal_emit_by_name(page->sheet, "cursor-moved");
+}
+
+static void sheet_entered(LadderRungPage *page)
+{
+	set_active(page, false);
+}
+
+static void below_entered(LadderRungPage *page)
+{
+	set_active(page, true);
+}
+
+/* The part of the page that had the focus last is active. */
+static void follow_focus(LadderRungPage *page, GtkWidget *widget, GCallback entered)
+{
+	GtkEventController *focus = gtk_event_controller_focus_new();
+
+	g_signal_connect_swapped(focus, "enter", entered, page);
+	gtk_widget_add_controller(widget, focus);
+}
+
+static void close_below(LadderRungPage *page)
+{
+	gtk_widget_set_visible(page->below, FALSE);
+	if (page->text)
+		gtk_box_remove(GTK_BOX(page->place), page->text);
+	page->text = NULL;
+	set_active(page, false);
+}
+
+static void close_clicked(LadderRungPage *page)
+{
+	close_below(page);
+	gtk_widget_grab_focus(page->sheet);
+}
+
+void ladder_rung_page_go(LadderRungPage *page, int line, int column)
+{
+	if (!page->text) {
+		page->text = ladder_text_view_new(page->document,
+						  ladder_canvas_pou(LADDER_CANVAS(page->sheet)));
+		ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
+		follow_focus(page, page->text, G_CALLBACK(below_entered));
+		gtk_widget_set_vexpand(page->text, TRUE);
+		gtk_box_append(GTK_BOX(page->place), page->text);
+		gtk_widget_set_visible(page->below, TRUE);
+	}
+	ladder_text_view_go_here(LADDER_TEXT_VIEW(page->text), line, column);
+	set_active(page, true);
+}
+
+static void statements_wanted(LadderRungPage *page, int rung, int row, int col)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const int pou = ladder_canvas_pou(LADDER_CANVAS(page->sheet));
+	char *text = ladder_document_list(page->document, pou);
+	const int line = text ? boxed_line(text, &project->pou[pou], rung, row, col) : 0;
+
+	g_free(text);
+	ladder_rung_page_go(page, line > 0 ? line : 1, 5);
+}
+
+void ladder_rung_page_set_pou(LadderRungPage *page, int pou)
+{
+	close_below(page);
+	ladder_canvas_set_pou(LADDER_CANVAS(page->sheet), pou);
+}
+
+static void ladder_rung_page_dispose(GObject *object)
+{
+	LadderRungPage *page = LADDER_RUNG_PAGE(object);
+
+	g_clear_object(&page->document);
+	g_clear_object(&page->sim);
+	G_OBJECT_CLASS(ladder_rung_page_parent_class)->dispose(object);
+}
+
+static void ladder_rung_page_class_init(LadderRungPageClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_rung_page_dispose;
+}
+
+static void ladder_rung_page_init(LadderRungPage *page)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	GtkWidget *heading = gtk_label_new(_("Text of the program"));
+	GtkWidget *close = gtk_button_new_from_icon_name("window-close-symbolic");
+
+	gtk_orientable_set_orientation(GTK_ORIENTABLE(page), GTK_ORIENTATION_VERTICAL);
+	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	tip_set(close, _("Close"));
+	spoken_name(close, _("Close"));
+	gtk_widget_add_css_class(close, "flat");
+	gtk_label_set_xalign(GTK_LABEL(heading), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(heading), PANGO_ELLIPSIZE_END);
+	gtk_widget_add_css_class(heading, "heading");
+	gtk_widget_set_hexpand(heading, TRUE);
+	gtk_widget_set_margin_start(bar, 12);
+	gtk_box_append(GTK_BOX(bar), heading);
+	gtk_box_append(GTK_BOX(bar), close);
+	gtk_box_append(GTK_BOX(page->below), gtk_separator_new(GTK_ORIENTATION_HORIZONTAL));
+	gtk_box_append(GTK_BOX(page->below), bar);
+	gtk_box_append(GTK_BOX(page->below), page->place);
+	gtk_widget_set_vexpand(page->place, TRUE);
+	gtk_widget_set_vexpand(page->below, FALSE);
+	gtk_widget_set_size_request(page->below, -1, TEXT_HEIGHT);
+	gtk_widget_set_visible(page->below, FALSE);
+	g_signal_connect_swapped(close, "clicked", G_CALLBACK(close_clicked), page);
+}
+
+GtkWidget *ladder_rung_page_new(LadderDocument *document, GtkWidget *sheet, LadderSim *sim)
+{
+	LadderRungPage *page = g_object_new(LADDER_TYPE_RUNG_PAGE, NULL);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	page->document = g_object_ref(document);
+	page->sim = sim ? g_object_ref(sim) : NULL;
+	page->sheet = sheet;
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(page), scroller);
+	gtk_box_append(GTK_BOX(page), page->below);
+	follow_focus(page, sheet, G_CALLBACK(sheet_entered));
+	g_signal_connect_swapped(sheet, "statements-wanted", G_CALLBACK(statements_wanted), page);
+	return GTK_WIDGET(page);
+}
