@@ -41,7 +41,8 @@ measure() {
 # 2 KB for shorter ways through elements and loops, and for SWITCH;
 # 6 KB for VAR_CONFIG, texts in double quotes, constants that are cut, and Structured Text in charts.
 # 8 KB for EXECUTE boxes, arrays of blocks by an index, and bits and bytes of numbers in ladders and by name.
-measure 'ladderd' 437248 '' CFLAGS=-O2
+# 8 KB for actions, calls of programs, numbers of enumerations by expressions, and the names of object-oriented parts.
+measure 'ladderd' 445440 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
