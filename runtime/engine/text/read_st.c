@@ -458,8 +458,8 @@ static const struct { const char *word, *right; enum st_kind kind; bool parens; 
 	{ "ENDIF", "END_IF", ST_END_IF, false }, { "ENDCASE", "END_CASE", ST_END_CASE, false },
 	{ "ENDFOR", "END_FOR", ST_END_FOR, false }, { "NEXT", "END_FOR", ST_END_FOR, false },
 	{ "ENDWHILE", "END_WHILE", ST_END_WHILE, false }, { "WEND", "END_WHILE", ST_END_WHILE, false },
-	{ "BREAK", "EXIT", ST_EXIT, false }, { "GOTO", "IF, or a loop with EXIT", ST_KINDS, false },
-	{ "JMP", "IF, or a loop with EXIT", ST_KINDS, false },
+	{ "BREAK", "EXIT", ST_EXIT, false }, { "GOTO", "IF … THEN … END_IF", ST_KINDS, false },
+	{ "JMP", "IF … THEN … END_IF", ST_KINDS, false },
 	{ "SWITCH", "CASE … OF", ST_KINDS, true },
 };
 
