@@ -347,7 +347,8 @@ void moves_instance(struct moves *moves, const struct word_row *row, uint32_t to
 
 void moves_seen(struct moves *moves, struct location to, struct location of)
 {
-	put_bit(moves, to, source_of(moves->to->program, of, true));
+	put_bit(moves, to, LOCATION_IS_PART(of) ? (struct source){ true, true, 8 * of.where + of.first } :
+		source_of(moves->to->program, of, true));
 }
 
 /* ---- the plan ---- */

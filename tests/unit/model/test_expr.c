@@ -160,7 +160,9 @@ static void functions(void)
 	CHECK_TEXT(tree("f(a]"), "LD122");
 	CHECK_TEXT(tree("a, b"), "LD122");
 	CHECK_TEXT(tree("(a, b)"), "LD122");
-	CHECK_TEXT(tree("f(x := )"), "LD122");
+	CHECK_TEXT(tree("f(x := )"), "f{}");
+	CHECK_TEXT(tree("f(x :=, y => , a, z=>)"), "f{a}");
+	CHECK_TEXT(tree("f(x := , )"), "LD122");
 	CHECK_TEXT(tree("f(a)(b)"), "LD122");
 	CHECK_TEXT(tree("5(a)"), "LD122");
 	CHECK_TEXT(tree("f(a) := b"), "LD122");
