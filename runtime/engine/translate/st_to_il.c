@@ -1028,6 +1028,8 @@ static bool is_function(struct st_il *s, const struct expr_node *callee)
 	return !m || m->kind != MEANING_INSTANCE;
 }
 
+/* Not inlined: its locals would be on the stack for every kind of statement. */
+__attribute__((noinline))
 static void call_statement(struct st_il *s, struct st_walk *walk)
 {
 	struct st_part part;
