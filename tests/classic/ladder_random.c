@@ -25,11 +25,13 @@ static FILE *open_beside(const char *name, const char *end)
 	return file;
 }
 
-/* Replaces STOP and the loop that random.c makes; NULL: unchanged. */
+/* Replaces STOP, EXECUTE and the loop that random.c makes; NULL: unchanged. */
 static const char *in_its_place(const char *text)
 {
 	if (!strcmp(text, "STOP"))
 		return "RET";
+	if (!strncmp(text, "EXECUTE", 7))
+		return "[ num_b := num_b + 1 ]";
 	if (strncmp(text, "[ loop_", 7) != 0)
 		return NULL;
 	if (strchr(text, '<'))
@@ -37,7 +39,7 @@ static const char *in_its_place(const char *text)
 	return strstr(text, ":= 0") ? "[ num_b := 0 ]" : "[ num_b := num_b + 1 ]";
 }
 
-/* Leaves out what ClassicLadder does not have: function blocks of one's own, STOP, loops. */
+/* Leaves out what ClassicLadder does not have: function blocks of one's own, STOP, EXECUTE, loops. */
 static void leave_out(struct random_program *program)
 {
 	while (program->rungs && program->rung[program->rungs - 1].pou > RANDOM_OTHER)
