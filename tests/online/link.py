@@ -3341,6 +3341,7 @@ END_CONFIGURATION
 VAR_GLOBAL
   Runs, Until, Loops, Sum : DINT;
   Since : TIME;
+  Angle : LREAL := 1.0;
 END_VAR
 PROGRAM Quick IL
   LD    Runs
@@ -3363,6 +3364,9 @@ More:
   LD    Loops
   ADD   1
   ST    Loops
+  LD    Angle (* a sine takes long and few instructions: the budget lasts *)
+  SIN
+  ST    Angle
   LD    Runs
   LT    Until
   JMPC  More
