@@ -726,10 +726,12 @@ quick: all $(QUICK_TESTS) $(EDITOR_WALK) ## test a change of one room in a minut
 	$(QUICK_ENV) prove -j$(JOBS) -e '' $(JOURNEYS) tests/golden.t tests/floors.sh tests/quiet.sh tests/banned.pl $(QUICK_TESTS)
 $(BUILD)/tests/bench/record $(BUILD)/tests/bench/carry: %: %.o $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+mutants: tests ## put one fault a room into a copy and see whether the tests find it: MUTANTS="hal canvas" for some
+	BUILD=$(BUILD) CC='$(CC)' tests/mutants.pl $(MUTANTS)
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:
-.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run valgrind-editor check quick bench
+.PHONY: mutants tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run valgrind-editor check quick bench
 # ---- end of everything ----
 
 clean: ## remove everything that was built
