@@ -44,12 +44,11 @@ sub with_fault {
 	return $text;
 }
 
-# What a test needs to be made: a program of its own, or the programs that scripts start.
+# What a test needs to be made: a program of its own, the programs of a window, or all that scripts start.
 sub needs {
 	my ($test) = @_;
-	return 'all tests' if $test =~ m{^build/tests/bin/};
-	return $test if $test =~ m{^build/};
-	return $test =~ m{^tests/editor/} ? 'build/ladder-editor build/ladder build/ladderd' : 'all';
+	return $test if $test =~ m{^build/(?:unit|tests/editor)/};
+	return $test =~ m{^tests/editor/} ? 'build/ladder-editor build/ladder build/ladderd' : 'all tests';
 }
 
 sub run_test {
@@ -67,7 +66,8 @@ my @wanted = @ARGV;
 my @list = grep { my $one = $_; !@wanted || grep { index($one->{path}, $_) >= 0 } @wanted } mutants();
 die "tests/mutants.txt: no fault in a file with that in its path: @wanted\n" unless @list;
 my %text = map { $_ => with_fault($list[$_]) } 0 .. $#list; # all places are looked for before anything is built
-system("mkdir -p $COPY && git ls-files -z --cached --others --exclude-standard | xargs -0 cp -p --parents -t $COPY") == 0 or die "cannot copy the tree\n";
+# Files of an earlier run that are no longer in the tree would be tested, too.
+system("mkdir -p $COPY && find $COPY -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} + && git ls-files -z --cached --others --exclude-standard | xargs -0 cp -p --parents -t $COPY") == 0 or die "cannot copy the tree\n";
 build('all tests') or die "the copy in $COPY cannot be built: $COPY/mutant.log\n";
 my (%sound, @survivors);
 for my $i (0 .. $#list) {

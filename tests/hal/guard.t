@@ -650,7 +650,7 @@ like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": .*; name a watchdog device of
 	like(err(), qr/^ladder-guard: watchdog "\S+busy": .* busy; another program feeds it: stop that, .*, or leave --watchdog out$/m, 'says so');
 	ok(!(grep { $_->[1] ne '' } lines()), 'no line was touched');
 }
-is(finish(start(named(), '--heartbeat', 5, '--', @ladderd)), 2, 'a heartbeat out of range');
+is(finish(start(named(), '--heartbeat', $_, '--', @ladderd)), 2, "a heartbeat of $_ ms is out of range") for 5, 49, 10001, '50x';
 is(finish(start()), 2, 'no command');
 
 # ---- watchdog device and service manager ----
