@@ -247,7 +247,7 @@ static const char *skip_comment(struct lex *lex, const char *at)
 
 static size_t symbol_length(const char *at, const char *end)
 {
-	static const char pairs[][3] = { ":=", "=>", "<=", ">=", "<>", "**" };
+	static const char pairs[][3] = { ":=", "=>", "<=", ">=", "<>", "**", "?=" };
 
 	if (end - at >= 2 && (at[1] == '=' || at[1] == '>' || at[1] == '*'))
 		for (size_t i = 0; i < sizeof(pairs) / sizeof(*pairs); i++)

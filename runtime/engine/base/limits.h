@@ -39,6 +39,7 @@
 #define LIMIT_FN_INPUTS   16        /* inputs of an extensible function       */
 #define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */
 #define LIMIT_EXPR_NODES  512       /* operands and operators of one          */
+#define LIMIT_ST_LABELS   256       /* labels of a body of Structured Text */
 #define LIMIT_ST_DEPTH    64        /* blocks of Structured Text in one another */
 #define LIMIT_LOOPS       8         /* FOR inside FOR                         */
 #define LIMIT_IL_DEPTH    64        /* open parentheses of an IL list         */

@@ -367,6 +367,25 @@ static enum literal_result parse_typed(enum iec_type type, struct rest rest,
 							  LITERAL_RANGE;
 }
 
+static bool is_letter_type(const char *text, size_t len)
+{
+	return ascii_is("CHAR", text, len) || ascii_is("WCHAR", text, len);
+}
+
+/* Is the text one letter? */
+static bool is_one_letter(const struct literal *literal)
+{
+	char letter[4];
+	size_t count;
+
+	if (unescape(literal, NULL, &count) != LITERAL_OK || count == 0 || count > sizeof(letter))
+		return false;
+	unescape(literal, letter, &count);
+	while (count > 1 && (letter[count - 1] & 0xc0) == 0x80)
+		count--;
+	return count == 1;
+}
+
 /* The type before a #; T is short for TIME, D for DATE. */
 static enum iec_type type_before(const char *text, size_t len)
 {
@@ -374,7 +393,7 @@ static enum iec_type type_before(const char *text, size_t len)
 		return IEC_TIME;
 	if (ascii_is("D", text, len) || ascii_is("LD", text, len))
 		return IEC_DATE;
-	if (ascii_is("WSTRING", text, len))
+	if (ascii_is("WSTRING", text, len) || is_letter_type(text, len))
 		return IEC_STRING;
 	return iec_type_find(text, len);
 }
@@ -411,7 +430,9 @@ enum literal_result literal_parse(const char *text, size_t len,
 	out->type = type_before(text, (size_t)(hash - text));
 	if (out->type == IEC_NONE)
 		return LITERAL_BAD;
-	return parse_typed(out->type, rest, out);
+	result = parse_typed(out->type, rest, out);
+	return result == LITERAL_OK && is_letter_type(text, (size_t)(hash - text)) && !is_one_letter(out) ?
+	       LITERAL_BAD : result;
 }
 
 /* REAL and LREAL take an integer only when it is exact. */

@@ -5,9 +5,11 @@
  * It notes good operands in uses. It does not judge labels or topology.
  */
 #include "engine/check/check_operand.h"
+
 #include "engine/base/name.h"
 
 #include "engine/base/ascii.h"
+#include "engine/check/attempt.h"
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
@@ -615,6 +617,16 @@ static void use_target(struct operand_check *c, struct operand_spot at, struct e
 		operand_write_array(c, at, id);
 	} else {
 		operand_write(c, at, id, false);
+	}
+	if (expr->target_tried && c->good) {
+		const enum attempt attempt = attempt_of(c->scope, c->pou, expr);
+		char text[LIMIT_NAME + 4];
+
+		snprintf(text, sizeof(text), "%.*s", expr->target_len < LIMIT_NAME ? (int)expr->target_len : LIMIT_NAME,
+			 expr->target);
+		c->spot = expr->target;
+		if (attempt != ATTEMPT_STORES)
+			operand_report(c, attempt == ATTEMPT_NULL ? DIAG_ATTEMPT_NULL : DIAG_ATTEMPT_OF, at, text);
 	}
 	if (expr->target_bit.len) {
 		const struct meaning *m = id ? operand_find(c, at, id) : NULL;

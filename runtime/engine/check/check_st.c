@@ -9,6 +9,7 @@
 
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The callee of the call that is being walked. */
@@ -332,10 +333,72 @@ static void check_statement(struct operand_check *c)
 			check_part(c, c->expr, part.role == ST_ASSIGNED ? OPERAND_WHOLE : OPERAND_READ);
 }
 
+/* Says @id of the name of a JMP or a label. */
+static void said_label(struct operand_check *c, enum diag_id id)
+{
+	const struct token name = st_label_name(&c->project->names, c->item);
+	char text[LIMIT_NAME + 1];
+
+	snprintf(text, sizeof(text), "%.*s", (int)name.len, name.text);
+	c->spot = name.text;
+	check_said(c, id, text);
+}
+
+/* A label is named once, and JMP leads to one of the same statements or of those around them. */
+static void check_label(struct operand_check *c, const struct st_labels *labels, const struct st_lists *lists,
+			int at)
+{
+	const int found = st_label_find(&c->project->names, labels, c->item);
+	char text[LIMIT_ARG];
+	bool around = false;
+
+	if (c->item->kind == ST_LABEL) {
+		snprintf(text, sizeof(text), "labels" DIAG_AND "%d", LIMIT_ST_LABELS);
+		c->spot = st_label_name(&c->project->names, c->item).text;
+		if (at == labels->over)
+			check_said(c, DIAG_TOO_MANY, text);
+		else if (found >= 0 && labels->label[found].item != at)
+			said_label(c, DIAG_ST_LABEL_TWICE);
+		return;
+	}
+	for (int i = 0; i <= c->item->depth && found >= 0; i++)
+		around |= lists->of[i] == labels->label[found].list;
+	if (!around)
+		said_label(c, DIAG_ST_NO_LABEL);
+}
+
+static void check_labels(struct operand_check *c, int first, int count)
+{
+	struct names *names = &c->project->names;
+	struct st_labels *labels = malloc(sizeof(*labels));
+	struct st_lists *lists = malloc(sizeof(*lists));
+
+	if (!labels || !lists) {
+		c->good = diag_add(c->diags, (struct diag){ .id = DIAG_NO_MEMORY }, "%s", "");
+	} else {
+		*lists = (struct st_lists){ { -1 } };
+		st_labels(names, c->pou->st, first, count, labels);
+		for (int i = first; i < first + count; i++) {
+			c->item = &c->pou->st->item[i];
+			st_lists_step(lists, c->item, i);
+			if (c->item->kind == ST_JUMP || c->item->kind == ST_LABEL)
+				check_label(c, labels, lists, i);
+		}
+	}
+	free(labels);
+	free(lists);
+}
+
 bool check_st(struct operand_check *c, int first, int count)
 {
+	bool jumps = false;
+
 	c->good = true;
 	c->place = (struct diag){ .file = c->pou->file, .pou = project_text(c->project, c->pou->name) };
+	for (int i = first; i < first + count; i++)
+		jumps |= c->pou->st->item[i].kind == ST_JUMP || c->pou->st->item[i].kind == ST_LABEL;
+	if (jumps)
+		check_labels(c, first, count);
 	for (int i = first; i < first + count; i++) {
 		c->item = &c->pou->st->item[i];
 		if (c->item->kind != ST_COMMENT)

@@ -689,7 +689,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	out->target_index = -1;
 	out->target_tail = out->target_bit = (struct expr_tail){ NULL, 0 };
 	out->target_base = -1;
-	out->target_points = false;
+	out->target_points = out->target_tried = false;
 	parser->bit = out->target_bit;
 }
 
@@ -798,7 +798,7 @@ static bool expr_has_target(struct lex lex)
 		lex = ahead; /* a member, or .3, .%B1 */
 		lex_next(&lex);
 	}
-	return lex_is(&lex, ":=") || is_points(lex);
+	return lex_is(&lex, ":=") || lex_is(&lex, "?=") || is_points(lex);
 }
 
 /* `target :=`, if the text begins so; otherwise the lexer does not move. */
@@ -820,6 +820,9 @@ static bool take_target(struct parser *parser)
 		if (!take_target_index(parser))
 			return false;
 	out->target_points = is_points(*lex);
+	out->target_tried = lex_accept(lex, "?=");
+	if (out->target_tried)
+		return true;
 	if (out->target_points)
 		lex_next(lex);
 	return lex_accept(lex, out->target_points ? "=" : ":=") || refuse(parser, DIAG_BAD_EXPRESSION);

@@ -62,6 +62,7 @@ struct expr {
 	struct expr_tail target_tail; /* behind that index                    */
 	struct expr_tail target_bit;  /* of which this part is assigned: 3, %B1 */
 	bool target_points;    /* target REF= place: the reference itself     */
+	bool target_tried;     /* target ?= reference: NULL if it has another type */
 	int target_base;       /* EXPR_INDEX that leads to the array of that
 				  index; -1: `target` is the array            */
 	struct expr_open { const char *text; uint16_t len; int16_t base; }

@@ -4,6 +4,7 @@
  */
 #include "engine/model/st.h"
 
+#include <limits.h>
 #include <string.h>
 
 static const struct st_form forms[ST_KINDS] = {
@@ -25,6 +26,8 @@ static const struct st_form forms[ST_KINDS] = {
 	[ST_EXIT] = { "EXIT", ";", false, false, false },
 	[ST_CONTINUE] = { "CONTINUE", ";", false, false, false },
 	[ST_RETURN] = { "RETURN", ";", false, false, false },
+	[ST_JUMP] = { "JMP", ";", false, false, false },
+	[ST_LABEL] = { "", ":", false, false, false },
 	[ST_EMPTY] = { "", ";", false, false, false },
 	[ST_COMMENT] = { "", "", false, false, false },
 };
@@ -79,9 +82,16 @@ bool st_is_choice(struct lex lex)
 bool st_begins(struct lex lex)
 {
 	int open = 0;
+	struct lex ahead = lex;
 
+	lex_next(&ahead);
+	while (lex.token.kind == TOKEN_NAME && lex_is(&ahead, ":")) { /* labels: both languages have them */
+		lex_next(&ahead);
+		lex = ahead;
+		lex_next(&ahead);
+	}
 	for (int i = 0; i < ST_KINDS; i++)
-		if (*forms[i].word && lex_is(&lex, forms[i].word))
+		if (*forms[i].word && lex_is(&lex, forms[i].word) && i != ST_JUMP)
 			return true;
 	if (op_find(lex.token.text, lex.token.len) == OP_LD)
 		return false;
@@ -94,6 +104,62 @@ bool st_begins(struct lex lex)
 		open -= lex_is(&lex, ")") || lex_is(&lex, "]");
 	}
 	return false;
+}
+
+/* ---- labels ---- */
+
+struct token st_label_name(const struct names *names, const struct st_item *item)
+{
+	struct st_walk walk;
+
+	st_begin(&walk, names, item);
+	if (item->kind == ST_JUMP)
+		lex_next(&walk.lex);
+	return walk.lex.token;
+}
+
+static uint32_t label_fold(struct names *names, const struct st_item *item)
+{
+	const struct token name = st_label_name(names, item);
+
+	return names_fold(names, names_intern(names, name.text, name.len));
+}
+
+void st_lists_step(struct st_lists *lists, const struct st_item *item, int at)
+{
+	if (st_form((enum st_kind)item->kind)->opens && item->depth <= 2 * LIMIT_ST_DEPTH) /* in CASE, a choice stands between */
+		lists->of[item->depth + 1] = lists->of[item->depth + 2] = at;
+}
+
+void st_labels(struct names *names, const struct st *st, int first, int count, struct st_labels *out)
+{
+	struct st_lists lists = { { -1 } };
+
+	*out = (struct st_labels){ .count = 0, .over = -1 };
+	for (int i = first; i < first + count; i++) {
+		const struct st_item *item = &st->item[i];
+
+		st_lists_step(&lists, item, i);
+		if (item->kind != ST_LABEL)
+			continue;
+		if (out->count == LIMIT_ST_LABELS) {
+			out->over = i;
+			return;
+		}
+		out->label[out->count++] = (struct st_label){
+			.fold = label_fold(names, item), .item = i, .list = lists.of[item->depth],
+		};
+	}
+}
+
+int st_label_find(struct names *names, const struct st_labels *labels, const struct st_item *item)
+{
+	const uint32_t fold = label_fold(names, item);
+
+	for (int i = 0; i < labels->count; i++)
+		if (labels->label[i].fold == fold)
+			return i;
+	return -1;
 }
 
 /* ---- parts ---- */
@@ -236,6 +302,65 @@ static bool next_of_call(struct st_walk *walk, struct st_part *part, struct expr
 	return st_value(walk, expr, diags, place);
 }
 
+/* How many := stand outside of parentheses and brackets up to the ; */
+static int count_stores(struct lex lex)
+{
+	int open = 0, stores = 0;
+
+	for (; lex.token.kind != TOKEN_END && !lex_is(&lex, ";"); lex_next(&lex)) {
+		open += lex_is(&lex, "(") || lex_is(&lex, "[");
+		open -= lex_is(&lex, ")") || lex_is(&lex, "]");
+		stores += lex_is(&lex, ":=") && open == 0;
+	}
+	return stores;
+}
+
+/* Behind the next @count :=, or to the end of the statement. */
+static void pass_stores(struct lex *lex, int count)
+{
+	for (int open = 0; count > 0 && lex->token.kind != TOKEN_END && !lex_is(lex, ";"); lex_next(lex)) {
+		open += lex_is(lex, "(") || lex_is(lex, "[");
+		open -= lex_is(lex, ")") || lex_is(lex, "]");
+		count -= lex_is(lex, ":=") && open == 0;
+	}
+}
+
+/* To the first token of the statement. */
+static void chain_back(struct st_walk *walk)
+{
+	walk->lex.at = walk->first.at;
+	walk->lex.line = walk->first.line;
+	walk->lex.line_start = walk->first.line_start;
+	lex_next(&walk->lex);
+}
+
+static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *expr,
+		     struct diag_list *diags, struct diag place);
+
+/* a := b := 1: from the right to the left */
+static bool next_of_chain(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			  struct diag_list *diags, struct diag place)
+{
+	if (walk->last == ST_NO_PART) {
+		walk->first.at = walk->lex.token.text;
+		walk->first.line = walk->lex.token.line;
+		walk->first.line_start = walk->lex.token.text - (walk->lex.token.column - 1);
+		if (!assigned(walk, part, expr, diags, place) || !lex_is(&walk->lex, ":=") || expr->target_points)
+			return !walk->missing;
+		chain_back(walk);
+		walk->stores = count_stores(walk->lex);
+	}
+	if (walk->stores == 0)
+		return true;
+	chain_back(walk);
+	pass_stores(&walk->lex, --walk->stores);
+	if (!assigned(walk, part, expr, diags, place))
+		return false;
+	if (walk->stores == 0)
+		pass_stores(&walk->lex, INT_MAX);
+	return true;
+}
+
 /* Level := Level + 1 */
 static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *expr,
 		     struct diag_list *diags, struct diag place)
@@ -269,13 +394,20 @@ bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
 		return next_of_for(walk, part, expr, diags, place);
 	if (walk->kind == ST_CHOICE)
 		return next_of_choice(walk, part, expr, diags, place);
+	if (walk->kind == ST_ASSIGN)
+		return next_of_chain(walk, part, expr, diags, place);
 	if (walk->last != ST_NO_PART)
 		return true;
-	if (walk->kind == ST_ASSIGN)
-		return assigned(walk, part, expr, diags, place);
 	if (forms[walk->kind].tests)
 		return behind(walk, part, ST_VALUE, forms[walk->kind].word, expr, diags, place);
 	if (*forms[walk->kind].word)
 		lex_accept(&walk->lex, forms[walk->kind].word);
+	if (walk->kind != ST_JUMP && walk->kind != ST_LABEL)
+		return true;
+	if (walk->lex.token.kind != TOKEN_NAME)
+		return st_fail(walk, diags, place, DIAG_EXPECTED, "name of a label");
+	if (walk->lex.token.len > LIMIT_NAME)
+		return st_fail(walk, diags, place, DIAG_NAME_TOO_LONG, "");
+	lex_next(&walk->lex);
 	return true;
 }

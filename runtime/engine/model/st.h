@@ -28,6 +28,8 @@ enum st_kind {
 	ST_REPEAT,
 	ST_UNTIL,      /* UNTIL condition END_REPEAT                          */
 	ST_EXIT, ST_CONTINUE, ST_RETURN,
+	ST_JUMP,       /* JMP Again;                                          */
+	ST_LABEL,      /* Again:                                              */
 	ST_EMPTY,      /* ; alone                                             */
 	ST_COMMENT,    /* a comment or a pragma between statements            */
 	ST_KINDS
@@ -60,7 +62,7 @@ const struct st_form *st_form(enum st_kind kind);
 
 enum st_role {
 	ST_NO_PART,    /* behind the last part                                */
-	ST_ASSIGNED,   /* the expression, with its target                     */
+	ST_ASSIGNED,   /* the expression, with its target; of `a := b := 1` first b := 1, then a := b */
 	ST_VALUE,      /* a condition, a selector, what UNTIL tests           */
 	ST_LOW,        /* of a choice: a constant                             */
 	ST_HIGH,       /* of a choice: the end of the range that LOW began    */
@@ -84,6 +86,8 @@ struct st_walk {
 	enum st_kind kind;
 	enum st_role last; /* ST_NO_PART: none so far                         */
 	bool missing;      /* a part cannot be read                           */
+	struct { const char *at, *line_start; int line; } first; /* of `a := b := 1` */
+	int stores;        /* likewise: how many := are not done              */
 };
 
 /** st_begin - before the first part of @item. Scan-safe: yes. */
@@ -106,6 +110,29 @@ void st_where(const struct names *names, const struct st_item *item, const char 
 /** st_begins - is the statement at the lexer one of Structured Text, not of an instruction list? It
  * tells by its first word, and by `:=` or `;` in it. Scan-safe: yes. */
 bool st_begins(struct lex lex);
+/* Which item begins the statements at each depth; first { { -1 } }. */
+struct st_lists {
+	int of[2 * LIMIT_ST_DEPTH + 3];
+};
+/** st_lists_step - behind item @at. Scan-safe: yes. */
+void st_lists_step(struct st_lists *lists, const struct st_item *item, int at);
+
+/* Labels of a body, by their names. */
+struct st_labels {
+	struct st_label {
+		uint32_t fold;     /* of the name                             */
+		int item;
+		int list;          /* the item that begins the statements around it; -1: the body */
+	} label[LIMIT_ST_LABELS];
+	int count;
+	int over;          /* an item that is one label too many; -1: none    */
+};
+/** st_labels - the labels among @count items from @first on. Scan-safe: no. */
+void st_labels(struct names *names, const struct st *st, int first, int count, struct st_labels *out);
+/** st_label_name - of a ST_JUMP or ST_LABEL; borrowed. Scan-safe: yes. */
+struct token st_label_name(const struct names *names, const struct st_item *item);
+/** st_label_find - index of the first label with the name of @item; -1: none. Scan-safe: no. */
+int st_label_find(struct names *names, const struct st_labels *labels, const struct st_item *item);
 /** st_is_choice - does a label of CASE begin at the lexer: a list of constants and a colon?
  * Scan-safe: yes. */
 bool st_is_choice(struct lex lex);

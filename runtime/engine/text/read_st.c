@@ -32,6 +32,7 @@ struct st_reader {
 	int lines;           /* newlines since the last item                  */
 	bool comment;        /* the token is a comment or a pragma            */
 	bool empty;          /* a ; alone was read                            */
+	enum { JUMPS_UNKNOWN, JUMPS_NO, JUMPS_YES } jumps; /* JMP stands behind the first doubt */
 };
 
 /* The next token, newlines and comments too. */
@@ -211,8 +212,56 @@ static bool is_call(struct lex lex)
 	return lex_is(&lex, "(") || lex_is(&lex, ";");
 }
 
+/* Does `:=` come before the next ;? */
+static bool stores(struct lex lex)
+{
+	while (!lex_is(&lex, ";") && lex.token.kind != TOKEN_END)
+		if (lex_is(&lex, ":="))
+			return true;
+		else
+			lex_next(&lex);
+	return false;
+}
+
+static bool begins_word(const struct lex *lex)
+{
+	for (int i = 0; i < ST_KINDS; i++)
+		if (*st_form((enum st_kind)i)->word && lex_is(lex, st_form((enum st_kind)i)->word))
+			return true;
+	return false;
+}
+
+/* Does the rest of the body have a JMP? It is looked for once. */
+static bool has_jumps(struct st_reader *s, struct lex lex)
+{
+	if (s->jumps == JUMPS_UNKNOWN)
+		s->jumps = JUMPS_NO;
+	else
+		return s->jumps == JUMPS_YES;
+	for (; lex.token.kind != TOKEN_END && !lex_is(&lex, "END_PROGRAM") &&
+	       !lex_is(&lex, "END_FUNCTION") && !lex_is(&lex, "END_FUNCTION_BLOCK"); lex_next(&lex))
+		if (lex_is(&lex, "JMP"))
+			s->jumps = JUMPS_YES;
+	return s->jumps == JUMPS_YES;
+}
+
+/* `Label:` before a statement; `Name : value` is one with a wrong sign. */
+static bool is_label(struct st_reader *s, struct lex lex)
+{
+	const int line = lex.token.line;
+
+	if (lex.token.kind != TOKEN_NAME)
+		return false;
+	lex_next(&lex);
+	if (!lex_is(&lex, ":") || (lex.at < lex.end && *lex.at == ':'))
+		return false;
+	lex_next(&lex);
+	return lex_is(&lex, ";") || lex.token.line > line || lex.token.kind == TOKEN_END || begins_word(&lex) ||
+	       (lex.token.kind == TOKEN_NAME && (stores(lex) || has_jumps(s, lex)));
+}
+
 /* @lex: without newlines and comments. */
-static enum st_kind kind_at(const struct st_reader *s, const struct lex *lex)
+static enum st_kind kind_at(struct st_reader *s, const struct lex *lex)
 {
 	const struct st_block *block = s->depth > 0 ? &s->block[s->depth - 1] : NULL;
 
@@ -224,6 +273,8 @@ static enum st_kind kind_at(const struct st_reader *s, const struct lex *lex)
 	if (block && block->kind == ST_CASE && !block->other &&
 	    (st_is_choice(*lex) || lex->token.kind == TOKEN_NUMBER))
 		return ST_CHOICE;
+	if (is_label(s, *lex))
+		return ST_LABEL;
 	return is_call(*lex) ? ST_CALL : ST_ASSIGN;
 }
 
@@ -458,8 +509,7 @@ static const struct { const char *word, *right; enum st_kind kind; bool parens; 
 	{ "ENDIF", "END_IF", ST_END_IF, false }, { "ENDCASE", "END_CASE", ST_END_CASE, false },
 	{ "ENDFOR", "END_FOR", ST_END_FOR, false }, { "NEXT", "END_FOR", ST_END_FOR, false },
 	{ "ENDWHILE", "END_WHILE", ST_END_WHILE, false }, { "WEND", "END_WHILE", ST_END_WHILE, false },
-	{ "BREAK", "EXIT", ST_EXIT, false }, { "GOTO", "IF … THEN … END_IF", ST_KINDS, false },
-	{ "JMP", "IF … THEN … END_IF", ST_KINDS, false },
+	{ "BREAK", "EXIT", ST_EXIT, false }, { "GOTO", "JMP", ST_JUMP, false },
 	{ "SWITCH", "CASE … OF", ST_KINDS, true },
 };
 
@@ -527,7 +577,8 @@ static enum st_kind foreign_word(struct st_reader *s, struct lex *lex, bool *tol
 		return ST_KINDS;
 	}
 	for (size_t i = 0; i < sizeof(foreign) / sizeof(*foreign); i++) {
-		if (!lex_is(lex, foreign[i].word) || (lex_is(&ahead, "(") && !foreign[i].parens))
+		if (!lex_is(lex, foreign[i].word) || (lex_is(&ahead, "(") && !foreign[i].parens) ||
+		    lex_is(&ahead, ":"))
 			continue;
 		said_of(s, DIAG_ST_FOREIGN, &lex->token, foreign[i].right);
 		*told = foreign[i].kind == ST_KINDS;
@@ -564,15 +615,21 @@ static bool said_quotes(struct st_reader *s, const struct token *token)
 	return true;
 }
 
-/* `Label: A := 1;` */
-static bool is_label(struct lex lex)
+/* `Name += 1`: the sign is @at, its text @sign; `Name := Name +` is how @right says it. False: another sign. */
+static bool said_changed(struct st_reader *s, const struct lex *first, const struct token *at, const char *sign,
+			 const char *right)
 {
-	while (!lex_is(&lex, ";") && lex.token.kind != TOKEN_END)
-		if (lex_is(&lex, ":="))
-			return true;
-		else
-			lex_next(&lex);
-	return false;
+	const char *name = first->token.text, *op = strncmp(right, ":= … ", 7) == 0 ? right + 7 : NULL;
+	char text[LIMIT_ARG];
+	int len = (int)(sign - name);
+
+	while (len > 0 && (name[len - 1] == ' ' || name[len - 1] == '\t'))
+		len--;
+	if (!op || len <= 0 || len > 20 || memchr(name, '\n', (size_t)len))
+		return false;
+	snprintf(text, sizeof(text), "%.*s := %.*s %s%s", len, name, len, name, op, sign[1] == '=' ? " …" : "");
+	said_foreign(s, at, sign, 2, text);
+	return true;
 }
 
 /* Why the statement from @first on cannot be read at @lex, if something of another language is the reason. */
@@ -606,10 +663,11 @@ static bool said_sign(struct st_reader *s, enum st_kind kind, const struct lex *
 			    (lex_is(lex, "=>") && kind == ST_CALL))
 				continue;
 			at.column -= back;
-			said_foreign(s, &at, text, (int)len, signs[i].right);
+			if (!said_changed(s, first, &at, text, signs[i].right))
+				said_foreign(s, &at, text, (int)len, signs[i].right);
 			return true;
 		}
-	if (kind != ST_ASSIGN || !lex_is(lex, ":") || is_label(*lex))
+	if (kind != ST_ASSIGN || !lex_is(lex, ":") || stores(*lex))
 		return false;
 	said_of(s, DIAG_ST_FOREIGN, token, ":=");
 	return true;

@@ -662,7 +662,7 @@ static bool st_does(uint32_t kinds)
 {
 	return kinds & ~(bit_of(ST_ELSE) | bit_of(ST_END_IF) | bit_of(ST_END_CASE) |
 			 bit_of(ST_END_FOR) | bit_of(ST_END_WHILE) | bit_of(ST_REPEAT) |
-			 bit_of(ST_EMPTY) | bit_of(ST_COMMENT));
+			 bit_of(ST_LABEL) | bit_of(ST_EMPTY) | bit_of(ST_COMMENT));
 }
 
 /* Has its line one value that a person looks for: what is stored, or a condition? */
@@ -680,7 +680,7 @@ static bool st_runs(const struct list *list, const struct il_line *line)
 	if (line->kind == IL_LABEL)
 		return false;
 	return line->kind != IL_OP || line->op != OP_JMP || line->modifiers & MOD_C ||
-	       st_kinds_in(list->pou->st, line->line) & (bit_of(ST_EXIT) | bit_of(ST_CONTINUE));
+	       st_kinds_in(list->pou->st, line->line) & (bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_JUMP));
 }
 
 static struct frame *frame_of(const struct list *list)
@@ -965,7 +965,8 @@ static void assemble_choices(struct list *list, int lines)
 
 #define ST_STANDS (bit_of(ST_ASSIGN) | bit_of(ST_CALL) | bit_of(ST_IF) | bit_of(ST_ELSIF) | \
 		   bit_of(ST_CASE) | bit_of(ST_FOR) | bit_of(ST_END_FOR) | bit_of(ST_WHILE) | \
-		   bit_of(ST_UNTIL) | bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_RETURN))
+		   bit_of(ST_UNTIL) | bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_RETURN) | \
+		   bit_of(ST_JUMP))
 
 /* The statement that a line was made of: its first instruction may be of a part further down. */
 static const struct st_item *st_item_of(const struct st *st, const struct il_line *line)

@@ -5,6 +5,7 @@
  * Every operation that can fail gets EN from the ENO of the one before, the first from the
  * power of the cell, as the same boxes in series would.
  */
+#include "engine/check/attempt.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/shape.h"
@@ -1480,6 +1481,11 @@ void ld_store(struct ld *ld)
 	const uint32_t target = chain_target(&c);
 	const enum iec_type type = type_of(&c, target);
 
+	if (ld->expr->target_tried &&
+	    attempt_of(ld->translation->scope, ld->unit->pou, ld->expr) == ATTEMPT_NULL) {
+		operate(&c, FN_MOVE, (struct value){ .operand = chain_intern(&c, "NULL", 4), .type = IEC_LWORD }, none, IEC_LWORD, target);
+		return;
+	}
 	if (store_cut(&c, target))
 		return;
 	const bool other = !ld->expr->target_bit.len &&

@@ -52,6 +52,9 @@ struct st_il {
 	int depth;
 	uint32_t labels;      /* made so far                                  */
 	uint32_t leave;       /* behind the statements of a box; 0: RETURN leaves the POU */
+	struct st_labels *named; /* those that are written; NULL: none, or not looked for */
+	uint32_t first_named; /* the number of the first of them              */
+	int first, count;     /* the items of the body                        */
 	uint8_t *used;        /* by label: a jump leads there                 */
 	uint32_t used_size;
 };
@@ -1069,10 +1072,12 @@ static void assign(struct st_il *s, struct st_walk *walk)
 	struct st_part part;
 
 	begins(s);
-	if (next_part(s, walk, &part))
-		ld_store(&s->ld);
-	else
-		s->ld.failed = true;
+	do {
+		if (!next_part(s, walk, &part))
+			s->ld.failed = true;
+		else if (part.role == ST_ASSIGNED)
+			ld_store(&s->ld);
+	} while (part.role == ST_ASSIGNED && !s->ld.failed);
 }
 
 /* EXIT and CONTINUE: of the innermost loop. */
@@ -1095,12 +1100,51 @@ static void leave_body(struct st_il *s)
 		ld_emit(&s->ld, OP_RET, 0, 0);
 }
 
+/* The number of the label with the name of the statement; 0: there is none. */
+__attribute__((noinline))
+static uint32_t named_label(struct st_il *s)
+{
+	struct names *names = &s->translation->project->names;
+
+	if (!s->named) {
+		s->named = arena_alloc(s->ld.scratch, sizeof(*s->named));
+		s->ld.failed |= !s->named;
+		if (!s->named)
+			return 0;
+		st_labels(names, s->pou->st, s->first, s->count, s->named);
+		s->first_named = s->labels + 1;
+		s->labels += (uint32_t)s->named->count;
+	}
+	const int found = st_label_find(names, s->named, s->ld.item);
+
+	return found < 0 ? 0 : s->first_named + (uint32_t)found;
+}
+
+static void jump_to(struct st_il *s)
+{
+	const uint32_t label = named_label(s);
+
+	begins(s);
+	if (label)
+		jump(s, 0, label);
+}
+
+static void label_here(struct st_il *s)
+{
+	const uint32_t label = named_label(s);
+
+	if (label)
+		here_again(s, label);
+}
+
 static void end_while(struct st_il *s)
 {
 	jump(s, 0, innermost(s)->again);
 	end_block(s);
 }
 
+/* Not inlined: the walk is large. */
+__attribute__((noinline))
 static void st_item_to_il(struct st_il *s, int at)
 {
 	const enum st_kind kind = (enum st_kind)s->pou->st->item[at].kind;
@@ -1130,6 +1174,8 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_EXIT:
 	case ST_CONTINUE: leave_loop(s, kind); break;
 	case ST_RETURN: leave_body(s); break;
+	case ST_JUMP: jump_to(s); break;
+	case ST_LABEL: label_here(s); break;
 	case ST_EMPTY:
 	case ST_COMMENT:
 	case ST_KINDS: break;
@@ -1168,6 +1214,8 @@ static void take_edges(struct st_il *s)
 
 static void put_items(struct st_il *s, int first, int count)
 {
+	s->first = first;
+	s->count = count;
 	for (int i = first; i < first + count && !s->ld.failed; i++) {
 		const struct level level = level_of(s);
 		const enum st_kind kind = (enum st_kind)s->pou->st->item[i].kind;
@@ -1214,6 +1262,7 @@ static bool keep_written(struct ld *ld, const struct st_item *item)
 	struct token before = { .kind = TOKEN_END };
 	uint32_t written = 0;
 	struct lex lex;
+	int open = 0, stores = 0;
 
 	if (item->kind == ST_CALL)
 		return false;
@@ -1221,7 +1270,10 @@ static bool keep_written(struct ld *ld, const struct st_item *item)
 	for (int i = 0; lex_next(&lex) != TOKEN_END; i++) {
 		if (i == (item->kind == ST_FOR) && (item->kind == ST_FOR || item->kind == ST_ASSIGN))
 			written = names_intern(names, lex.token.text, lex.token.len);
-		if (lex_is(&lex, "^") || calls_own(ld, &lex, &before) ||
+		open += lex_is(&lex, "(");
+		open -= lex_is(&lex, ")");
+		stores += open == 0 && lex_is(&lex, ":=");
+		if (lex_is(&lex, "^") || stores > 1 || calls_own(ld, &lex, &before) ||
 		    (lex_is(&lex, "[") && before.kind == TOKEN_ADDRESS))
 			return false;
 		before = lex.token;

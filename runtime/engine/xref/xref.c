@@ -423,7 +423,7 @@ static bool scan_symbol(struct scan *scan)
 	} else if (lex_is(&scan->lex, ")")) {
 		scan->parens -= scan->parens > 0;
 		level->used = false;
-	} else if (lex_is(&scan->lex, ":=")) {
+	} else if (lex_is(&scan->lex, ":=") || lex_is(&scan->lex, "?=")) {
 		level->kind = XREF_READ;
 	} else if (!lex_is(&scan->lex, ".")) {
 		level->used = false;
@@ -1187,6 +1187,30 @@ static void walk_argument(struct xref_walk *walk, const struct st_part *part,
 		walk_part(walk, part, parts, kind_of_value(dir, part->role == ST_OUTPUT));
 }
 
+/* `a := b := 1`: what stands before each := gets a value, but the first of them. The last one begins the rest. */
+static void walk_assignment(struct xref_walk *walk, uint32_t *slot)
+{
+	const char *text = project_text(walk->project, *slot);
+	const size_t len = names_len(&walk->project->names, *slot);
+	size_t from = 0, behind = 0;
+	struct lex lex;
+	int open = 0;
+
+	walk->slot = slot;
+	lex_init(&lex, text, len);
+	while (lex_next(&lex) != TOKEN_END) {
+		open += lex_is(&lex, "(") || lex_is(&lex, "[");
+		open -= lex_is(&lex, ")") || lex_is(&lex, "]");
+		if (!lex_is(&lex, ":=") || open != 0)
+			continue;
+		if (behind)
+			xref_scan(walk, from, behind - from, XREF_WRITTEN);
+		from = behind;
+		behind = (size_t)(lex.at - text);
+	}
+	xref_scan(walk, from, len - from, XREF_WRITTEN);
+}
+
 static void walk_statement(struct xref_walk *walk, struct expr *expr, struct diag_list *ignored)
 {
 	enum word word = WORD_COUNT;
@@ -1195,7 +1219,7 @@ static void walk_statement(struct xref_walk *walk, struct expr *expr, struct dia
 
 	st_begin(&parts, &walk->project->names, walk->item);
 	if (walk->item->kind == ST_ASSIGN) {
-		xref_all(walk, walk->slot, XREF_WRITTEN);
+		walk_assignment(walk, walk->slot);
 		return;
 	}
 	while (st_next(&parts, &part, expr, ignored, (struct diag){ .id = DIAG_COUNT }) &&
