@@ -118,10 +118,14 @@ static void find_power(struct pen *pen)
 		for (int col = 0; col < rung->cols; col++) {
 			enum place place =
 				word_row(rung_at(rung, row, col)->word)->place;
+			unsigned int state = live_of(pen, row, col);
 
-			if (place == PLACE_SERIES || place == PLACE_BOX)
+			/* A coil passes its power on to the coils behind it. */
+			if (place == PLACE_LAST)
+				state = (state & LIVE_KNOWN) | (state & LIVE_IN ? LIVE_OUT : 0);
+			if (place == PLACE_SERIES || place == PLACE_BOX || place == PLACE_LAST)
 				live[root_of(net, row * bars + col + 1)] |=
-					live_of(pen, row, col) & (LIVE_KNOWN | LIVE_OUT);
+					state & (LIVE_KNOWN | LIVE_OUT);
 		}
 	for (int bar = 0; bar < rung->rows * bars; bar++)
 		live[bar] = live[root_of(net, bar)];

@@ -84,7 +84,7 @@ size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt);
 
 enum entry_kind {
 	ENTRY_VARIABLE, ENTRY_INSTANCE, ENTRY_PIN, ENTRY_ADDRESS, ENTRY_LABEL,
-	ENTRY_ROUTINE, ENTRY_WORD, ENTRY_NEW,
+	ENTRY_ROUTINE, ENTRY_WORD, ENTRY_NEW, ENTRY_BITS,
 };
 
 struct entry_candidate {

@@ -14,6 +14,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/name.h"
 #include "engine/ladder.h"
+#include "engine/model/expr.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -267,7 +268,7 @@ static int kind_rank(const struct search *s, enum entry_kind kind)
 	static const uint8_t ranks[] = {
 		[ENTRY_VARIABLE] = 2, [ENTRY_INSTANCE] = 3, [ENTRY_PIN] = 3,
 		[ENTRY_ADDRESS] = 4, [ENTRY_LABEL] = 2, [ENTRY_ROUTINE] = 2,
-		[ENTRY_WORD] = 5, [ENTRY_NEW] = 9,
+		[ENTRY_WORD] = 5, [ENTRY_NEW] = 9, [ENTRY_BITS] = 3,
 	};
 
 	if (kind == ENTRY_WORD && s->place->box && s->adds != WORD_ELEM)
@@ -277,7 +278,7 @@ static int kind_rank(const struct search *s, enum entry_kind kind)
 	return kind == ENTRY_PIN && s->want & WANT_PIN_NAME ? 1 : ranks[kind];
 }
 
-/* Pins stay in their order. */
+/* Pins and parts stay in their order. */
 static int compare(const struct search *s, enum entry_kind kind, int rank,
 		   const char *text, int index)
 {
@@ -285,7 +286,7 @@ static int compare(const struct search *s, enum entry_kind kind, int rank,
 
 	if (rank != s->rank[index])
 		return rank - s->rank[index];
-	return kind == ENTRY_PIN ? 1 : strcmp(text, other->text);
+	return kind == ENTRY_PIN || kind == ENTRY_BITS ? 1 : strcmp(text, other->text);
 }
 
 static void make_line(const struct search *s, const char *text, char *out, size_t size)
@@ -428,7 +429,33 @@ static void add_table(struct search *s, const struct var_table *table)
 	}
 }
 
-/* Pins and members of the instance before the last dot. */
+/* Is it a number with bits? */
+static bool has_bits(const struct entry_target *target)
+{
+	return target->means == MEANS_VALUE && !target->array && target->type != IEC_NONE &&
+	       iec_type_row(target->type)->class & (ANY_INT | CLASS_BITS);
+}
+
+/* Bits and bytes of the number before the last dot. */
+static void add_parts(struct search *s, const struct entry_target *number)
+{
+	static const enum iec_type type[] = { [1] = IEC_BOOL, [8] = IEC_BYTE, [16] = IEC_WORD, [32] = IEC_DWORD };
+	const char *begun = typed(s) + s->head + 1;
+	const size_t len = typed_len(s) - s->head - 1;
+	char part[8], text[ENTRY_NAME];
+	unsigned int bits;
+
+	for (int i = 0; (bits = expr_part_print(8u * iec_type_row(number->type)->size, len && *begun == '%', i,
+						part, sizeof(part))) > 0; i++) {
+		if ((s->want & WANT_BOOL && bits != 1) || (s->write && !number->write) ||
+		    (s->classes && !(iec_type_row(type[bits])->class & s->classes)))
+			continue;
+		snprintf(text, sizeof(text), "%.*s.%s", (int)s->head, typed(s), part);
+		add(s, ENTRY_BITS, fit(part, begun, len), text, "", iec_type_row(type[bits])->word, "");
+	}
+}
+
+/* Pins and members of the instance before the last dot, or parts of a number. */
 static void add_pins(struct search *s)
 {
 	struct entry_target target;
@@ -436,6 +463,8 @@ static void add_pins(struct search *s)
 	char text[ENTRY_NAME];
 
 	entry_target_find(s->place, typed(s), s->head, &target);
+	if (has_bits(&target))
+		add_parts(s, &target);
 	if (target.means != MEANS_INSTANCE || target.array)
 		return;
 	row = words_row(&s->place->project->words, target.word);
@@ -840,7 +869,7 @@ static void find_all(struct search *s)
 		add_new(s);
 }
 
-/* Bytes up to the last dot of the word, if an instance or structure is before it. */
+/* Bytes up to the last dot of the word, if an instance, a structure or a number is before it. */
 static size_t find_head(const struct search *s)
 {
 	struct entry_target target;
@@ -851,7 +880,7 @@ static size_t find_head(const struct search *s)
 	if (len < 2)
 		return 0;
 	entry_target_find(s->place, typed(s), len - 1, &target);
-	return target.means == MEANS_INSTANCE ? len - 1 : 0;
+	return target.means == MEANS_INSTANCE || has_bits(&target) ? len - 1 : 0;
 }
 
 static int search(const struct entry_place *place, const char *line, size_t cursor,
@@ -900,6 +929,7 @@ const char *entry_kind_text(enum entry_kind kind)
 		[ENTRY_PIN] = N_("pin"), [ENTRY_ADDRESS] = N_("address"),
 		[ENTRY_LABEL] = N_("label"), [ENTRY_ROUTINE] = N_("subroutine"),
 		[ENTRY_WORD] = N_("word"), [ENTRY_NEW] = N_("new"),
+		[ENTRY_BITS] = N_("part of a number"),
 	};
 
 	return texts[kind];

@@ -42,7 +42,7 @@ static const struct live_cell *cell_here(LadderGridView *view)
 
 static bool is_switch(const struct live_cell *cell)
 {
-	return cell && cell->at.type == IEC_BOOL && !cell->at.constant &&
+	return cell && (cell->at.type == IEC_BOOL || cell->bit) && !cell->at.constant &&
 	       (cell->kind == LIVE_CONTACT || cell->kind == LIVE_COIL);
 }
 
@@ -58,6 +58,12 @@ static const char *name_here(LadderGridView *view)
 
 	return cell ? project_text(ladder_document_project(view->canvas->document),
 				   cell->operand) : "";
+}
+
+/* What has the value at the cursor: of a bit its number. */
+static const char *owner_here(LadderGridView *view, const struct live_cell *cell)
+{
+	return cell->bit ? cell->name : name_here(view);
 }
 
 /* The value of the last act, which may not have reached the simulation yet. */
@@ -127,7 +133,7 @@ static void tell_value(LadderGridView *view, const char *name, struct location a
 
 static void toggle(LadderGridView *view, const struct live_cell *cell)
 {
-	const union iec_value value = { .i = !value_now(view, cell->at).i };
+	const union iec_value value = live_cell_switched(cell, value_now(view, cell->at));
 	const bool held = is_held(view, cell->at);
 
 	if (!order(view, held ? ACT_FORCE : ACT_SET, cell->at, value))
@@ -136,13 +142,13 @@ static void toggle(LadderGridView *view, const struct live_cell *cell)
 	    ladder_sim_state(view->canvas->sim) == SIM_RUN) {
 		char *keys = verb_keys_label(VERB_force);
 		char *text = g_strdup_printf(_("\"%s\" is written by the program in each scan. %s "
-			  "forces it."), name_here(view), keys);
+			  "forces it."), owner_here(view, cell), keys);
 
 		canvas_tell(LADDER_CANVAS(view), text);
 		g_free(keys);
 		g_free(text);
 	} else {
-		tell_value(view, name_here(view), cell->at, value, held);
+		tell_value(view, owner_here(view, cell), cell->at, value, held);
 	}
 }
 
@@ -152,7 +158,7 @@ static void force_at(LadderGridView *view, const struct live_cell *cell,
 	if (!order(view, ACT_FORCE, cell->at, value))
 		return;
 	canvas_moved(LADDER_CANVAS(view));
-	tell_value(view, name_here(view), cell->at, value, true);
+	tell_value(view, owner_here(view, cell), cell->at, value, true);
 }
 
 static void release(LadderGridView *view, const struct live_cell *cell)
@@ -161,7 +167,7 @@ static void release(LadderGridView *view, const struct live_cell *cell)
 
 	if (!order(view, ACT_RELEASE, cell->at, image_get(image_of(view), cell->at)))
 		return;
-	text = g_strdup_printf(_("%s is released"), name_here(view));
+	text = g_strdup_printf(_("%s is released"), owner_here(view, cell));
 	canvas_moved(LADDER_CANVAS(view));
 	canvas_tell(LADDER_CANVAS(view), text);
 	g_free(text);
@@ -303,7 +309,7 @@ static void set_here(LadderGridView *view)
 			      _("Nothing here has a value that can be set.") :
 			      _("The simulation is not running."));
 	else
-		ask(view, cell->parts ? cell->name : name, cell->at);
+		ask(view, cell->parts || cell->bit ? cell->name : name, cell->at);
 }
 
 void act_forget(LadderGridView *view)
@@ -559,6 +565,10 @@ void act_tip(LadderGridView *view, int rung, int row, int col, GString *text)
 		add_filled(view, shown->args, text);
 	} else if (cell->parts) {
 		add_filled(view, shown->operand, text);
+	} else if (cell->bit) {
+		live_value_print(IEC_BOOL, live_cell_bit(cell, image_get(image_of(view), cell->at)), value,
+				 sizeof(value));
+		g_string_append_printf(text, "\n= %s", value);
 	} else if (cell->at.type != IEC_NONE) {
 		live_named_print(cell->named, cell->at.type, image_get(image_of(view), cell->at),
 				 value, sizeof(value));

@@ -83,7 +83,8 @@ struct live_cell {
 	bool fails;            /* no power at its output means that it failed    */
 	struct location at;    /* of its operand, of the first variable of an
 				  expression, of what counts in a box           */
-	const char *name;      /* of that variable; else ""                     */
+	const char *name;      /* of that variable; of a bit that of its number; else "" */
+	uint8_t bit;           /* the operand is bit n - 1 of the number; 0: it is the whole */
 	struct live_named named; /* of its values                                 */
 	struct location goal;  /* the preset up to which it counts              */
 	GArray *parts;         /* of LIVE_TEXT: of struct live_part; NULL: none    */
@@ -95,6 +96,11 @@ struct live_cell {
 	char text[48];         /* as drawn; "": no value is shown               */
 };
 #define LIVE_NOWHERE UINT32_MAX
+/** live_cell_bit - the value of a cell's operand, when the value at its place is @number: a bit of
+ * it, or the same. */
+union iec_value live_cell_bit(const struct live_cell *cell, union iec_value number);
+/** live_cell_switched - the value at the place when the operand, a BOOL or a bit, becomes the other one. */
+union iec_value live_cell_switched(const struct live_cell *cell, union iec_value number);
 /* In live_rung.bits beside enum live_bit; they are marks when they are drawn. */
 #define LIVE_FORCED 128
 #define LIVE_FAILED 64 /* its operation failed: power came, and ENO is FALSE     */

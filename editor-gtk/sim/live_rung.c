@@ -188,6 +188,23 @@ static bool stores_number(const struct live_rung *rung, const char *args)
 	return at.type != IEC_NONE && at.type != IEC_BOOL;
 }
 
+/* The operand of a contact or a coil. Of a bit, which cannot be set alone, the number. */
+static void find_operand(const struct live_map *map, const char *operand, struct live_cell *cell)
+{
+	const struct location at = live_map_find(map, operand, strlen(operand));
+	const char *dot = strrchr(operand, '.');
+	char *name;
+
+	cell->at = at;
+	if (!at.number || !dot)
+		return;
+	name = g_strndup(operand, (gsize)(dot - operand));
+	cell->at = live_map_find(map, name, strlen(name));
+	cell->bit = (uint8_t)(at.first + 1);
+	cell->name = g_intern_string(name);
+	g_free(name);
+}
+
 static void find_cell(struct live_rung *rung, int row, int col)
 {
 	const struct cell *shown = rung_at(rung->shown, row, col);
@@ -207,7 +224,7 @@ static void find_cell(struct live_rung *rung, int row, int col)
 		cell->kind = word->operand == OPND_BOOL_R ? LIVE_CONTACT : LIVE_COIL;
 		cell->edge = word->edge != EDGE_NONE;
 		cell->inverse = cell->kind == LIVE_CONTACT && word->negate;
-		cell->at = live_map_find(rung->map, operand, strlen(operand));
+		find_operand(rung->map, operand, cell);
 	} else if (word->operand == OPND_EXPR || word->operand == OPND_ASSIGN) {
 		find_text(rung->map, word, operand, cell);
 		cell->fails = word->operand == OPND_ASSIGN;
@@ -248,6 +265,23 @@ void live_rung_free(struct live_rung *rung)
 }
 
 /* ---- looking ---- */
+
+union iec_value live_cell_bit(const struct live_cell *cell, union iec_value number)
+{
+	return cell->bit ? (union iec_value){ .i = (int64_t)((uint64_t)number.i >> (cell->bit - 1) & 1) } : number;
+}
+
+union iec_value live_cell_switched(const struct live_cell *cell, union iec_value number)
+{
+	const struct iec_type_row *type = iec_type_row(cell->at.type);
+	const unsigned int unused = 64 - 8 * type->size;
+	uint64_t value;
+
+	if (!cell->bit)
+		return (union iec_value){ .i = !number.i };
+	value = ((uint64_t)number.i ^ (uint64_t)1 << (cell->bit - 1)) << unused;
+	return (union iec_value){ .i = type->low < 0 ? (int64_t)value >> unused : (int64_t)(value >> unused) };
+}
 
 static bool is_same(union iec_value a, union iec_value b)
 {
@@ -325,7 +359,7 @@ static bool look_at_value(struct live_cell *cell, const struct image *image, boo
 	bool other;
 
 	if (cell->at.type != IEC_NONE && cell->at.type != IEC_STRING)
-		cell->value = image_get(image, cell->at);
+		cell->value = live_cell_bit(cell, image_get(image, cell->at));
 	if (cell->goal.type != IEC_NONE)
 		cell->aim = image_get(image, cell->goal);
 	if (cell->parts) {

@@ -109,7 +109,8 @@ static int rank_of(const struct ladder_word *word)
 		const char *kind;
 		int rank;
 	} ranks[] = {
-		{ N_("pin"), 0 }, { N_("value"), 0 }, { N_("keyword"), 2 }, { N_("function"), 3 },
+		{ N_("pin"), 0 }, { N_("value"), 0 }, { N_("part of a number"), 0 },
+		{ N_("part of a step"), 0 }, { N_("keyword"), 2 }, { N_("function"), 3 },
 	};
 
 	if (g_str_has_prefix(word->text, "SYS_"))
@@ -125,7 +126,9 @@ static void take_word(void *context, const struct ladder_word *word)
 	LadderProposal *proposal = g_object_new(LADDER_TYPE_PROPOSAL, NULL);
 
 	proposal->text = g_strdup(word->text);
-	proposal->key = name_fold(word->text);
+	/* Bits of a number stay in their order: 9 before 10. */
+	proposal->key = strcmp(word->kind, "part of a number") == 0 ?
+		g_strdup_printf("%03u", g_list_model_get_n_items(context)) : name_fold(word->text);
 	proposal->rank = rank_of(word);
 	proposal->skeleton = strcmp(word->kind, "keyword") == 0 && st_skeleton_is(word->text);
 	proposal->kind = g_strdup(_(word->kind));

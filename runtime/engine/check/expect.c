@@ -385,6 +385,19 @@ static void offer_pins(const struct offer *o)
 	give(o, EXPECT_PIN, "OUT", "");
 }
 
+/* Bits and bytes of a number; bits as %X3 only behind a %. */
+static void offer_number(const struct offer *o)
+{
+	static const enum iec_type type[] = { [1] = IEC_BOOL, [8] = IEC_BYTE, [16] = IEC_WORD, [32] = IEC_DWORD };
+	const bool percent = o->want->begun_len && *o->want->begun == '%';
+	char text[8];
+	unsigned int bits;
+
+	for (int i = 0; (bits = expr_part_print(o->want->bits, percent, i, text, sizeof(text))) > 0; i++)
+		if (is_class(o, type[bits]))
+			give(o, EXPECT_PART, text, iec_type_row(type[bits])->word);
+}
+
 void expect_offer(const struct project *project, const struct pou *pou,
 		  const struct expect_want *want, const struct expect_taker *taker)
 {
@@ -421,6 +434,8 @@ void expect_offer(const struct project *project, const struct pou *pou,
 		offer_pins(&o);
 	if (want->kinds & EXPECT_VALUE)
 		offer_values(&o);
+	if (want->kinds & EXPECT_PART)
+		offer_number(&o);
 }
 
 void expect_functions(const struct project *project, const char *begun, size_t len,
@@ -485,6 +500,8 @@ const char *expect_kind_text(enum expect_kind kind)
 		return "part of a step";
 	case EXPECT_VALUE:
 		return "value";
+	case EXPECT_PART:
+		return "part of a number";
 	}
 	return "";
 }
@@ -494,7 +511,7 @@ static bool stays(const struct expect_word *word)
 {
 	if (word->kind == EXPECT_OPERATOR)
 		return word->text == op_row(word->op)->word;
-	if (word->kind == EXPECT_VALUE)
+	if (word->kind == EXPECT_VALUE || word->kind == EXPECT_PART)
 		return false;
 	return word->kind != EXPECT_FUNCTION || word->text == word->row->word;
 }
@@ -989,6 +1006,13 @@ static bool part_want(const struct before *b, const char *text, const char *word
 	}
 	if (!m && !write && values_want(b, word, (size_t)(dot - word), want))
 		return true;
+	if (m && meaning_fault(m) == DIAG_COUNT && m->kind != MEANING_LITERAL &&
+	    iec_type_row(m->type)->class & (ANY_INT | CLASS_BITS)) {
+		*want = (struct expect_want){ .kinds = write && !m->writable ? 0 : EXPECT_PART,
+					      .classes = want->classes, .block = WORD_COUNT,
+					      .bits = 8u * iec_type_row(m->type)->size };
+		return true;
+	}
 	if (!m || (m->kind != MEANING_INSTANCE && m->kind != MEANING_STRUCT))
 		return false;
 	*want = (struct expect_want){ .kinds = EXPECT_PIN, .classes = want->classes,
@@ -1550,7 +1574,7 @@ static void find_want(struct before *b, const char *text, size_t at, int line,
 {
 	size_t word = at;
 
-	while (word > 0 && is_name_byte(text[word - 1]))
+	while (word > 0 && (is_name_byte(text[word - 1]) || text[word - 1] == '%'))
 		word--;
 	b->pou = out->pou = pou_at(scope_project(b->scope), text,
 				   expect_line(text, at), line);

@@ -32,6 +32,7 @@ struct expect_want {
 	const char *const *words;  /* the keywords, up to NULL; NULL: those of a file */
 	int enumeration;           /* whose values; -1: of all                  */
 	bool marks;                /* of pins: with := or => behind             */
+	unsigned int bits;         /* of the number whose parts                 */
 };
 
 struct expect_word {

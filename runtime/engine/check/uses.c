@@ -2,10 +2,11 @@
  *
  * uses - flags for each declared variable, and bit maps of the process image.
  *
- * The maps find overlaps: a use of %MW0 sets the bits of its 16 bits. It knows no rungs and
- * no diagnostics.
+ * The maps find overlaps: a use of %MW0 sets the bits of its 16 bits, a coil that writes a part of a
+ * variable those of the part. It knows no rungs and no diagnostics.
  */
 #include "engine/check/uses.h"
+#include "engine/model/shape.h"
 
 #include <string.h>
 
@@ -17,6 +18,8 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 
 	uses->project = project;
 	uses->areas = scope_areas(scope);
+	uses->arena = arena;
+	uses->coils = NULL;
 	uses->base = arena_alloc(arena, sizeof(*uses->base) *
 				 ((size_t)project->pou_count + 1));
 	if (!uses->base)
@@ -25,6 +28,7 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 		uses->base[i + 1] = count;
 		count += project->pou[i].vars.count;
 	}
+	uses->count = count;
 	uses->flags = arena_alloc(arena, (size_t)count);
 	uses->map.read = arena_alloc(arena, bytes);
 	uses->map.written = arena_alloc(arena, bytes);
@@ -97,24 +101,54 @@ static bool map_add(struct uses *uses, struct span at, unsigned int use)
 	return again;
 }
 
-static uint8_t *flags_of(struct uses *uses, const struct meaning *meaning)
+/* Of a meaning with a variable. */
+static int number_of(const struct uses *uses, const struct meaning *meaning)
 {
-	int table = 0;
+	const int table = meaning->pou ? (int)(meaning->pou - uses->project->pou) + 1 : 0;
 
-	if (meaning->pou)
-		table = (int)(meaning->pou - uses->project->pou) + 1;
-	return &uses->flags[uses->base[table] + meaning->index];
+	return uses->base[table] + meaning->index;
+}
+
+/* An element, a member, a pin, a bit of a number. */
+static bool is_part(const struct meaning *meaning)
+{
+	return meaning->kind == MEANING_ELEMENT || meaning->kind == MEANING_PIN || meaning->part ||
+	       meaning->offset > 0;
+}
+
+/* A coil writes a part of variable @number. True: another one writes a bit of it, too. */
+static bool part_add(struct uses *uses, int number, const struct meaning *meaning)
+{
+	const struct extent whole = shape_of_var(&uses->project->words, meaning->var);
+	const unsigned int bits = meaning->type == IEC_BOOL && meaning->part ? 1 :
+				  meaning->type == IEC_STRING ? 8 :
+				  8u * iec_type_row(meaning->type)->size;
+	const uint64_t first = meaning->offset * (uint64_t)8 + (meaning->part ? meaning->first % 8 : 0);
+	const struct span at = { (uint32_t)first, bits };
+	bool again;
+
+	if (first + bits > whole.size * 8 || whole.size * 8 > UINT32_MAX)
+		return false;
+	if (!uses->coils)
+		uses->coils = arena_alloc(uses->arena, sizeof(*uses->coils) * (size_t)uses->count);
+	if (uses->coils && !uses->coils[number])
+		uses->coils[number] = arena_alloc(uses->arena, (size_t)whole.size);
+	if (!uses->coils || !uses->coils[number])
+		return false;
+	again = uses->flags[number] & USE_COIL || map_has(uses->coils[number], at);
+	map_set(uses->coils[number], at);
+	return again;
 }
 
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use)
 {
-	unsigned int once = use & (USE_COIL | USE_CALLED);
+	const unsigned int once = use & (USE_COIL | USE_CALLED);
 	bool again = false;
-	uint8_t *flags;
+	int number;
 
 	/* Two computed indices seldom reach the same element, so they do not conflict. */
-	if (meaning_is_indexed(meaning))
+	if (meaning->opens > 0 || meaning->through)
 		use &= ~(unsigned int)USE_COIL;
 
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
@@ -124,15 +158,17 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 					      meaning_reach(meaning)), use);
 	if (!meaning->var)
 		return again;
-	flags = flags_of(uses, meaning);
-	if (meaning->kind == MEANING_ELEMENT || meaning->var->array.count)
-		use &= ~(unsigned int)USE_COIL; /* two places of one variable */
-	else if (meaning->kind == MEANING_PIN)
-		again = false; /* as are two pins of an instance */
-	else
-		again |= (*flags & once) != 0;
-	again &= !(*flags & USE_TWICE);
-	*flags |= (uint8_t)(use | (again ? USE_TWICE : 0));
+	number = number_of(uses, meaning);
+	if (is_part(meaning) || meaning->var->array.count) {
+		if (use & USE_COIL && meaning->addr.area == AREA_NONE)
+			again = part_add(uses, number, meaning);
+		uses->flags[number] |= (uint8_t)(use & ~(unsigned int)USE_COIL);
+		return again;
+	}
+	again |= (uses->flags[number] & once) != 0 ||
+		 (use & USE_COIL && uses->coils && uses->coils[number]);
+	again &= !(uses->flags[number] & USE_TWICE);
+	uses->flags[number] |= (uint8_t)(use | (again ? USE_TWICE : 0));
 	return again;
 }
 

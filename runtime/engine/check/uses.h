@@ -28,7 +28,11 @@ struct uses {
 	const struct areas *areas; /* of the scope                            */
 	uint8_t *flags;       /* of every declared variable                   */
 	int *base;            /* of the globals, then of each POU: its first  */
+	int count;            /* of declared variables                        */
 	struct use_map map;
+	struct arena *arena;
+	uint8_t **coils;      /* NULL, or of every declared variable NULL or a bit for each bit of
+				 it: written by a coil that names a part of it */
 };
 
 /** uses_init - nothing is used yet. @scope: borrowed. Owns: @arena. Fails: false: no memory. */
@@ -38,7 +42,8 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
  * uses_add - notes one use
  * @use: USE_READ, USE_WRITTEN, USE_CALLED, or USE_WRITTEN | USE_COIL
  *
- * True when this is the second coil or the second call of the same place: once.
+ * True when this is the second coil or the second call of the same place, or of places that share a
+ * bit; of a whole variable once.
  */
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use);

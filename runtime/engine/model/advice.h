@@ -35,6 +35,7 @@ enum expect_kind {
 	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: qualifiers of a line of a step  */
 	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
 	EXPECT_VALUE       = 1 << 16, /* of an enumeration                      */
+	EXPECT_PART        = 1 << 17, /* of a number: 3, %B1                    */
 };
 
 struct mend_line;

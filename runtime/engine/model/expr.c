@@ -11,6 +11,7 @@
 #include "engine/base/literal.h"
 #include "engine/base/lex.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define PENDING (LIMIT_EXPR_DEPTH * 3) /* operators that still need a right operand */
@@ -223,12 +224,29 @@ size_t expr_array(const char *text, size_t len)
 
 /* ---- parts of bit strings ---- */
 
+static const struct { char letter; uint8_t bits; } sizes[] = {
+	{ 'X', 1 }, { 'B', 8 }, { 'W', 16 }, { 'D', 32 }, { 'L', 64 },
+};
+
+unsigned int expr_part_print(unsigned int of, bool percent, int index, char *out, size_t size)
+{
+	for (size_t i = 0; i < sizeof(sizes) / sizeof(*sizes) && sizes[i].bits < of; i++) {
+		const int count = (int)(of / sizes[i].bits);
+
+		if (index < count && i == 0 && !percent)
+			snprintf(out, size, "%d", index);
+		else if (index < count)
+			snprintf(out, size, "%%%c%d", sizes[i].letter, index);
+		if (index < count)
+			return sizes[i].bits;
+		index -= count;
+	}
+	return 0;
+}
+
 /* `3`, `%X3`, `%B1`. */
 static bool one_part(const char *at, size_t len, unsigned int *bits, unsigned int *number)
 {
-	static const struct { char letter; uint8_t bits; } sizes[] = {
-		{ 'X', 1 }, { 'B', 8 }, { 'W', 16 }, { 'D', 32 }, { 'L', 64 },
-	};
 	const char *end = at + len;
 
 	*bits = len && *at != '%' ? 1 : 0;

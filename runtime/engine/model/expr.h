@@ -104,6 +104,10 @@ size_t expr_array(const char *text, size_t len);
 /** expr_part - which bits an EXPR_BIT names: @number parts of @bits each lie below them.
  * Scan-safe: yes. Fails: false: it is no such part. */
 bool expr_part(struct expr_tail tail, unsigned int *bits, unsigned int *number);
+/** expr_part_print - the name of part @index of a number of @of bits: `3`, or with @percent `%X3`, for its
+ * bits, then `%B1` and the greater ones. Returns bits of the part; 0: there are not so many.
+ * Scan-safe: yes. */
+unsigned int expr_part_print(unsigned int of, bool percent, int index, char *out, size_t size);
 /** expr_parse_text - the same of a whole text. */
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		     struct diag_list *diags, struct diag place);

@@ -353,9 +353,11 @@ static void scan(struct walk *walk, const char *text, size_t len)
 			last->open = true;
 		last = NULL;
 		if ((token->kind == TOKEN_NAME || token->kind == TOKEN_ADDRESS) &&
-		    is_address(walk, token->text, token->len, &addr))
+		    is_address(walk, token->text, token->len, &addr)) {
+			xref_part(&lex, &addr);
 			last = add(walk, (struct xref_target){ XREF_ADDRESS, 0, 0, addr },
 				   XREF_READ);
+		}
 	}
 }
 

@@ -12,6 +12,7 @@
 #include "engine/check/scope.h"
 #include "engine/model/st.h"
 #include "engine/model/args.h"
+#include "engine/model/expr.h"
 #include "engine/model/init.h"
 #include "engine/model/loop.h"
 #include "engine/model/named.h"
@@ -246,11 +247,33 @@ static const struct meaning *mean(const struct scan *scan, const char *text, siz
 			  names_intern(&walk->project->names, text, len), &why);
 }
 
+size_t xref_part(const struct lex *lex, struct iec_addr *addr)
+{
+	const struct token *token = &lex->token;
+	struct lex ahead = *lex;
+	struct expr_tail tail = { NULL, 0 };
+	unsigned int bits, number;
+
+	while (lex_next(&ahead) != TOKEN_END && lex_is(&ahead, ".") &&
+	       (lex_next(&ahead) == TOKEN_ADDRESS || ahead.token.kind == TOKEN_NUMBER)) {
+		if (!tail.text)
+			tail.text = ahead.token.text;
+		tail.len = (uint16_t)(ahead.token.text + ahead.token.len - tail.text);
+	}
+	if (!tail.len || !expr_part(tail, &bits, &number) || bits * (number + 1) > addr->bits)
+		return token->len;
+	addr->byte += bits * number / 8;
+	addr->bit = (uint8_t)(bits * number % 8);
+	addr->bits = (uint8_t)bits;
+	return (size_t)(tail.text - token->text) + tail.len;
+}
+
 static void add_address(struct scan *scan, const struct token *token,
 			struct iec_addr addr)
 {
-	add(scan, (struct xref_target){ XREF_ADDRESS, 0, 0, addr }, token->text,
-	    token->len);
+	const size_t len = xref_part(&scan->lex, &addr);
+
+	add(scan, (struct xref_target){ XREF_ADDRESS, 0, 0, addr }, token->text, len);
 }
 
 /* A value of an enumeration, with its type or without. False: it is none. */

@@ -11,6 +11,8 @@
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
 
+struct lex;
+
 enum xref_what {
 	XREF_UNKNOWN,    /* an unknown name                                   */
 	XREF_VARIABLE,   /* also an instance, and a member of a structure     */
@@ -91,6 +93,9 @@ bool xref_make(struct xref *out, struct project *project);
  */
 bool xref_addresses(struct xref *out, struct project *project);
 void xref_free(struct xref *xref);
+/** xref_part - @addr is the address at the lexer; becomes the part that is named behind it: `%MW12.%X9` is
+ * %MX13.1. Returns bytes of both. Scan-safe: yes. */
+size_t xref_part(const struct lex *lex, struct iec_addr *addr);
 
 /** xref_same - whether both mean the same thing; addresses: the same bits. */
 bool xref_same(const struct xref_target *a, const struct xref_target *b);

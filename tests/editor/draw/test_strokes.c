@@ -220,6 +220,41 @@ static void check_badges(struct sheet *sheet)
 	picture_clear(&picture);
 }
 
+/* Coils in series: the power of the first one goes on to the others. */
+static void check_series(struct lettering *lettering)
+{
+	static const char text[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n"
+				   "  | NO I0 | COIL Q0 | COIL Q1 |\nEND_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+	uint8_t cell[8];
+	struct grid_live live = { cell, NULL, NULL };
+	struct grid_scene scene = { .live = &live, .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+	struct picture picture;
+	struct project *project;
+	struct sheet *sheet;
+	int idle = 0, dotted = 0;
+
+	ladder_load_text(ladder, "a.rung", text, sizeof(text) - 1);
+	project = ladder_project(ladder);
+	sheet = sheet_new(project, &project->pou[0], lettering);
+	sheet_layout(sheet);
+	memset(cell, LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED, sizeof(cell));
+	scene.drafting = &sheet->drafting;
+	scene.layout = sheet->rung[0];
+	picture_init(&picture);
+	grid_draw(&scene, &picture);
+	for (int i = 0; i < picture.count; i++) {
+		dotted += picture.stroke[i].style == STROKE_DOTTED;
+		idle += picture.stroke[i].kind == STROKE_LINE && picture.stroke[i].token == TOKEN_IDLE;
+	}
+	CHECK(dotted == 0 && picture.count > 0);
+	if (!CHECK(idle <= 1)) /* the right rail */
+		printf("# %d lines without power\n", idle);
+	picture_clear(&picture);
+	sheet_free(sheet);
+	ladder_free(ladder);
+}
+
 static const char *note_of(void *context, int row, int column)
 {
 	(void)context;
@@ -376,6 +411,7 @@ int main(int argc, char **argv)
 	draw_live(sheet);
 	draw_marks(sheet);
 	check_badges(sheet);
+	check_series(lettering);
 	draw_blockers(sheet);
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_NO_GUTTER,
 					    .reference = reference_of }, "paper");

@@ -343,6 +343,11 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "TON FanDelay P_", "PT:= new:P@ new:P@%IL8 new:P@%ML8" },
 	{ "TON FanDelay W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
 	{ "TON FanDelay PT:=W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
+	/* bits and bytes of a number */
+	{ "NO Level.1_", "Level.1 Level.10 Level.11 Level.12 Level.13 Level.14 Level.15" },
+	{ "NO Level.%x1_", "Level.%X1 Level.%X10 Level.%X11 Level.%X12 Level.%X13 Level.%X14 Level.%X15" },
+	{ ">COIL Level.%_", "Level.%X0 Level.%X1 Level.%X2 Level.%X3 Level.%X4 Level.%X5 Level.%X6 Level.%X7 Level.%X8" },
+	{ "NO Heat._", "" }, { "[ Level.%B_ ]", "Level.%B0 Level.%B1" }, { ">%MW4.15_", "%MW4.15" },
 	{ "JMP _", "Top" }, { "CALL A_", "Alarm" },
 	{ "NO I0.0_", "Start" }, { "NO %IX0.0_", "Start" }, { "NO %IX0_", "Start Stop %IX0.7" },
 	{ "Level > L_", "Level LEN( LIMIT( LN( LOG( Full new:L@ new:L@%IW2 new:L@%MW2" },

@@ -49,6 +49,22 @@ RUNG "The program itself"
   | NO Halt | STOP |
 END_PROGRAM
 '''
+BITS = '''RUNGBOARD 1
+
+VAR
+  W : INT := 1;
+  In AT %IW0 : WORD;
+  Motor AT %QX0.0 : BOOL;
+  Lamp AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO W.3 | NO W.%X15 | COIL Motor |
+RUNG
+  | NC In.9 | COIL Lamp | COIL W.1 |
+END_PROGRAM
+'''
 PLANT = '''RUNGBOARD 1
 
 PROGRAM World LD
@@ -99,6 +115,35 @@ def errors(screen):
     editor.says('no problems')
     editor.click(editor.find('Simulate'))
     runs(editor)
+
+
+def bits(screen):
+    """a bit of a number is switched as a BOOL is, by a click and by Space; a forced number stays forced"""
+    editor = Editor(screen, new_file(screen, BITS))
+    editor.to_sheet()
+    editor.click(editor.find('Simulate'))
+    runs(editor)
+    editor.element('Rung 1, NO', 'W.3, open')
+    editor.element('Rung 2, COIL', 'W.1, on')
+    editor.click(editor.element('Rung 1, NO', 'W.3'))
+    editor.element('Rung 1, NO', 'W.3, closed')
+    editor.says('W = 11')
+    editor.keys('Right', 'space')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.says('W = -32757')
+    editor.shot('running-bits')
+    editor.keys('space')
+    editor.element('Rung 1, COIL', 'Motor', ', off')
+    editor.click(editor.element('Rung 2, NC', 'In.9'))
+    editor.element('Rung 2, COIL', 'Lamp', ', off')
+    editor.element('Rung 2, COIL', 'W.1, off')
+    editor.keys('ctrl+shift+f')
+    editor.says('In is forced')
+    editor.keys('space')
+    editor.element('Rung 2, COIL', 'Lamp', ', on')
+    editor.element('Rung 2, NC', 'In.9', 'forced')
+    editor.keys('ctrl+shift+f')
+    editor.says('In is released')
 
 
 def plant(screen):
@@ -341,4 +386,4 @@ def closing(screen):
     check(path)
 
 
-main([errors, plant, zero, safe, starts, paces, closing])
+main([errors, bits, plant, zero, safe, starts, paces, closing])

@@ -22,6 +22,7 @@ static const char text[] =
 	"  |         ^| TON Delay PT:=T#3s Q=>Motor              | S I0       |\n"
 	"RUNG OFF\n  | NO Nobody | JMP Here |\n"
 	"RUNG\n  | [ Note = 'Count' ] | JMP Lost |\n"
+	"RUNG\n  | NO %MW60.%X9 | COIL %MX61.1 | COIL %MW60.9 |\n"
 	"RUNG\n  | NO %IX0.0 | FOR Count := 1 TO %MW8[Count] |\nRUNG\n  | NEXT |\n"
 	"END_PROGRAM\n\n"
 	"PROGRAM List IL\n  LD    Count\n  ST    Some[2].Speed\n  CAL   Delay(IN := Start)\n"
@@ -67,8 +68,8 @@ static void test_uses(struct ladder *ladder)
 		"Main 1 (2,2) written\nList 0 (8,9) reset\n");
 	is_used(ladder, "Count", "- 0 (0,0) declared\nList 0 (2,9) read\n");
 	is_used(ladder, "Main.Count", "Main 0 (0,0) declared\nMain 1 (1,2) written\n"
-		"Main 1 (1,2) read\nMain 1 (1,2) read\nMain 4 (1,2) changed\n"
-		"Main 4 (1,2) read\n");
+		"Main 1 (1,2) read\nMain 1 (1,2) read\nMain 5 (1,2) changed\n"
+		"Main 5 (1,2) read\n");
 	is_used(ladder, "Some", "- 0 (0,0) declared\nMain 1 (1,2) read open\n"
 		"List 0 (3,9) written open\n");
 	is_used(ladder, "Recipe", "- 0 (0,0) type\n- 0 (0,0) declared\n");
@@ -80,8 +81,10 @@ static void test_uses(struct ladder *ladder)
 	is_used(ladder, "Main:Lost", "Main 3 (1,2) jumped to\n");
 	is_used(ladder, "List:End1", "List 0 (6,0) declared\nList 0 (5,9) jumped to\n");
 	is_used(ladder, "Nobody", "Main 2 (1,1) read off\n");
-	is_used(ladder, "%IX0.0", "Main 1 (2,3) set\nMain 4 (1,1) read\n");
-	is_used(ladder, "%MW8", "Main 4 (1,2) read open\n");
+	is_used(ladder, "%IX0.0", "Main 1 (2,3) set\nMain 5 (1,1) read\n");
+	is_used(ladder, "%MW8", "Main 5 (1,2) read open\n");
+	is_used(ladder, "%MW60", ""); /* a part of it is another address */
+	is_used(ladder, "%MX61.1", "Main 4 (1,1) read\nMain 4 (1,2) coil\nMain 4 (1,3) coil\n");
 	is_used(ladder, "Note", "- 0 (0,0) declared\nMain 3 (1,1) read\n");
 }
 
@@ -257,7 +260,7 @@ static void test_things(struct ladder *ladder)
 			thing[i].coils, thing[i].writes, thing[i].open ? " open" : "");
 	}
 	CHECK_TEXT(out, "Start 0-1 2 0 0\n%IX0.0 0-1 2 0 0\nMotor 0-1 3 1 1\nWide 0-8 0 0 0\n"
-		"%QW0 0-16 1 0 0\nLamps 8-18 0 0 0\n%MW8 64-80 1 0 0 open\n");
+		"%QW0 0-16 1 0 0\nLamps 8-18 0 0 0\n%MW8 64-80 1 0 0 open\n%MX61.1 489-490 3 2 0\n");
 	xref_free(&xref);
 }
 
