@@ -5,11 +5,8 @@
  */
 #include "hal/sim.h"
 
-#include <string.h>
-
 struct sim_state {
 	uint64_t level;
-	int error;
 	bool used; /* levels stay over close and open, as on a wire */
 };
 
@@ -17,9 +14,7 @@ static bool sim_open(struct request *request, struct trouble *why)
 {
 	struct sim_state *state = request->state;
 
-	if (state->error)
-		return trouble_set(why, DIAG_IO_REQUEST, "%s",
-				   strerror(state->error));
+	(void)why;
 	if (request->output) {
 		state->level = request->first;
 		return true;
@@ -41,15 +36,13 @@ static int sim_read(struct request *request, uint64_t *levels)
 	const struct sim_state *state = request->state;
 
 	*levels = state->level;
-	return -state->error;
+	return 0;
 }
 
 static int sim_write(struct request *request, uint64_t levels)
 {
 	struct sim_state *state = request->state;
 
-	if (state->error)
-		return -state->error;
 	state->level = levels;
 	return 0;
 }
@@ -60,20 +53,6 @@ void sim_set(struct request *request, uint32_t line, bool level)
 	uint64_t mask = UINT64_C(1) << line;
 
 	state->level = level ? state->level | mask : state->level & ~mask;
-}
-
-bool sim_get(const struct request *request, uint32_t line)
-{
-	const struct sim_state *state = request->state;
-
-	return state->level >> line & 1;
-}
-
-void sim_fail(struct request *request, int error)
-{
-	struct sim_state *state = request->state;
-
-	state->error = error;
 }
 
 const struct driver driver_sim = {

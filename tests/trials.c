@@ -75,10 +75,12 @@ static bool level(const char *text)
 	struct iec_addr addr;
 	struct request *request;
 	uint32_t line = 0;
+	uint64_t levels = 0;
 
 	iec_addr_parse(text, strlen(text), &addr);
 	request = hal_find(&cycle.hal, addr, &line);
-	return sim_get(request, line);
+	request->driver->read(request, &levels);
+	return levels >> line & 1;
 }
 
 static bool at_the_scan(enum kind kind)

@@ -87,11 +87,6 @@ static void set_why(LadderBoardValues *values, const char *why)
 	g_free(before);
 }
 
-const char *ladder_board_values_why(LadderBoardValues *values)
-{
-	return values->why;
-}
-
 /* ---- sets ---- */
 
 static void set_unref(gpointer pointer)

@@ -7,7 +7,8 @@
  * from its first values on, nothing while the link is lost, and the new program when the board
  * gets one. It has no widget.
  *
- * Signal: mended (const char *why): what ladder_board_values_why() said is true no more.
+ * It tells by `told` of the simulation why the views show nothing although the link is connected.
+ * Signal: mended (const char *why): this is true no more.
  */
 #ifndef EDITOR_BOARD_VALUES_H
 #define EDITOR_BOARD_VALUES_H
@@ -21,9 +22,6 @@ G_DECLARE_FINAL_TYPE(LadderBoardValues, ladder_board_values, LADDER, BOARD_VALUE
 /** ladder_board_values_new - @sim, @link: referenced. What @sim runs ends when the link is
  * connected. */
 LadderBoardValues *ladder_board_values_new(LadderSim *sim, LadderBoardLink *link);
-/** ladder_board_values_why - why the views show nothing although the link is connected; "": they
- * do, or will. Borrowed until it changes, with `told` of the simulation. */
-const char *ladder_board_values_why(LadderBoardValues *values);
 /** ladder_board_values_took_read - whether the board logs a read of its program that no person
  * wanted: it was read to show its values. True once for each. */
 bool ladder_board_values_took_read(LadderBoardValues *values);

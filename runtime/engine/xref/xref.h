@@ -120,8 +120,6 @@ int xref_name(const struct project *project, const struct xref_target *target,
 /** xref_rank - the order of things in lists: names in the order of declarations, then
  * addresses, then unknown names. */
 int64_t xref_rank(const struct xref_target *target);
-/** xref_kind_word - "coil", "read". Static. */
-const char *xref_kind_word(enum xref_kind kind);
 /** xref_text - the whole text of the use; "" for none. */
 const char *xref_text(const struct xref *xref, const struct xref_use *use);
 

@@ -18,11 +18,6 @@ static const char *const kind_words[XREF_KINDS] = {
 	[XREF_INITIAL] = "initial",
 };
 
-const char *xref_kind_word(enum xref_kind kind)
-{
-	return kind_words[kind];
-}
-
 const char *xref_text(const struct xref *xref, const struct xref_use *use)
 {
 	return use->slot ? project_text(xref->project, *use->slot) : "";

@@ -28,6 +28,14 @@ static const char text[] =
 	"PROGRAM List IL\n  LD    Count\n  ST    Some[2].Speed\n  CAL   Delay(IN := Start)\n"
 	"  JMPC  End1\nEnd1:\n  LD    %QW0\n  R     Motor\nEND_PROGRAM\n";
 
+static const char *const kind_words[XREF_KINDS] = {
+	[XREF_DECLARED] = "declared", [XREF_TYPE] = "type", [XREF_READ] = "read",
+	[XREF_WRITTEN] = "written", [XREF_CHANGED] = "changed", [XREF_COIL] = "coil",
+	[XREF_SET] = "set", [XREF_RESET] = "reset", [XREF_CALLED] = "called",
+	[XREF_JUMPED] = "jumped to", [XREF_RUN] = "run",
+	[XREF_LEFT] = "left", [XREF_ENTERED] = "entered", [XREF_INITIAL] = "initial",
+};
+
 /* "Main 1 (1,2) written Main.Count", a line each. */
 static void print_uses(struct ladder *ladder, const char *name, char *out, size_t size)
 {
@@ -47,7 +55,7 @@ static void print_uses(struct ladder *ladder, const char *name, char *out, size_
 		len += (size_t)snprintf(out + len, size - len, "%s %d (%d,%d) %s%s%s\n",
 			use->pou < 0 ? "-" :
 			project_text(project, project->pou[use->pou].name),
-			use->rung, use->row, use->col, xref_kind_word(use->kind),
+			use->rung, use->row, use->col, kind_words[use->kind],
 			use->off ? " off" : "", use->open ? " open" : "");
 	}
 	xref_free(&xref);
