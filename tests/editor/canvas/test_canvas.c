@@ -208,6 +208,41 @@ static void test_marks(LadderDocument *document)
 	g_bytes_unref(later);
 }
 
+static int cell_count(GtkWidget *page)
+{
+	int count = 0;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(page); child;
+	     child = gtk_widget_get_next_sibling(child))
+		count += !GTK_IS_POPOVER(child);
+	return count;
+}
+
+/* A screen reader finds the elements that the window shows, also after the window has grown. */
+static void test_grows(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\n\nPROGRAM Main LD\n");
+	LadderDocument *document = ladder_document_new();
+	GtkWidget *page;
+	int few;
+
+	for (int i = 0; i < 40; i++)
+		g_string_append(text, "RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n");
+	g_string_append(text, "END_PROGRAM\n");
+	ladder_document_open_text(document, NULL, text->str, text->len, true);
+	page = ladder_grid_view_new(document, 0);
+	gtk_window_set_child(GTK_WINDOW(window), page);
+	CHECK_SOON(gtk_widget_get_height(page) > 0 && cell_count(page) > 0);
+	few = cell_count(page);
+	CHECK(few < 40);
+	gtk_window_set_default_size(GTK_WINDOW(window), 500, 700);
+	CHECK_SOON(gtk_widget_get_height(page) > 600);
+	CHECK_SOON(cell_count(page) > 2 * few);
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+	g_object_unref(document);
+	g_string_free(text, TRUE);
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 500, 200, &window);
@@ -220,6 +255,7 @@ int main(void)
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	test_drag(document);
 	test_marks(document);
+	test_grows();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);

@@ -189,34 +189,35 @@ static void draw_marks(struct sheet *sheet)
 	draw(sheet, 0, (struct grid_scene){ .takes = takes }, "takes");
 }
 
-/* A coil may be forced and written twice: the two badges have room between them. */
-static void check_badges(struct sheet *sheet)
+/* What is marked may be forced, written twice and wrong at run time: its badges have room between
+ * them. */
+static void check_badges(struct sheet *sheet, int rung, struct grid_mark mark, int count)
 {
-	static const struct grid_mark mark[] = { { 0, 5, MARK_FORCED | MARK_TWICE } };
 	const struct grid_scene scene = { .drafting = &sheet->drafting,
-					  .layout = sheet->rung[0], .mark = mark,
-					  .mark_count = G_N_ELEMENTS(mark),
+					  .layout = sheet->rung[rung], .mark = &mark,
+					  .mark_count = 1,
 					  .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
-	graphene_rect_t badge[2], wide;
+	graphene_rect_t badge[8], wide;
 	struct picture picture;
 	int badges = 0;
 
 	picture_init(&picture);
 	grid_draw(&scene, &picture);
-	for (int i = 0; i < picture.count; i++) {
+	for (int i = 0; i < picture.count && badges < 8; i++) {
 		const struct stroke *stroke = &picture.stroke[i];
 
-		if (stroke->kind != STROKE_FILL || stroke->token != TOKEN_FORCE)
-			continue;
-		if (badges < 2)
-			badge[badges] = GRAPHENE_RECT_INIT(stroke->x, stroke->y, stroke->w,
-							   stroke->h);
-		badges++;
+		if (stroke->kind == STROKE_FILL && stroke->h == 13 &&
+		    (stroke->token == TOKEN_FORCE || stroke->token == TOKEN_ERROR))
+			badge[badges++] = GRAPHENE_RECT_INIT(stroke->x, stroke->y, stroke->w,
+							     stroke->h);
 	}
-	CHECK(badges == 2);
-	graphene_rect_inset_r(&badge[0], -2, -2, &wide);
-	CHECK_AS(!graphene_rect_intersection(&wide, &badge[1], NULL),
-		 "badges of a force and of a coil written twice touch");
+	CHECK_AS(badges == count, "each mark has its badge");
+	for (int i = 0; i < badges; i++)
+		for (int other = 0; other < i; other++) {
+			graphene_rect_inset_r(&badge[i], -1, -1, &wide);
+			CHECK_AS(!graphene_rect_intersection(&wide, &badge[other], NULL),
+				 "two badges touch");
+		}
 	picture_clear(&picture);
 }
 
@@ -410,7 +411,9 @@ int main(int argc, char **argv)
 	}
 	draw_live(sheet);
 	draw_marks(sheet);
-	check_badges(sheet);
+	check_badges(sheet, 0, (struct grid_mark){ 0, 5, MARK_FORCED | MARK_TWICE }, 2);
+	check_badges(sheet, 3, (struct grid_mark){ 0, 1, MARK_FORCED | MARK_TWICE | MARK_FAILED }, 3);
+	check_badges(sheet, 3, (struct grid_mark){ 0, 1, MARK_TWICE | MARK_FAILED }, 2);
 	check_series(lettering);
 	draw_blockers(sheet);
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_NO_GUTTER,

@@ -673,6 +673,22 @@ static void check_notes(const struct entry_place *place)
 	CHECK_TEXT(note ? note : "", "Timers · on-delay timer");
 }
 
+/* A line has room with its end, or is refused: none is cut. */
+static void check_length(const struct entry_place *place)
+{
+	static struct entry entry;
+	char line[ENTRY_TEXT + 2];
+
+	for (size_t len = ENTRY_TEXT - 2; len <= ENTRY_TEXT + 1; len++) {
+		memset(line, 'x', len);
+		line[len] = '\0';
+		entry_read(place, line, &entry);
+		CHECK_AS((entry.why && strcmp(entry.why, "the line is too long") == 0) ==
+			 (len >= ENTRY_TEXT),
+			 "a line of ENTRY_TEXT bytes has no room for its end");
+	}
+}
+
 int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
@@ -694,6 +710,7 @@ int main(int argc, char **argv)
 	check_duplicates(&place);
 	check_conditions();
 	check_any(&place);
+	check_length(&place);
 	check_page();
 	ladder_free(ladder);
 	return tap_done();

@@ -208,6 +208,46 @@ static bool rows_follow(void)
 	return i > 100 && wrong == 0;
 }
 
+/* The keys of each command of the window are known to the application, those of sheets are not:
+ * there a letter is typed. */
+static void check_keys(void)
+{
+	GtkApplication *application = gtk_application_new("io.github.rungboard.test",
+							  G_APPLICATION_NON_UNIQUE);
+	int wrong = 0;
+
+	CHECK(g_application_register(G_APPLICATION(application), NULL, NULL));
+	for (int scheme = 0; scheme < KEY_SCHEMES; scheme++) {
+		verbs_use_scheme(application, (enum key_scheme)scheme);
+		for (int i = 0; i < VERB_COUNT; i++) {
+			const bool given = verb_row((enum verb)i)->where == VERB_WINDOW;
+			char **keys = g_strsplit(given ? verb_keys((enum verb)i) : "", "|", -1);
+			char **got;
+
+			for (char **key = keys; *key; key++) {
+				GdkModifierType state;
+				guint value;
+
+				gtk_accelerator_parse(*key, &value, &state);
+				g_free(*key);
+				*key = gtk_accelerator_name(value, state);
+			}
+			got = gtk_application_get_accels_for_action(application,
+				verb_row((enum verb)i)->action);
+
+			if (!g_strv_equal((const char *const *)keys, (const char *const *)got)) {
+				printf("# %s of scheme %d\n", verb_row((enum verb)i)->action, scheme);
+				wrong++;
+			}
+			g_strfreev(keys);
+			g_strfreev(got);
+		}
+	}
+	CHECK_AS(wrong == 0, "each command of the window has its keys");
+	verbs_use_scheme(application, SCHEME_RUNGBOARD);
+	g_object_unref(application);
+}
+
 static void check_simulated(void)
 {
 	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
@@ -313,6 +353,7 @@ int main(void)
 	adw_init();
 	gtk_source_init();
 	app_style();
+	check_keys();
 	check_pages();
 	return tap_done();
 }
