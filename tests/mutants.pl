@@ -57,7 +57,7 @@ sub run_test {
 	my $command = $file =~ /\.py$/ ? "/usr/bin/python3 $test" : $file =~ m{^build/} ? $test :
 		slurp($file) =~ /^#!.*perl/ ? "perl $test" : "sh $test";
 	my $output = qx(cd $COPY && BUILD=build LADDER=build/ladder timeout $SECONDS $command 2>&1);
-	return $? != 0 || $output =~ /^not ok/m;
+	return $? != 0 || $output !~ /^ok/m || $output =~ /^not ok/m;
 }
 
 sub build { my ($what) = @_; return system("cd $COPY && make -s -j2 CC='$CC' $what >mutant.log 2>&1") == 0; }

@@ -3723,6 +3723,8 @@ def main(names):
     global BUILD  # pylint: disable=global-statement
     tests = [it for name, it in names.items() if name.startswith('test_') and
              (not sys.argv[1:] or name in sys.argv[1:])]
+    if not tests:
+        sys.exit(f'no test has one of the names: {" ".join(sys.argv[1:])}')
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
         # Where the other users can reach them.

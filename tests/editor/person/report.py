@@ -21,7 +21,8 @@ def chosen(tests):
     """The tests that the command line names; with QUICK=ROOM… those whose `quick` is one of the rooms; otherwise
     all."""
     if sys.argv[1:]:
-        return [test for test in tests if test.__name__ in sys.argv[1:]]
+        named = [test for test in tests if test.__name__ in sys.argv[1:]]
+        return named or sys.exit(f'no test has one of the names: {" ".join(sys.argv[1:])}')
     rooms = os.environ.get('QUICK', '').split()
     return [test for test in tests if getattr(test, 'quick', '') in rooms] or \
         (rooms and [test for test in tests if getattr(test, 'quick', '') == 'editor-gtk/window']) or tests

@@ -267,6 +267,31 @@ static void refuses_initial_values(void)
 	}
 }
 
+/* The byte of the initial values for this offset of the data; NULL: none. */
+static uint8_t *initial(uint32_t offset)
+{
+	uint32_t *init = section(CODE_INIT);
+	const uint32_t *end = init + header()->section[CODE_INIT].size / 4;
+
+	for (; init < end; init += 2 + (init[1] + 3) / 4)
+		if (offset >= init[0] && offset - init[0] < init[1])
+			return (uint8_t *)(init + 2) + (offset - init[0]);
+	return NULL;
+}
+
+/* A text has no more characters than its variable has room for. */
+static void refuses_initial_texts(void)
+{
+	for (uint16_t length = 0; length <= 12; length++) {
+		uint8_t *at = initial(run_of(RUN_VALUES, 0)->offset);
+
+		if (!CHECK_AS(at != NULL, "the image has the first text of Name"))
+			return;
+		memcpy(at + offsetof(struct iec_string, length), &length, sizeof(length));
+		CHECK_AS(refused() == (length > 8), "the length of a first text");
+	}
+}
+
 static void refuses_bits(void)
 {
 	struct code_bits *bits = section(CODE_BITS);
@@ -571,32 +596,45 @@ static void drops_maps(void)
 	fresh();
 }
 
-int main(void)
+/* Calls @checks with an image of the program; refused() damages a copy of it. */
+static void with_image(const char *program, void (*checks)(void))
 {
 	struct rig rig;
 
-	if (rig_open(&rig, source, true)) {
+	if (rig_open(&rig, program, true)) {
 		good = (void *)(uintptr_t)ladder_image(rig.ladder, &len);
 		image = aligned_alloc(8, (len + 7) / 8 * 8);
 		if (!image)
 			abort();
 		fresh();
-		refuses_headers();
-		refuses_sections();
-		refuses_bounds();
-		refuses_layouts();
-		refuses_initial_values();
-		refuses_bits();
-		refuses_programs();
-		refuses_bit_operands();
-		refuses_number_operands();
-		refuses_jumps();
-		refuses_maps();
-		names_symbols();
-		watching_is_no_other_program();
-		drops_maps();
+		checks();
 		free(image);
 	}
 	rig_close(&rig);
+}
+
+static void all_checks(void)
+{
+	refuses_headers();
+	refuses_sections();
+	refuses_bounds();
+	refuses_layouts();
+	refuses_initial_values();
+	refuses_bits();
+	refuses_programs();
+	refuses_bit_operands();
+	refuses_number_operands();
+	refuses_jumps();
+	refuses_maps();
+	names_symbols();
+	watching_is_no_other_program();
+	drops_maps();
+}
+
+int main(void)
+{
+	with_image(source, all_checks);
+	with_image("VAR\n  Name : STRING[8] := 'xyz';\nEND_VAR\nPROGRAM Main IL\nEND_PROGRAM\n",
+		   refuses_initial_texts);
 	return tap_done();
 }
