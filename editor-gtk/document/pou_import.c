@@ -193,7 +193,7 @@ static bool settle_names(struct ladder *from, const struct project *project,
 	for (int i = 0; good && i < wanted->structures; i++) {
 		const struct xref_target target = { .what = XREF_STRUCTURE, .index = i };
 
-		if (wanted->structure[i])
+		if (wanted->structure[i] && ladder_project(from)->structure[i].name)
 			good = settle(from, project, &target,
 				      ladder_project(from)->structure[i].name, told);
 	}
@@ -361,7 +361,7 @@ char *pou_import_needs(struct ladder *from, const bool *chosen)
 			if (wanted.pou[i])
 				add_name(out, project, project->pou[i].name);
 		for (int i = 0; i < wanted.structures; i++)
-			if (wanted.structure[i])
+			if (wanted.structure[i] && project->structure[i].name)
 				add_name(out, project, project->structure[i].name);
 		for (int i = 0; i < wanted.globals; i++)
 			if (wanted.global[i])

@@ -436,7 +436,8 @@ static void add_words(GString *out, const struct project *project, int table)
 {
 	add_named(out, project, table);
 	for (int i = 0; i < project->structure_count; i++)
-		g_string_append_printf(out, "TYPE\n  %s : STRUCT\n    X : INT;\n"
+		if (project->structure[i].name)
+			g_string_append_printf(out, "TYPE\n  %s : STRUCT\n    X : INT;\n"
 			"  END_STRUCT;\nEND_TYPE\n",
 			project_text(project, project->structure[i].name));
 	for (int i = 0; i < project->pou_count; i++)
@@ -481,20 +482,39 @@ static int named_in(const struct project *project)
 	return count;
 }
 
+/* The last structure with a name; -1: none. @count: how many have one. */
+static int last_structure(const struct project *project, int *count)
+{
+	int last = -1;
+
+	*count = 0;
+	for (int i = 0; i < project->structure_count; i++)
+		if (project->structure[i].name) {
+			last = i;
+			++*count;
+		}
+	return last;
+}
+
 /* Does the made project have the type that is tried, as the last one, and no other new one? */
 static bool is_alone_type(const struct project *made, const struct project *project,
 			  const char *name)
 {
+	int now, before;
+
+	last_structure(made, &now);
+	last_structure(project, &before);
 	return named_in(made) == named_in(project) && made->pou_count <= project->pou_count &&
-	       made->structure_count == project->structure_count &&
+	       now == before &&
 	       strcmp(type_name(made, type_count(made) - 1), name) == 0;
 }
 
 /* Does the made project have this declaration and no other? */
 static bool is_alone(const struct project *made, int table, int pous, const char *name)
 {
+	int count;
 	const struct var_table *vars = table == 0 ? &made->globals : table > pous ?
-		&made->structure[made->structure_count - 1].vars :
+		&made->structure[last_structure(made, &count)].vars :
 		&made->pou[made->pou_count - 1].vars;
 	const int first = listing_first(vars);
 

@@ -37,8 +37,10 @@ int type_count(const struct project *project)
 
 bool type_is(const struct project *project, int type)
 {
-	return type >= 0 && type < type_count(project) &&
-	       (type < project->structure_count || named_of(project, type)->like.var);
+	if (type < 0 || type >= type_count(project))
+		return false;
+	return type < project->structure_count ? project->structure[type].name != 0 :
+						 named_of(project, type)->like.var != NULL;
 }
 
 const char *type_name(const struct project *project, int type)
@@ -112,7 +114,7 @@ GArray *type_order(const struct project *project)
 			if (project->named[i].before == structure && type_is(project, type))
 				g_array_append_val(order, type);
 		}
-		if (structure < project->structure_count)
+		if (structure < project->structure_count && type_is(project, structure))
 			g_array_append_val(order, structure);
 	}
 	return order;

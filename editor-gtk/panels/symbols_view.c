@@ -145,8 +145,8 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 		g_ptr_array_add(name, (gpointer)project_text(project,
 							     project->pou[i].name));
 	for (int i = 0; project && i < project->structure_count; i++)
-		g_ptr_array_add(name, (gpointer)project_text(project,
-							project->structure[i].name));
+		g_ptr_array_add(name, (gpointer)(project->structure[i].name ?
+			project_text(project, project->structure[i].name) : "STRUCT"));
 	view->busy = true;
 	drop_fill(GTK_DROP_DOWN(view->scopes), name);
 	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->scopes), (guint)(view->table + 1));

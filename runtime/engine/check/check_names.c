@@ -360,15 +360,10 @@ static void check_located(struct names_check *c)
 
 static const char *const pointer_words[] = { "POINTER", "REF_TO", "REFERENCE" };
 
-/* A pointer may lead to its type; a type with a name may be anything. */
-static bool leads_well(const struct project *project, const struct var *like)
+/* A REFERENCE TO is what it leads to, so nothing leads to itself. */
+static bool leads_well(const struct var *like)
 {
-	while (like->named && project->named[like->named - 1].like.var)
-		like = project->named[like->named - 1].like.var;
-	if (like->type == IEC_NONE)
-		return !like->array.count &&
-		       words_row(&project->words, like->fb)->kind == WORD_STRUCT;
-	return like->dims < 2 && !(like->array.count && like->type == IEC_STRING) && !like->target;
+	return !like->target || like->target->word != REFERENCE_TO;
 }
 
 static void check_var(struct names_check *c, const struct pou *pou,
@@ -401,7 +396,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_var(c, DIAG_CONSTANT_NO_VALUE, pou, var, name);
 	if (var->points)
 		check_points(c, pou, var);
-	if (var->target && !leads_well(c->project, var->target->like))
+	if (var->target && !leads_well(var->target->like))
 		report_line(c, DIAG_POINTER_TYPE, pou, var->line, pointer_words[var->target->word]);
 	check_range(c, var, place);
 	if (init_has_parts(var))
@@ -477,6 +472,10 @@ static void check_members(struct names_check *c, int number)
 		if (mark)
 			mark->member_of = number;
 		note_declaration(c, NULL, var);
+		if (var->target && !leads_well(var->target->like))
+			c->good &= diag_add(c->diags, (struct diag){ .id = DIAG_POINTER_TYPE,
+				.line = var->line, .file = structure->file }, "%s",
+				pointer_words[var->target->word]);
 		check_range(c, var, (struct diag){ .line = var->line, .file = structure->file });
 		if (init_has_parts(var))
 			c->good &= check_init(c->project, var, &c->walk, c->scratch,
@@ -495,6 +494,10 @@ static void check_structures(struct names_check *c)
 		struct mark *mark = mark_of(c, fold);
 		const char *name = text_of(c, structure->name);
 
+		if (!structure->name) {
+			check_members(c, i + 1);
+			continue;
+		}
 		if (is_reserved(c, name, fold) || is_taken(c, name))
 			report_struct(c, DIAG_RESERVED_NAME, structure,
 				      structure->line, structure->name);

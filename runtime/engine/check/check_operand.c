@@ -531,10 +531,14 @@ static void use_element(struct operand_check *c, struct operand_spot at, uint32_
 		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) | (!write || m->through ? USE_READ : 0u));
 }
 
-/* A value, or if @whole an array, too. */
-static void read_whole(struct operand_check *c, struct operand_spot at, uint32_t id, bool whole)
+/* A value, or if @whole an array, too, and if @instance an instance. */
+static void read_whole(struct operand_check *c, struct operand_spot at, uint32_t id, bool whole,
+		       bool instance)
 {
-	if (whole && operand_is_array(c, id))
+	enum diag_id why;
+	const struct meaning *m = whole ? scope_find(c->scope, c->pou, id, &why) : NULL;
+
+	if (m && (m->kind == MEANING_ARRAY || (instance && m->kind == MEANING_INSTANCE)))
 		uses_add(c->uses, operand_find(c, at, id), USE_READ);
 	else
 		operand_read(c, at, id);
@@ -582,8 +586,7 @@ static void check_place(struct operand_check *c, struct operand_spot at, struct 
 		return; /* the name is told as any other */
 	if (!m)
 		operand_report(c, DIAG_ADR_OF, at, node->len ? text : "+");
-	else if (!m->var || (m->constant && !m->through) || m->addr.area != AREA_NONE ||
-		 m->kind == MEANING_INSTANCE)
+	else if (!m->var || (m->constant && !m->through) || m->addr.area != AREA_NONE)
 		operand_refuse(c, DIAG_ADR_OF, at, id, m);
 	else
 		uses_add(c->uses, m, USE_READ | USE_WRITTEN);
@@ -805,8 +808,8 @@ static void use_expression(struct operand_check *c, struct operand_spot at, stru
 		if (part->written)
 			continue;
 		if (part->op == EXPR_NAME)
-			read_whole(c, at, operand_intern(c, part->text, part->len),
-				   part->whole);
+			read_whole(c, at, operand_intern(c, part->text, part->len), part->whole,
+				   !expr->target || expr->target_points || i != expr->root);
 		else if (part->op == EXPR_INDEX && !part->inner)
 			use_element(c, at, use_indices(c, at, expr, i), false,
 				    part->whole);

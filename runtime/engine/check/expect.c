@@ -131,7 +131,7 @@ static void offer_row(const struct offer *o, const struct word_row *row)
 		give_row(o, EXPECT_FUNCTION, row);
 	if (row->kind == WORD_FB && o->want->kinds & EXPECT_BLOCK)
 		give_row(o, EXPECT_BLOCK, row);
-	if (row->kind == WORD_STRUCT && o->want->kinds & EXPECT_TYPE)
+	if (row->kind == WORD_STRUCT && o->want->kinds & EXPECT_TYPE && strcmp(row->word, "STRUCT") != 0)
 		give(o, EXPECT_TYPE, row->word, "structure");
 	if (element && o->want->kinds & EXPECT_ELEMENT)
 		give_row(o, EXPECT_ELEMENT, row);

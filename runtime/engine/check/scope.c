@@ -452,7 +452,7 @@ struct path {
 	const char *at, *end;
 	struct meaning m;        /* meaning of the path so far                */
 	int pin;                 /* the first part that was named; -1: none   */
-	struct open_index *open; /* room for LIMIT_INDICES                    */
+	struct open_index *open; /* room for LIMIT_INDICES, and a pointer     */
 	int opens;
 	const struct meaning *index_of, *pointer;
 	enum diag_id why;
@@ -529,6 +529,7 @@ static const struct var *declares(const struct scope *scope, uint16_t word, int 
 }
 
 static bool step_part(struct path *path, struct expr_tail tail);
+static bool follow_on(struct path *path);
 
 /* The action @name of the POU @owner; -1: it has none. */
 static int action_of(struct scope *scope, const struct pou *owner, const char *name, size_t len)
@@ -564,6 +565,8 @@ static bool step_into(struct path *path)
 	int index;
 
 	path->at++;
+	if (!follow_on(path))
+		return false;
 	len = take(path, ".[^", &name);
 	if (len && (*name == '%' || ascii_digit(*name)))
 		return step_part(path, (struct expr_tail){ name, (uint16_t)len });
@@ -755,6 +758,8 @@ static bool step_element(struct path *path)
 	size_t len;
 	char stop;
 
+	if (!follow_on(path))
+		return false;
 	do {
 		path->at++;
 		len = take(path, "[],", &text);
@@ -775,30 +780,75 @@ const struct areas *scope_areas(const struct scope *scope)
 	return &scope->areas;
 }
 
+/* @m has @count indices that are computed in the scan, the last of which is the pointer that leads to
+ * it, if one does. Scan-safe: no. Fails: false when memory is out. */
+static bool scope_keep_open(struct scope *scope, struct meaning *m,
+			    const struct open_index *open, int count)
+{
+	struct open_index *kept = arena_alloc(scope->arena,
+					      (size_t)count * sizeof(*kept));
+
+	if (!kept)
+		return false;
+	memcpy(kept, open, (size_t)count * sizeof(*kept));
+	m->open = kept;
+	m->opens = (uint8_t)(count - m->through);
+	return true;
+}
+
+static bool finish(struct path *path, struct meaning *out)
+{
+	struct meaning *m = &path->m;
+
+	m->index_of = path->index_of;
+	if (m->through && m->kind == MEANING_ARRAY && m->array.count == LIMIT_ELEMENTS)
+		m->array.count = path->count;
+	if (m->through)
+		path->open[path->opens++] = (struct open_index){ .of = path->pointer };
+	if (path->opens) {
+		if (!meaning_is_whole(m))
+			m->kind = MEANING_ELEMENT;
+		if (!scope_keep_open(path->scope, m, path->open, path->opens))
+			return refuse(path, DIAG_NO_MEMORY);
+	} else if (path->pin >= 0 && m->kind != MEANING_ARRAY) {
+		m->pin = path->pin;
+		if (m->kind == MEANING_ELEMENT)
+			m->kind = MEANING_PIN;
+	}
+	*out = *m;
+	return true;
+}
+
 /* What a pointer at @path leads to. */
 static bool mean_target(struct path *path, const struct var_target *target)
 {
 	const struct var *like = target->like;
-	struct meaning *pointer;
+	struct meaning *pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
 
-	while (like->named && scope_project(path->scope)->named[like->named - 1].like.var)
-		like = scope_project(path->scope)->named[like->named - 1].like.var;
-	if (like->dims > 1 || (like->array.count && (like->type == IEC_NONE || like->type == IEC_STRING)))
-		return refuse(path, DIAG_NOT_POINTER);
-	pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
 	if (!pointer)
 		return refuse(path, DIAG_NO_MEMORY);
-	*pointer = path->m;
+	if (!finish(path, pointer))
+		return false;
 	path->pointer = pointer;
+	path->opens = 0;
+	path->pin = -1;
+	path->index_of = NULL;
 	path->m = (struct meaning){
-		.kind = like->array.count ? MEANING_ARRAY : MEANING_ELEMENT, .type = like->type,
+		.kind = MEANING_ELEMENT, .type = like->type, .like = like->target ? like : NULL,
 		.writable = true, .index = pointer->index, .pou = pointer->pou,
 		.var = pointer->var, .through = true,
 	};
 	if (like->array.count) {
-		path->m.stride = iec_type_row(like->type)->size;
-		path->m.array = (struct var_array){ like->array.low, LIMIT_ELEMENTS };
+		path->m.kind = MEANING_ARRAY;
+		path->m.stride = shape_of_var(&scope_project(path->scope)->words, like).unit;
+		path->m.dim = like->dim;
+		path->m.dims = like->dims;
+		path->m.word = (uint16_t)like->fb;
+		path->m.capacity = like->capacity;
+		path->m.array = like->array;
 		path->count = like->array.count;
+		if (like->dims < 2 && like->type != IEC_NONE && like->type != IEC_STRING)
+			path->m.array.count = LIMIT_ELEMENTS;
 	} else if (like->type == IEC_NONE) {
 		path->m.word = (uint16_t)like->fb;
 		scope_mean_whole(path->scope, like->fb, &path->m);
@@ -806,16 +856,21 @@ static bool mean_target(struct path *path, const struct var_target *target)
 	return true;
 }
 
-/* A REFERENCE TO is what it leads to, unless its own place is meant. */
-static bool follow(struct path *path)
+/* A REFERENCE TO is what it leads to. */
+static bool follow_on(struct path *path)
 {
 	const struct var_target *target = path->m.kind != MEANING_LITERAL && path->m.like ?
 					  path->m.like->target : NULL;
 
-	if (!target || target->word != REFERENCE_TO || path->raw || path->m.through ||
-	    path->m.kind == MEANING_ARRAY || path->opens)
+	if (!target || target->word != REFERENCE_TO || path->m.kind == MEANING_ARRAY)
 		return true;
 	return mean_target(path, target);
+}
+
+/* The same at the end of a path, unless the place of the reference itself is meant. */
+static bool follow(struct path *path)
+{
+	return path->raw || follow_on(path);
 }
 
 /* `^` behind a pointer: what it points to. Its element, if that is an array, has an index. */
@@ -824,9 +879,11 @@ static bool step_through(struct path *path)
 	const struct var_target *target = path->m.like ? path->m.like->target : NULL;
 
 	path->at++;
-	if (path->m.through && path->pointer->like->target->word == REFERENCE_TO && !path->opens)
-		return true; /* r and r^ are the same */
-	if (!target || path->opens || path->m.through || meaning_is_whole(&path->m))
+	if (target && target->word == REFERENCE_TO) /* r and r^ are the same */
+		return follow_on(path);
+	if (!target && path->m.through && path->pointer->like->target->word == REFERENCE_TO && !path->opens)
+		return true;
+	if (!target || meaning_is_whole(&path->m))
 		return refuse(path, DIAG_NOT_POINTER);
 	return mean_target(path, target);
 }
@@ -889,45 +946,6 @@ static bool begin(struct path *path)
 	return path->at < path->end && begin_address(path, text, len);
 }
 
-/* @m has @count indices that are computed in the scan, the last of which is the pointer that leads to
- * it, if one does. Scan-safe: no. Fails: false when memory is out. */
-static bool scope_keep_open(struct scope *scope, struct meaning *m,
-			    const struct open_index *open, int count)
-{
-	struct open_index *kept = arena_alloc(scope->arena,
-					      (size_t)count * sizeof(*kept));
-
-	if (!kept)
-		return false;
-	memcpy(kept, open, (size_t)count * sizeof(*kept));
-	m->open = kept;
-	m->opens = (uint8_t)(count - m->through);
-	return true;
-}
-
-static bool finish(struct path *path, struct meaning *out)
-{
-	struct meaning *m = &path->m;
-
-	m->index_of = path->index_of;
-	if (m->through && m->kind == MEANING_ARRAY && m->array.count == LIMIT_ELEMENTS)
-		m->array.count = path->count;
-	if (m->through)
-		path->open[path->opens++] = (struct open_index){ .of = path->pointer };
-	if (path->opens) {
-		if (!meaning_is_whole(m))
-			m->kind = MEANING_ELEMENT;
-		if (!scope_keep_open(path->scope, m, path->open, path->opens))
-			return refuse(path, DIAG_NO_MEMORY);
-	} else if (path->pin >= 0 && m->kind != MEANING_ARRAY) {
-		m->pin = path->pin;
-		if (m->kind == MEANING_ELEMENT)
-			m->kind = MEANING_PIN;
-	}
-	*out = *m;
-	return true;
-}
-
 /* ---- parts ---- */
 
 /* @out is the number that it is a part of. Of an address it is another address. */
@@ -979,7 +997,7 @@ static bool step_part(struct path *path, struct expr_tail tail)
 static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
 			    size_t len, bool raw, struct meaning *out, enum diag_id *why)
 {
-	struct open_index open[LIMIT_INDICES];
+	struct open_index open[LIMIT_INDICES + 1];
 	struct path path = { .scope = scope, .table = table, .at = text,
 			     .end = text + len, .open = open, .pin = -1, .raw = raw,
 			     .why = *why };
@@ -1018,8 +1036,7 @@ static bool mean_address_of(struct scope *scope, uint32_t table, const char *tex
 	if (!m)
 		return false;
 	*why = DIAG_ADR_OF;
-	if (!m->var || m->constant || m->addr.area != AREA_NONE || meaning_is_indexed(m) ||
-	    m->kind == MEANING_INSTANCE)
+	if (!m->var || m->constant || m->addr.area != AREA_NONE || meaning_is_indexed(m))
 		return false;
 	*out = (struct meaning){ .kind = MEANING_PIN, .type = IEC_LWORD, .index = m->index,
 				 .pou = m->pou, .var = m->var, .address_of = id };

@@ -1084,6 +1084,8 @@ static void compare_structures(struct diff *diff)
 	for (int i = 0; i < diff->a->structure_count; i++) {
 		const struct structure *a = &diff->a->structure[i], *b;
 
+		if (!a->name) /* a part of its declaration */
+			continue;
 		what.subject = project_text(diff->a, a->name);
 		what.change = "removed";
 		b = structure_named(diff->b, what.subject);
@@ -1098,7 +1100,7 @@ static void compare_structures(struct diff *diff)
 	for (int j = 0; j < diff->b->structure_count; j++) {
 		what.subject = project_text(diff->b, diff->b->structure[j].name);
 		what.change = "added";
-		if (!structure_named(diff->a, what.subject))
+		if (diff->b->structure[j].name && !structure_named(diff->a, what.subject))
 			diff_say(diff, &what);
 	}
 }

@@ -400,6 +400,28 @@ static bool resolve_table(struct project *project, struct var_table *table, stru
 	return good;
 }
 
+/* What the pointers of a table lead to, all types being known. A pointer to its own type ends at LIMIT_NESTING. */
+static bool resolve_targets(struct project *project, struct var_table *table, struct diag_list *diags)
+{
+	bool good = true;
+
+	for (int i = 0; i < table->count; i++) {
+		const struct var_target *target = table->var[i].target;
+
+		for (int depth = 0; target && depth < LIMIT_NESTING; depth++) {
+			if (target->like->named)
+				good = resolve_var(project, target->like, diags) && good;
+			target = target->like->target;
+		}
+	}
+	return good;
+}
+
+static bool resolve_both(struct project *project, struct var_table *table, struct diag_list *diags)
+{
+	return resolve_table(project, table, diags) && resolve_targets(project, table, diags);
+}
+
 bool project_resolve(struct project *project, struct diag_list *diags)
 {
 	bool good = true;
@@ -412,11 +434,13 @@ bool project_resolve(struct project *project, struct diag_list *diags)
 		good = resolve_type(project, &project->named[i], diags) && good;
 	if (!good)
 		return false;
-	good = resolve_table(project, &project->globals, diags);
+	for (int i = 0; i < project->named_count; i++)
+		good = resolve_targets(project, &project->named[i].like, diags) && good;
+	good = resolve_both(project, &project->globals, diags) && good;
 	for (int i = 0; i < project->pou_count; i++)
-		good = resolve_table(project, &project->pou[i].vars, diags) && good;
+		good = resolve_both(project, &project->pou[i].vars, diags) && good;
 	for (int i = 0; i < project->structure_count; i++)
-		good = resolve_table(project, &project->structure[i].vars, diags) && good;
+		good = resolve_both(project, &project->structure[i].vars, diags) && good;
 	good = resolve_table(project, &project->located, diags) && good;
 	for (int i = 0; i < project->access_count; i++)
 		if (project->access[i].var.named)

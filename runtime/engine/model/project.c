@@ -5,6 +5,7 @@
  * Readers and editors fill it. It reads no files and checks nothing.
  */
 #include "engine/model/project.h"
+#include "engine/base/literal.h"
 #include "engine/base/name.h"
 
 
@@ -324,8 +325,7 @@ static void write_dimensions(const struct project *project, const struct var *va
 	sink_text(sink, "] OF ");
 }
 
-void project_write_type(const struct project *project, const struct var *var,
-			const struct sink *sink)
+void project_write_array(const struct project *project, const struct var *var, const struct sink *sink)
 {
 	const struct var_written *written = var->written;
 
@@ -340,6 +340,51 @@ void project_write_type(const struct project *project, const struct var *var,
 	} else if (var->array.count && (!var->named || var->own_dims)) {
 		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
 			    (long long)var->array.low + var->array.count - 1);
+	}
+}
+
+void project_write_init(const struct project *project, const struct var *var, const struct sink *sink)
+{
+	char text[64];
+
+	if (!var->has_init || var->inherits)
+		return;
+	sink_text(sink, " := ");
+	if (var->init_text) {
+		sink_text(sink, project_text(project, var->init_text));
+		return;
+	}
+	literal_print(var->type, var->init, text, sizeof(text));
+	sink_text(sink, text);
+}
+
+/* On one line. Depth: LIMIT_NESTING. */
+static void write_members(const struct project *project, const struct structure *structure,
+			  const struct sink *sink)
+{
+	sink_text(sink, "STRUCT ");
+	for (int i = 0; i < structure->vars.count; i++) {
+		const struct var *var = &structure->vars.var[i];
+
+		sink_printf(sink, "%s : ", project_text(project, var->name));
+		project_write_type(project, var, sink);
+		project_write_init(project, var, sink);
+		sink_text(sink, "; ");
+	}
+	sink_text(sink, "END_STRUCT");
+}
+
+void project_write_type(const struct project *project, const struct var *var,
+			const struct sink *sink)
+{
+	const struct var_written *written = var->written;
+	const struct word_row *row = var->type == IEC_NONE ? words_own(&project->words, var->fb) : NULL;
+
+	project_write_array(project, var, sink);
+	if (row && !var->named && row->kind == WORD_STRUCT && row->owner >= 0 &&
+	    !project->structure[row->owner].name) {
+		write_members(project, &project->structure[row->owner], sink);
+		return;
 	}
 	if (var->target && !var->named) {
 		sink_text(sink, var->target->word == REF_TO ? "REF_TO " :

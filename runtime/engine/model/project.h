@@ -101,10 +101,11 @@ struct pou {
 
 /* TYPE name : STRUCT … END_STRUCT; END_TYPE */
 struct structure {
-	uint32_t name;          /* string id                                   */
+	uint32_t name;          /* string id; 0: STRUCT … END_STRUCT in a declaration */
 	enum word word;
 	struct var_table vars;  /* its members                                 */
 	uint32_t comment;       /* comments before its END_STRUCT              */
+	uint32_t text;          /* string id: all of it, if it has no name: two alike are one type */
 	const char *file;
 	int line;
 };
@@ -271,6 +272,13 @@ const char *access_word(bool writes);
  * Scan-safe: no. */
 void project_write_type(const struct project *project, const struct var *var,
 			const struct sink *sink);
+
+/** project_write_array - the `ARRAY[1..Limit] OF ` of it; nothing of a variable that is no array.
+ * Scan-safe: no. */
+void project_write_array(const struct project *project, const struct var *var, const struct sink *sink);
+
+/** project_write_init - ` := ` and its initial value, if it has one of its own. Scan-safe: no. */
+void project_write_init(const struct project *project, const struct var *var, const struct sink *sink);
 
 /* The places of the parts of a project in its canonical text, for programs that replace
  * parts of it, as the editor does with declarations. */

@@ -68,7 +68,7 @@ struct var_target {
 	enum iec_type type;  /* of the value, or of an element                 */
 	bool list;           /* T is an array, its first index is low          */
 	int32_t low;
-	const struct var *like; /* declared as T                               */
+	struct var *like;    /* declared as T                               */
 };
 
 /* := REF(Name): the initial value of a pointer. */

@@ -231,7 +231,7 @@ static uint32_t alike(const struct program *p, uint32_t a, uint32_t b, uint32_t 
 	if (!one || !other)
 		return !one && !other;
 	unit = code_run_size(one);
-	if (one->kind != RUN_VALUES || other->kind != RUN_VALUES || one->type != other->type ||
+	if (one->kind == RUN_CONSTANTS || one->kind != other->kind || one->type != other->type ||
 	    one->word != other->word || (a - one->offset) % unit || (b - other->offset) % unit)
 		return 0;
 	left = one->offset + one->count * unit - a;

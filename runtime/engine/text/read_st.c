@@ -198,14 +198,15 @@ static void to_bracket(struct lex *lex)
 	}
 }
 
-/* Is `name[…].name (` or a name alone with ; here? */
+/* Is `name[…]^.name (` or a name alone with ; here? */
 static bool is_call(struct lex lex)
 {
 	if (lex.token.kind != TOKEN_NAME)
 		return false;
 	lex_next(&lex);
-	while (lex_is(&lex, "[")) {
-		to_bracket(&lex);
+	while (lex_is(&lex, "[") || lex_is(&lex, "^")) {
+		if (lex_is(&lex, "["))
+			to_bracket(&lex);
 		if (lex_next(&lex) == TOKEN_SYMBOL && lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
 			lex_next(&lex);
 	}

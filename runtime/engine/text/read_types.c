@@ -7,6 +7,7 @@
  * the project has been read.
  */
 #include "engine/text/reader.h"
+#include "engine/text/writer.h"
 
 #include "engine/base/ascii.h"
 
@@ -260,6 +261,51 @@ static bool read_struct(struct reader *r, struct structure *out)
 	return true;
 }
 
+/* Drops the structure if there is one like it, whose word is @word then. */
+static bool drop_alike(struct project *project, int index, enum word *word)
+{
+	for (int i = 0; i < index; i++)
+		if (!project->structure[i].name && project->structure[i].text == project->structure[index].text) {
+			*word = project->structure[i].word;
+			project->structure_count = index;
+			return true;
+		}
+	return false;
+}
+
+/* Its word has the name of no type. */
+bool reader_inner_struct(struct reader *r, struct var *var)
+{
+	struct project *project = r->project;
+	struct structure made = { .file = r->place.file, .line = r->lex.token.line };
+	const int index = project->structure_count;
+	struct word_row *row;
+
+	if (r->inner == LIMIT_NESTING)
+		return reader_fail_token(r, DIAG_TOO_DEEP);
+	made.word = reader_own_word(r, reader_intern(r, "STRUCT", 6), WORD_STRUCT);
+	row = words_own(&project->words, made.word);
+	if (!row || !arena_push(&project->arena, &project->structure, &project->structure_count, sizeof(made)))
+		return r->no_memory |= row != NULL, false;
+	row->owner = index;
+	project->structure[index] = made;
+	r->inner++;
+	r->across_lines = false;
+	reader_next(r);
+	read_members(r, &made.vars);
+	r->across_lines = true;
+	r->inner--;
+	made.text = write_inner_text(project, &made);
+	project->structure[index] = made;
+	row->owner = drop_alike(project, index, &made.word) ? -1 : index;
+	var->fb = made.word;
+	if (!lex_is(&r->lex, "END_STRUCT"))
+		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
+	r->begun = r->lex.token.line;
+	reader_step(r);
+	return true;
+}
+
 /* The type that read_words() made, unless another one has this name. */
 static struct named_type *take_named(struct reader *r, uint32_t name)
 {
@@ -322,7 +368,7 @@ static void add_struct(struct reader *r, const struct structure *head, struct pa
 	good = read_struct(r, &made);
 	made.word = reader_take_word(r, made.name, WORD_STRUCT, index);
 	project->structure[index] = made;
-	part->count++;
+	part->count = project->structure_count - part->index; /* those inside it, too */
 	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
 	       !lex_is(&r->lex, "END_STRUCT") && !lex_is(&r->lex, "END_TYPE"))
 		reader_next(r);
@@ -354,14 +400,14 @@ static void refuse_union(struct reader *r, const struct structure *head)
 static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 {
 	struct structure head = { .file = r->place.file, .word = WORD_COUNT };
+	const int index = r->project->structure_count;
 	bool good;
 
 	r->across_lines = true;
 	good = read_head(r, &head);
 	if (good && lex_is(&r->lex, "STRUCT")) {
 		add_struct(r, &head, part);
-		*comment = part->count ? &r->project->structure[r->project->structure_count - 1].comment :
-					 NULL;
+		*comment = index < r->project->structure_count ? &r->project->structure[index].comment : NULL;
 		return;
 	}
 	if (good && is_word(r, "UNION")) {
@@ -370,6 +416,7 @@ static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 	}
 	r->begun = r->lex.token.line;
 	good = good && add_named(r, &head, part, comment);
+	part->count = r->project->structure_count - part->index;
 	r->across_lines = false;
 	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
 	       !lex_is(&r->lex, "END_TYPE") && !lex_is(&r->lex, "END_STRUCT")) {

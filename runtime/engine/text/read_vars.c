@@ -216,17 +216,10 @@ static bool leaves_area(const struct var *var)
 	return bits > iec_area_row(var->at.area)->most * (uint64_t)8;
 }
 
-/* May an instance be declared here? A function keeps nothing, a VAR_IN_OUT is not the block's
- * own, a structure holds values. */
+/* May an instance be declared here? A function keeps nothing. */
 static bool may_hold_blocks(const struct reader *r)
 {
-	if (r->members || r->var_flags & VAR_TEMP)
-		return false;
-	if (r->var_flags & VAR_IN_OUT)
-		return true;
-	if (r->var_flags & VAR_EXTERNAL)
-		return true;
-	return !(r->var_flags & VAR_INPUT) &&
+	return r->members || r->var_flags & (VAR_IN_OUT | VAR_EXTERNAL | VAR_TEMP | VAR_INPUT) ||
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
@@ -272,8 +265,7 @@ static bool read_pointer(struct reader *r, struct var *var)
 	to->line = var->line;
 	if (!reader_type_of(r, to, 0))
 		return false;
-	if ((to->type == IEC_NONE && !to->named && words_row(&r->project->words, to->fb)->kind != WORD_STRUCT) ||
-	    (list && (to->type == IEC_NONE || to->type == IEC_STRING)) || to->dims > 1 || to->target)
+	if (to->target && to->target->word == REFERENCE_TO)
 		return reader_fail(r, DIAG_POINTER_TYPE, at.text, at.len);
 	*target = (struct var_target){ .word = word, .type = to->type, .list = list, .low = to->array.low,
 				       .like = to };
@@ -315,6 +307,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 		return read_pointer(r, var);
 	if (reader_is(r, '('))
 		return reader_own_type(r, var, name);
+	if (lex_is(&r->lex, "STRUCT"))
+		return reader_inner_struct(r, var);
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
@@ -751,9 +745,11 @@ int read_located(struct reader *r)
 
 void read_members(struct reader *r, struct var_table *table)
 {
+	const bool inside = r->members;
+
 	r->members = true;
 	read_declarations(r, table);
-	r->members = false;
+	r->members = inside;
 	if (r->note.len > 0 && table->count > 0) {
 		struct var *last = &table->var[table->count - 1];
 

@@ -103,10 +103,17 @@ static void add_named(struct look *look, const struct lex *lex)
 		reader_add_named(r, name);
 }
 
-/* Is this symbol at the start of a type, not of a member or value? */
-static bool ends_type(const struct lex *lex)
+/* From its first word to the ; behind a type, or END_STRUCT. */
+static void skip_type(struct lex *lex)
 {
-	return lex->token.kind == TOKEN_END || lex_is(lex, ";") || lex_is(lex, "END_TYPE");
+	int open = 0;
+
+	for (; lex->token.kind != TOKEN_END && !lex_is(lex, "END_TYPE"); lex_next(lex)) {
+		open += lex_is(lex, "STRUCT");
+		open -= lex_is(lex, "END_STRUCT");
+		if (open == 0 && (lex_is(lex, ";") || lex_is(lex, "END_STRUCT")))
+			return;
+	}
 }
 
 /* Behind TYPE: every `Name :` up to END_TYPE, without the members of structures. */
@@ -121,16 +128,11 @@ static void look_at_types(struct look *look, struct lex *lex)
 			continue;
 		lex_next(lex);
 		skip_newlines(lex);
-		if (!lex_is(lex, "STRUCT")) {
+		if (lex_is(lex, "STRUCT"))
+			add_name(look, &name, WORD_STRUCT);
+		else
 			add_named(look, &name);
-			while (!ends_type(lex))
-				lex_next(lex);
-			continue;
-		}
-		add_name(look, &name, WORD_STRUCT);
-		while (lex->token.kind != TOKEN_END && !lex_is(lex, "END_STRUCT") &&
-		       !lex_is(lex, "END_TYPE"))
-			lex_next(lex);
+		skip_type(lex);
 	}
 }
 

@@ -75,6 +75,7 @@ struct reader {
 	uint16_t var_flags;          /* of the current VAR block               */
 	bool paths;                 /* reading VAR_CONFIG: names are paths    */
 	bool members;               /* reading the members of a structure     */
+	int inner;                  /* structures without a name that are open */
 	bool library;               /* the file was named by USES             */
 	bool keep_pins;             /* pins are the project's own: as written */
 	struct cell *cell;          /* of the rung being read, row by row     */
@@ -241,6 +242,8 @@ void read_words(struct reader *r, const char *text, size_t len);
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind);
 void read_pou(struct reader *r, enum pou_kind kind);
 void read_types(struct reader *r);
+/** reader_inner_struct - STRUCT … END_STRUCT as the type of a variable, or UNION … END_UNION; the cursor stands on its word. */
+bool reader_inner_struct(struct reader *r, struct var *var);
 /** read_members - declarations of a structure, up to END_STRUCT. */
 void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);

@@ -110,12 +110,13 @@ static int write_width(const struct project *project, uint32_t id)
 
 struct widths {
 	int name, at;
+	int depth;   /* of structures without a name around the declaration */
 };
 
 static struct widths measure(const struct project *project,
 			     const struct var *var, int count)
 {
-	struct widths widths = { 0, 0 };
+	struct widths widths = { .name = 0 };
 
 	for (int i = 0; i < count; i++) {
 		int name = write_width(project, var[i].name);
@@ -127,28 +128,56 @@ static struct widths measure(const struct project *project,
 	return widths;
 }
 
-static void write_init(const struct sink *sink, const struct project *project,
-		       const struct var *var)
-{
-	char text[64];
+static void write_var(const struct sink *sink, const struct project *project,
+		      const struct var *var, const struct widths *widths);
 
-	if (!var->has_init || var->inherits)
-		return;
-	sink_text(sink, " := ");
-	if (var->init_text) {
-		write_id(sink, project, var->init_text);
-		return;
-	}
-	literal_print(var->type, var->init, text, sizeof(text));
-	sink_text(sink, text);
+/* The structure without a name that is the type of @var, or of its elements; NULL: it is another type. */
+static const struct structure *inner_struct(const struct project *project, const struct var *var)
+{
+	const struct word_row *row = var->type == IEC_NONE && !var->named ?
+				     words_own(&project->words, var->fb) : NULL;
+
+	return row && row->kind == WORD_STRUCT && row->owner >= 0 && !project->structure[row->owner].name ?
+	       &project->structure[row->owner] : NULL;
+}
+
+/* STRUCT … END_STRUCT, each member on its line. Depth: LIMIT_NESTING. */
+static void write_inner(const struct sink *sink, const struct project *project,
+			const struct structure *structure, const struct widths *around)
+{
+	struct widths widths = measure(project, structure->vars.var, structure->vars.count);
+
+	widths.depth = around->depth + 1;
+	sink_text(sink, "STRUCT\n");
+	for (int i = 0; i < structure->vars.count; i++)
+		write_var(sink, project, &structure->vars.var[i], &widths);
+	sink_repeat(sink, "  ", widths.depth);
+	sink_text(sink, "END_STRUCT");
+}
+
+uint32_t write_inner_text(struct project *project, const struct structure *structure)
+{
+	const struct widths around = { .name = 0 };
+	struct sink_memory memory;
+	struct sink sink;
+	uint32_t id = 0;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	write_inner(&sink, project, structure, &around);
+	if (!memory.failed)
+		id = names_intern(&project->names, sink_memory_text(&memory), memory.len);
+	sink_memory_free(&memory);
+	return id;
 }
 
 static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
 	const int name = write_width(project, var->name);
+	const struct structure *inner = inner_struct(project, var);
 
-	sink_text(sink, "  ");
+	sink_repeat(sink, "  ", 1 + widths->depth);
 	write_id(sink, project, var->name);
 	sink_repeat(sink, " ", widths->name - name);
 	if (var->at_text) {
@@ -158,10 +187,15 @@ static void write_var(const struct sink *sink, const struct project *project,
 			    widths->at - write_width(project, var->at_text));
 	}
 	sink_text(sink, " : ");
-	project_write_type(project, var, sink);
+	if (inner) {
+		project_write_array(project, var, sink);
+		write_inner(sink, project, inner, widths);
+	} else {
+		project_write_type(project, var, sink);
+	}
 	if (var->edge)
 		sink_text(sink, var->edge == 1 ? " R_EDGE" : " F_EDGE");
-	write_init(sink, project, var);
+	project_write_init(project, var, sink);
 	sink_text(sink, ";");
 	if (var->comment) {
 		sink_text(sink, " ");
@@ -356,8 +390,12 @@ static void write_struct(const struct sink *sink, const struct project *project,
 			 const struct structure *structure)
 {
 	const struct var *var = structure->vars.var;
-	const struct widths widths = measure(project, var, structure->vars.count);
+	struct widths widths = measure(project, var, structure->vars.count);
 	const int number = (int)(structure - project->structure);
+
+	widths.depth = 1;
+	if (!structure->name) /* its variable writes it */
+		return;
 
 	sink_mark(sink, TEXT_STRUCT, number, true);
 	sink_text(sink, "  ");
@@ -365,7 +403,6 @@ static void write_struct(const struct sink *sink, const struct project *project,
 	sink_text(sink, " : STRUCT\n");
 	for (int i = 0; i < structure->vars.count; i++) {
 		sink_mark(sink, TEXT_VAR, i, true);
-		sink_text(sink, "  ");
 		write_var(sink, project, &var[i], &widths);
 		sink_mark(sink, TEXT_VAR, i, false);
 	}
@@ -396,7 +433,7 @@ static void write_named(const struct sink *sink, const struct project *project,
 			const struct part *part, int before)
 {
 	const int number = (int)(part - project->part);
-	struct widths widths = { 0, 0 };
+	struct widths widths = { .name = 0 };
 
 	for (int pass = 0; pass < 2; pass++)
 		for (int i = 0; i < project->named_count; i++) {

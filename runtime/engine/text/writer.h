@@ -34,4 +34,6 @@ void write_cell(const struct sink *sink, const struct project *project,
 /** write_sfc - a chart: declarations and items, up to the comments before its end. */
 void write_sfc(const struct sink *sink, const struct project *project,
 	       const struct pou *pou);
+/** write_inner_text - string id of STRUCT … END_STRUCT, with its comments; 0: no memory. Scan-safe: no. */
+uint32_t write_inner_text(struct project *project, const struct structure *structure);
 #endif

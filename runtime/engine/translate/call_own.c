@@ -160,7 +160,7 @@ static void keep_power(struct list *list, const struct meaning *instance,
 	struct assembler *as = list->as;
 	uint32_t to, element;
 
-	if (as->text != &as->watch || !frame->power_size)
+	if (as->text != &as->watch || !frame->power_size || instance->var->fb != (enum word)instance->word)
 		return;
 	to = as->power[layout_table(as, instance)][instance->index];
 	element = instance->offset / list_row(list, instance->word)->size;
@@ -177,7 +177,7 @@ static void keep_power_of(struct list *list, const struct meaning *instance,
 	const uint32_t to = as->text == &as->watch && frame->power_size ?
 		as->power[layout_table(as, instance)][instance->index] : 0;
 
-	if (to && instance->var->fb == (enum word)instance->word)
+	if (to && !instance->through && instance->var->fb == (enum word)instance->word)
 		list_keep_power(list, instance, indices, &(struct element_power){
 			.to = to, .from = frame->power, .size = frame->power_size,
 			.unit = list_row(list, instance->word)->size });

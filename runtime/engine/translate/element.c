@@ -11,7 +11,7 @@
  * may have to be fetched. */
 static struct indices indices_of(struct list *list, const struct meaning *m)
 {
-	struct indices out = { { 0 } };
+	struct indices out = { .pointer = 0 };
 
 	for (int i = 0; i < m->opens; i++)
 		out.operand[i] = list_number(list, m->open[i].of,
@@ -51,25 +51,6 @@ static void emit_range(struct list *list, const struct var_range *range, uint32_
 	emit(list->as, 0);
 }
 
-/* ---- a value ---- */
-
-/* PEEK and POKE: one index at most, since a pointer leads to an array of one dimension. */
-static void emit_through(struct list *list, enum vm_op op, const struct meaning *m,
-			 const uint32_t operand[3])
-{
-	const uint32_t pointer = layout_spot(list->as, meaning_pointer(m)).offset;
-	const struct indices indices = indices_of(list, m);
-
-	list_protect(list, 0, UINT32_MAX / 2);
-	emit_head(list, op, 0, 1, operand[0], operand[1]);
-	emit(list->as, operand[2]);
-	emit(list->as, CODE_OPERAND(m->type, pointer));
-	emit(list->as, m->offset);
-	emit(list->as, m->opens ? indices.operand[0] :
-				  CODE_OPERAND(IEC_BOOL, CODE_FALSE_AT(list->as->areas)));
-	emit(list->as, m->opens ? (uint32_t)m->open[0].array.low : 0);
-}
-
 /* What the VM may know of an access with one index; types of the values, and of the index. */
 static uint32_t shortness(uint32_t value, uint32_t base, uint32_t index)
 {
@@ -79,6 +60,85 @@ static uint32_t shortness(uint32_t value, uint32_t base, uint32_t index)
 	if (value != base || base == IEC_STRING || (size != 2 && size != 4) || (!wide && index != IEC_INT))
 		return 0;
 	return CODE_SHORT | (size == 4 ? CODE_LONG : 0) | (wide ? CODE_WIDE : 0);
+}
+
+/* ---- behind a pointer ---- */
+
+#define THROUGH_WORDS 8 /* of a PEEK or POKE */
+
+/* Does the scan compute the place of the element itself? Else it is added to the pointer. */
+static bool is_plain_index(const struct meaning *m)
+{
+	return m->opens == 0 || (m->opens == 1 && !meaning_is_whole(m) && m->type != IEC_STRING &&
+				 m->open[0].stride == iec_type_row(m->type)->size);
+}
+
+/* Stores @from at @to, if it is a value of @range. Returns the BOOL that tells. */
+static uint32_t keep_in(struct list *list, const struct var_range *range, uint32_t en, uint32_t to,
+			uint32_t from)
+{
+	const uint32_t ok = scratch_new(list->as);
+
+	list_protect(list, CODE_OFFSET(to), iec_type_row((enum iec_type)CODE_TYPE(to))->size);
+	emit_head(list, VM_APUT, shortness(CODE_TYPE(from), CODE_TYPE(to), CODE_TYPE(from)), 1, en, ok);
+	emit(list->as, from);
+	emit(list->as, to);
+	emit_range(list, range, from);
+	return ok;
+}
+
+/* @pointer, moved to the element of @m; @en becomes FALSE if there is none. */
+static uint32_t moved(struct list *list, const struct meaning *m, uint32_t pointer, uint32_t *en)
+{
+	uint32_t sum = list_convert(list, CODE_OPERAND(IEC_LWORD, pointer), IEC_LINT);
+
+	for (int i = 0; i < m->opens; i++) {
+		const struct open_index *open = &m->open[i];
+		const uint32_t index = list_number(list, open->of, open->of->type);
+		const enum iec_type type = (enum iec_type)CODE_TYPE(index);
+		const struct var_range range = { open->array.low,
+						 (int64_t)open->array.low + open->array.count - 1 };
+		uint32_t at = CODE_OPERAND(type, layout_tail(list->as, RUN_VALUES, type));
+
+		*en = keep_in(list, &range, *en, at, index);
+		at = list_run(list, FN_SUB, IEC_LINT, list_convert(list, at, IEC_LINT),
+			      list_constant(list, IEC_LINT, (uint64_t)(int64_t)open->array.low));
+		at = list_run(list, FN_MUL, IEC_LINT, at, list_constant(list, IEC_LINT, open->stride));
+		sum = list_run(list, FN_ADD, IEC_LINT, sum, at);
+	}
+	return CODE_OFFSET(list_convert(list, sum, IEC_LWORD));
+}
+
+/* The place of the pointer that leads to @m, which another one may lead to; @en becomes FALSE if none
+ * does. Depth: the ^ of one path. */
+static uint32_t pointer_of(struct list *list, const struct meaning *m, uint32_t *en)
+{
+	const struct meaning *by = meaning_pointer(m);
+	const uint32_t pointer = meaning_is_indexed(by) ? CODE_OFFSET(list_fetch(list, by, *en, en)) :
+							  layout_spot(list->as, by).offset;
+
+	return is_plain_index(m) ? pointer : moved(list, m, pointer, en);
+}
+
+/* ---- a value ---- */
+
+/* PEEK and POKE. */
+static void emit_through(struct list *list, enum vm_op op, const struct meaning *m,
+			 const uint32_t operand[3])
+{
+	uint32_t en = operand[0];
+	const uint32_t pointer = pointer_of(list, m, &en);
+	const bool index = m->opens && is_plain_index(m);
+	const uint32_t at = index ? list_number(list, m->open[0].of, m->open[0].of->type) :
+				    CODE_OPERAND(IEC_BOOL, CODE_FALSE_AT(list->as->areas));
+
+	list_protect(list, 0, UINT32_MAX / 2);
+	emit_head(list, op, 0, 1, en, operand[1]);
+	emit(list->as, operand[2]);
+	emit(list->as, CODE_OPERAND(m->type, pointer));
+	emit(list->as, m->offset);
+	emit(list->as, at);
+	emit(list->as, index ? (uint32_t)m->open[0].array.low : 0);
 }
 
 /* @flags: CODE_KEEP or 0. */
@@ -121,12 +181,10 @@ static void emit_copy(struct list *list, const struct meaning *m, const struct i
 	emit_indices(list, m, indices, false);
 }
 
-/* PEEK or POKE of a structure or array. */
-static void emit_whole_through(struct list *list, const struct meaning *m, bool put,
+/* PEEK or POKE of a structure, an instance or an array. */
+static void emit_whole_through(struct list *list, const struct meaning *m, uint32_t pointer, bool put,
 			       const uint32_t operand[3])
 {
-	const uint32_t pointer = layout_spot(list->as, meaning_pointer(m)).offset;
-
 	list_protect(list, 0, UINT32_MAX / 2);
 	list_place(list);
 	emit_op(list->as, put ? VM_POKE : VM_PEEK, 1);
@@ -142,8 +200,11 @@ static void emit_whole_through(struct list *list, const struct meaning *m, bool 
 static void emit_whole(struct list *list, const struct meaning *m, bool put,
 		       const uint32_t operand[3])
 {
+	uint32_t en = operand[0], pointer;
+
 	if (m->through) {
-		emit_whole_through(list, m, put, operand);
+		pointer = pointer_of(list, m, &en);
+		emit_whole_through(list, m, pointer, put, (uint32_t[]){ en, operand[1], operand[2] });
 		return;
 	}
 	struct indices indices = indices_of(list, m);
@@ -180,7 +241,7 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 	at = list->as->text->count;
 	emit_value(list, VM_AGET, 0, m,
 		   (uint32_t[]){ en, *ok, CODE_OPERAND(m->type, to) });
-	list->as->open_number = at + 3;
+	list->as->open_number = (m->through ? list->as->text->count - THROUGH_WORDS : at) + 3;
 	return CODE_OPERAND(m->type, to);
 }
 
@@ -241,20 +302,28 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 void list_keep_range(struct list *list, const struct var_range *range, uint32_t to,
 		     uint32_t from)
 {
-	const uint32_t ok = scratch_new(list->as);
-
-	list_protect(list, CODE_OFFSET(to), iec_type_row((enum iec_type)CODE_TYPE(to))->size);
-	emit_head(list, VM_APUT, shortness(CODE_TYPE(from), CODE_TYPE(to), CODE_TYPE(from)), 1,
-		  CODE_TRUE_AT(list->as->areas), ok);
-	emit(list->as, from);
-	emit(list->as, to);
-	emit_range(list, range, from);
+	keep_in(list, range, CODE_TRUE_AT(list->as->areas), to, from);
 }
 
 /* ---- an instance that is called ---- */
 
+/* The pointer is kept, because the body may change it. */
+static uint32_t borrow_through(struct list *list, const struct meaning *m, uint32_t to, struct indices *out)
+{
+	const uint32_t ok = scratch_new(list->as);
+	uint32_t en = CODE_TRUE_AT(list->as->areas);
+
+	*out = (struct indices){ .pointer = layout_tail(list->as, RUN_VALUES, IEC_LWORD) };
+	list_copy(list, CODE_OPERAND(IEC_LWORD, out->pointer),
+		  CODE_OPERAND(IEC_LWORD, pointer_of(list, m, &en)));
+	emit_whole_through(list, m, out->pointer, false, (uint32_t[]){ en, ok, to });
+	return ok;
+}
+
 uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, struct indices *out)
 {
+	if (m->through)
+		return borrow_through(list, m, to, out);
 	const uint32_t ok = scratch_new(list->as);
 
 	*out = indices_of(list, m);
@@ -273,10 +342,15 @@ uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, st
 void list_give_back(struct list *list, const struct meaning *m, uint32_t from,
 		    const struct indices *indices)
 {
+	const uint32_t always = CODE_TRUE_AT(list->as->areas), sink = list_sink(list->as, IEC_BOOL);
+
+	if (m->through) {
+		emit_whole_through(list, m, indices->pointer, true, (uint32_t[]){ always, sink, from });
+		return;
+	}
 	list_protect(list, layout_spot(list->as, m).offset,
 		     scope_span(list->as->translation->scope, m));
-	emit_copy(list, m, indices, true, (uint32_t[]){ CODE_TRUE_AT(list->as->areas),
-		  list_sink(list->as, IEC_BOOL), from });
+	emit_copy(list, m, indices, true, (uint32_t[]){ always, sink, from });
 }
 
 void list_keep_power(struct list *list, const struct meaning *m, const struct indices *indices,

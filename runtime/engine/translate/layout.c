@@ -844,7 +844,8 @@ static union iec_value address_of(struct assembler *as, const struct pou *pou, u
 
 	if (!of)
 		return value;
-	const uint32_t bytes = scope_bytes(scope, of);
+	/* A pointer has more bytes than SIZEOF tells. */
+	const uint32_t bytes = of->type == IEC_LWORD ? scope_size(scope, of) : scope_bytes(scope, of);
 
 	value.i = (int64_t)((uint64_t)layout_spot(as, of).offset << CODE_POINTER_PLACE |
 			    (uint64_t)(bytes < CODE_POINTER_MOST ? bytes : CODE_POINTER_MOST)

@@ -139,13 +139,19 @@ void list_keep_range(struct list *list, const struct var_range *range, uint32_t 
 /** list_fetch_part, list_deposit_part - list_fetch() and list_deposit() of such a part. */
 uint32_t list_fetch_part(struct list *list, const struct meaning *m, uint32_t en, uint32_t *ok);
 uint32_t list_deposit_part(struct list *list, const struct meaning *m, uint32_t en, uint32_t from);
+/** list_constant - a typed word that holds @bits. */
+uint32_t list_constant(struct list *list, enum iec_type type, uint64_t bits);
+/** list_run - a function that cannot fail here, into a place of its own; @right 0: it has one input. */
+uint32_t list_run(struct list *list, enum word fn, enum iec_type result, uint32_t left, uint32_t right);
+/** list_convert - @from as a value of @type. */
+uint32_t list_convert(struct list *list, uint32_t from, enum iec_type type);
 /** list_fetch_whole - a structure or array behind such an index goes to @to; returns as
  * list_deposit(). */
 uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
 			  uint32_t to);
 
-/* Operands of the computed indices of a path. */
-struct indices { uint32_t operand[LIMIT_INDICES]; };
+/* Operands of the computed indices of a path, and the place of the pointer that leads to it. */
+struct indices { uint32_t operand[LIMIT_INDICES], pointer; };
 /** list_borrow - an instance behind such an index goes to @to, where it is called; @out gets the indices in places
  * that no body writes. Returns the BOOL that tells whether there is one. */
 uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, struct indices *out);

@@ -510,6 +510,8 @@ static void add_word(struct xref_walk *walk, enum word word, enum xref_kind kind
 		return;
 	if (row->kind == WORD_STRUCT)
 		target.what = XREF_STRUCTURE;
+	if (row->kind == WORD_STRUCT && !walk->project->structure[row->owner].name)
+		return;
 	walk->slot = NULL;
 	use = xref_add(walk, target, kind, 0, 0);
 	if (use)
@@ -753,7 +755,8 @@ static void walk_declarations(struct xref_walk *walk)
 
 		begin_place(walk, -1, structure->file, structure->line,
 			    structure_included(project, i));
-		xref_whole(walk, &structure->name, target, XREF_DECLARED);
+		if (structure->name)
+			xref_whole(walk, &structure->name, target, XREF_DECLARED);
 		walk_table(walk, project->pou_count + 1 + i);
 	}
 	walk_named(walk);

@@ -33,6 +33,8 @@ static const char *table_name(const struct project *project, int table)
 	if (table <= project->pou_count)
 		return project_text(project, project->pou[table - 1].name);
 	table -= project->pou_count + 1;
+	if (table < project->structure_count && !project->structure[table].name)
+		return "STRUCT";
 	return project_text(project, table < project->structure_count ?
 		project->structure[table].name :
 		project->named[table - project->structure_count].name);

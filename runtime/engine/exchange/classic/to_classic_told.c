@@ -181,8 +181,9 @@ static void told_pous(struct leaving *e)
 				  name);
 	}
 	for (int i = 0; i < project->structure_count; i++)
-		tell_line(e, project->structure[i].line, "structure %s is not exported",
-			  project_text(project, project->structure[i].name));
+		if (project->structure[i].name)
+			tell_line(e, project->structure[i].line, "structure %s is not exported",
+				  project_text(project, project->structure[i].name));
 }
 
 /* LinuxCNC takes sizes from the line that loads its module. */
