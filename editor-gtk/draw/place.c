@@ -9,6 +9,7 @@
 #include "editor-gtk/draw/rung_layout.h"
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/edit/sfc_lines.h"
+#include "engine/model/st.h"
 
 #include <glib.h>
 
@@ -108,13 +109,36 @@ static char *chart_text(const struct project *project, const struct sfc *sfc, co
 	return g_strdup(pou);
 }
 
+/* The EXECUTE box that holds a line of the file; NULL: none. */
+static const struct boxed *boxed_at(const struct pou *pou, int line)
+{
+	const struct boxed *found = NULL;
+
+	for (int i = 0; i < pou->boxed_count; i++) {
+		const struct boxed *boxed = &pou->boxed[i];
+
+		if (boxed->count > 0 && line > boxed->line &&
+		    line <= pou->st->item[boxed->first + boxed->count - 1].line)
+			found = boxed;
+	}
+	return found;
+}
+
 char *place_line(const struct project *project, int pou, int row)
 {
 	const struct pou *of = &project->pou[pou];
+	const struct boxed *boxed = boxed_at(of, of->line + row);
 	const char *name = project_text(project, of->name);
+	char *path, *text;
 
-	return of->sfc ? chart_text(project, of->sfc, name, of->line + row) :
-			 g_strdup_printf(_("%s, line %d"), name, row + 1);
+	if (of->sfc && !boxed)
+		return chart_text(project, of->sfc, name, of->line + row);
+	path = !boxed ? g_strdup(name) :
+	       g_strdup_printf("%s.%s", name, boxed->name ? project_text(project, boxed->name) : "EXECUTE");
+	row -= boxed ? boxed->line - of->line + 1 : of->kind == POU_ACTION && row > 0;
+	text = g_strdup_printf(_("%s, line %d"), path, row + 1);
+	g_free(path);
+	return text;
 }
 
 /* ---- rungs ---- */

@@ -31,7 +31,8 @@ const char *place_column(int column, char out[PLACE_LETTERS]);
 int place_shown(struct place_sheet *sheet, const struct project *project, int pou, int rung,
 		int row, int col);
 /**
- * place_line - the place of a line of a POU: "Main, line 3"; in a chart "Main, step Fill"
+ * place_line - the place of a line of a POU: "Main, line 3"; in a chart "Main, step Fill"; in an
+ * EXECUTE box "Main.Count, line 1", as its sheet counts them
  * @pou: of @project; @row: lines below its heading
  *
  * In the language of the session. Owns: the caller, g_free().

@@ -6,6 +6,7 @@
  * from ladder_sim_begin() to ladder_sim_end().
  */
 #include "editor-gtk/sim/sim_mirror.h"
+#include "editor-gtk/sim/stops_follow.h"
 #include "editor-gtk/sim/sim_thread.h"
 
 #include "editor-gtk/document/disk.h"
@@ -51,6 +52,7 @@ struct _LadderSim {
 	int rest;                   /* texts that are not foreseen, as the last one did not come */
 	guint soon;                 /* source that builds an edit; 0: none      */
 	LadderBreakpoints *points;
+	struct stops_follow *follow; /* moves them with their lines            */
 };
 
 enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
@@ -602,6 +604,11 @@ static gboolean notified(gpointer data)
 LadderBreakpoints *ladder_sim_breakpoints(LadderSim *sim)
 {
 	return sim->points;
+}
+
+void ladder_sim_hold_stops(LadderSim *sim, bool hold)
+{
+	stops_follow_hold(sim->follow, hold);
 }
 
 /* In the program that the thread has got last. */
@@ -1348,6 +1355,7 @@ static void ladder_sim_dispose(GObject *object)
 	forget_replay(sim);
 	g_clear_pointer(&sim->plant, sim_program_unref);
 	g_clear_pointer(&sim->newest, sim_program_unref);
+	g_clear_pointer(&sim->follow, stops_follow_free);
 	if (sim->document)
 		g_signal_handlers_disconnect_by_data(sim->document, sim);
 	g_clear_pointer(&sim->rungs, g_ptr_array_unref);
@@ -1401,6 +1409,7 @@ LadderSim *ladder_sim_new(LadderDocument *document)
 	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);
 
 	sim->document = g_object_ref(document);
+	sim->follow = stops_follow_new(document, sim->points);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(rungs_changed), sim);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(read_anew), sim);
 	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(edited), sim);

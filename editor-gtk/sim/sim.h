@@ -138,6 +138,9 @@ void ladder_sim_release_all(LadderSim *sim);
 
 /** ladder_sim_breakpoints - those of the person, also while it is off. Borrowed. */
 LadderBreakpoints *ladder_sim_breakpoints(LadderSim *sim);
+/** ladder_sim_hold_stops - they do not follow the changes of the document: a sheet of text moves them;
+ * false: it has done so. */
+void ladder_sim_hold_stops(LadderSim *sim, bool hold);
 /** ladder_sim_step - goes on from where it stands; else with the next scan, from STOP with a cold
  * start. */
 void ladder_sim_step(LadderSim *sim, enum stops_step step);

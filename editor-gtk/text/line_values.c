@@ -40,10 +40,11 @@ struct _LadderLineValues {
 	GtkSourceView parent;
 	LadderSim *sim;           /* NULL: none                                  */
 	char *pou;
+	const struct text_range *part; /* NULL: all lines are shown               */
 	bool st;                  /* Structured Text                             */
 	struct live_map *map;     /* NULL: not made yet                          */
 	char *instance;           /* of a block: the one that stands; NULL: the first one */
-	int *places;              /* by line: line of the file that runs, from 1; 0: none. NULL:
+	int *places;              /* by line of the POU: line of the file that runs, from 1; 0: none. NULL:
 				   * of no line */
 	int place_count;
 	bool placed;              /* they were looked for                        */
@@ -58,6 +59,7 @@ struct _LadderLineValues {
 	void *hiding;             /* context of it                               */
 	char *spoken;             /* the description of the view                 */
 	gint64 spoken_us;         /* when it was looked at                       */
+	guint telling;            /* source that describes the line of the cursor; 0: none */
 };
 
 G_DEFINE_FINAL_TYPE(LadderLineValues, ladder_line_values, GTK_SOURCE_TYPE_VIEW)
@@ -318,6 +320,18 @@ static char *text_of_buffer(LadderLineValues *values)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
+/* With what stands around the shown part. */
+static char *text_of_pou(LadderLineValues *values)
+{
+	char *shown = text_of_buffer(values), *text;
+
+	if (!values->part)
+		return shown;
+	text = text_range_whole(values->part, shown);
+	g_free(shown);
+	return text;
+}
+
 static void find_places(LadderLineValues *values)
 {
 	struct ladder *ladder = ladder_sim_ladder(values->sim);
@@ -325,7 +339,7 @@ static void find_places(LadderLineValues *values)
 	const struct pou *pou = find_pou(project, values->pou);
 	const char *text = pou && (pou->language != LANGUAGE_LD || pou->boxed_count > 0) && !pou->included ?
 		text_from_line(ladder_sim_text(values->sim), pou->line) : NULL;
-	char *shown = text ? text_of_buffer(values) : NULL;
+	char *shown = text ? text_of_pou(values) : NULL;
 
 	values->place_count = 0;
 	values->places = text ? text_lines_match(shown, text, &values->place_count) : NULL;
@@ -338,6 +352,7 @@ static void find_places(LadderLineValues *values)
 
 static void find_result(LadderLineValues *values, int line, struct seen *seen)
 {
+	const int at = line + (values->part ? values->part->lines : 0);
 	int place;
 
 	if (values->finder) {
@@ -347,7 +362,7 @@ static void find_result(LadderLineValues *values, int line, struct seen *seen)
 	}
 	if (!values->placed)
 		find_places(values);
-	place = values->places && line < values->place_count ? values->places[line] : 0;
+	place = values->places && at < values->place_count ? values->places[at] : 0;
 	seen->instruction = place > 0 &&
 		live_map_result(values->map, (uint32_t)place, &seen->result);
 	seen->missing = !place && values->lacks && seen->columns > 0;
@@ -551,7 +566,7 @@ static void draw_line(const struct pen *pen, int line, int hidden, int y, int he
 	draw_result(pen, seen, x + MAX(VALUE * pen->cell, width + 2 * pen->cell), y);
 }
 
-/* The first line of a list has no value: it has room for the names of the columns. */
+/* The first line of a list has no value, as a rule: it has room for the names of the columns. */
 static void draw_head(const struct pen *pen, int y)
 {
 	const int wanted = pen->values->longest + GAP;
@@ -665,6 +680,23 @@ static void tell_line(LadderLineValues *values)
 				       GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text, -1);
 }
 
+static gboolean tell_now(gpointer data)
+{
+	LadderLineValues *values = data;
+
+	values->telling = 0;
+	tell_line(values);
+	return G_SOURCE_REMOVE;
+}
+
+/* The cursor also moves while text goes, before the colours know of it: whoever asks for colours then
+ * breaks their tree. */
+static void tell_soon(LadderLineValues *values)
+{
+	if (!values->telling)
+		values->telling = g_idle_add_full(G_PRIORITY_HIGH_IDLE, tell_now, values, NULL);
+}
+
 void line_values_set_note(LadderLineValues *values, char *(*note)(void *context, int line),
 			  void *context)
 {
@@ -681,7 +713,7 @@ void line_values_set_hidden(LadderLineValues *values, int (*hidden)(void *contex
 
 void line_values_tell(LadderLineValues *values)
 {
-	tell_line(values);
+	tell_soon(values);
 }
 
 static void forget_lines(LadderLineValues *values)
@@ -764,6 +796,12 @@ void line_values_set_pou(LadderLineValues *values, const char *pou)
 	state_changed(values);
 }
 
+void line_values_set_part(LadderLineValues *values, const struct text_range *part)
+{
+	values->part = part;
+	forget(values);
+}
+
 void line_values_set_st(LadderLineValues *values, bool st)
 {
 	if (values->st == st)
@@ -801,6 +839,7 @@ static void ladder_line_values_finalize(GObject *object)
 {
 	LadderLineValues *values = LADDER_LINE_VALUES(object);
 
+	g_clear_handle_id(&values->telling, g_source_remove);
 	live_map_free(values->map);
 	g_clear_pointer(&values->places, free);
 	g_ptr_array_unref(values->lines);
@@ -832,7 +871,7 @@ LadderLineValues *line_values_new(GtkSourceBuffer *buffer)
 				G_CALLBACK(gtk_widget_queue_draw), values, G_CONNECT_SWAPPED);
 	g_signal_connect_object(buffer, "changed", G_CALLBACK(forget_lines), values,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(buffer, "notify::cursor-position", G_CALLBACK(tell_line),
+	g_signal_connect_object(buffer, "notify::cursor-position", G_CALLBACK(tell_soon),
 				values, G_CONNECT_SWAPPED);
 	return values;
 }

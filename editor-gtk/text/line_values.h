@@ -10,6 +10,7 @@
 #ifndef EDITOR_LINE_VALUES_H
 #define EDITOR_LINE_VALUES_H
 
+#include "editor-gtk/document/text_range.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/sim/sim.h"
 
@@ -24,6 +25,9 @@ LadderLineValues *line_values_new(GtkSourceBuffer *buffer);
 void line_values_set_sim(LadderLineValues *values, LadderSim *sim);
 /** line_values_set_pou - the POU whose list is shown; "": none. */
 void line_values_set_pou(LadderLineValues *values, const char *pou);
+/** line_values_set_part - which lines of the text of the POU are shown; borrowed, read each time. NULL:
+ * all. */
+void line_values_set_part(LadderLineValues *values, const struct text_range *part);
 /** line_values_set_st - is the text Structured Text? Then the values of all variables of a line are
  * shown, in the order in which they stand there; those of enumerations by name. */
 void line_values_set_st(LadderLineValues *values, bool st);

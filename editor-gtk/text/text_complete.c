@@ -212,10 +212,11 @@ struct _LadderWords {
 	GObject parent;
 	LadderDocument *document;
 	const int *pou;
+	const struct text_range *part;
 	GtkSourceView *view; /* holds the completion, which holds this          */
 };
 
-static char *text_before(GtkTextBuffer *buffer, int *line, int *column)
+static char *text_of_buffer(GtkTextBuffer *buffer, int *line, int *column)
 {
 	GtkTextIter start, end, at;
 
@@ -249,14 +250,16 @@ static const char *line_of(const char *text, int line)
 static GListStore *words_here(LadderWords *words, gsize *prefix_len)
 {
 	int line, column;
-	char *text = text_before(gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view)),
-				 &line, &column);
-	GListStore *found = text_complete_words(words->document, *words->pou, text, line,
-						column, prefix_len);
+	char *text = text_of_buffer(gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view)),
+				    &line, &column);
+	char *list = text_range_whole(words->part, text);
+	GListStore *found = text_complete_words(words->document, *words->pou, list,
+						words->part->lines + line, column, prefix_len);
 
 	if (*prefix_len && is_whole(found, line_of(text, line) + column - *prefix_len,
 				    *prefix_len))
 		g_list_store_remove_all(found);
+	g_free(list);
 	g_free(text);
 	return found;
 }
@@ -392,12 +395,14 @@ static void ladder_words_init(LadderWords *words)
 	(void)words;
 }
 
-void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou)
+void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou,
+			  const struct text_range *part)
 {
 	LadderWords *words = g_object_new(LADDER_TYPE_WORDS, NULL);
 
 	words->document = g_object_ref(document);
 	words->pou = pou;
+	words->part = part;
 	words->view = view;
 	g_object_set(gtk_source_view_get_completion(view), "select-on-show", TRUE, NULL);
 	gtk_source_completion_add_provider(gtk_source_view_get_completion(view),

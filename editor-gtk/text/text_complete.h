@@ -9,6 +9,7 @@
 #define EDITOR_TEXT_COMPLETE_H
 
 #include "editor-gtk/document/document.h"
+#include "editor-gtk/document/text_range.h"
 
 #include <gtksourceview/gtksource.h>
 
@@ -22,12 +23,14 @@ GtkSourceLanguage *text_language_st(bool st);
  * files, or that of Structured Text. Borrowed. */
 GtkSourceLanguage *text_language_of(LadderDocument *document, int pou);
 /** text_complete_attach - offers words while one types in @view
- * @pou: whose number of a POU of @document the text is, -1: all of it; read each time,
- * for as long as @view lives */
-void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou);
+ * @pou: whose number of a POU of @document the text is, -1: all of it
+ * @part: which lines of it
+ * Both are read each time, for as long as @view lives. */
+void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou,
+			  const struct text_range *part);
 
 /** text_complete_words - what could stand there, as GtkSourceCompletionProposals
- * @text: what is shown; @line: 0-based; @column: bytes before the cursor
+ * @text: of the POU, or of the file; @line: 0-based; @column: bytes before the cursor
  * @prefix_len: gets how many of these are of the word. Owns: the caller. */
 GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
 				int line, int column, gsize *prefix_len);

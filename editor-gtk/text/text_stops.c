@@ -4,7 +4,6 @@
  */
 #include "editor-gtk/text/text_stops.h"
 
-#include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/theme.h"
@@ -21,9 +20,11 @@
 #define WASH_STANDS 0.18f
 #define WASH_CALLS  0.08f
 
-/* A breakpoint of this sheet. */
+/* A breakpoint of the POU. */
 struct point {
-	GtkTextMark *mark;
+	GtkTextMark *mark;     /* NULL: its line is not shown                   */
+	int line;              /* then: of the POU, or below the shown part     */
+	bool below;
 	bool condition;
 	int reached;           /* line before which it stands; -1: none        */
 };
@@ -34,18 +35,20 @@ struct text_stops {
 	GtkTextBuffer *buffer;
 	LadderDocument *document;
 	const int *pou;
+	const struct text_range *part;
 	LadderSim *sim;          /* NULL: none                                 */
 	GtkSourceGutterRenderer *gutter; /* NULL: the sheet has none           */
 	GtkTextTag *stands, *calls;
 	GArray *point;           /* of struct point, in the order of the breakpoints */
 	char *name;              /* of the POU, as last looked at              */
 	bool moves;              /* the sheet itself moves breakpoints         */
+	bool holds;              /* nobody else moves them                     */
 	GArray *waits;           /* of int: the line that stands, then lines that wait; -1: it
 				  * is in another POU                          */
 	GtkWidget *popover;      /* the question for a condition; NULL: none   */
 	GtkWidget *entry;
 	GtkLabel *why;
-	int asked;               /* line of it                                 */
+	int asked;               /* line of the POU                             */
 };
 
 /* ---- the POU ---- */
@@ -69,7 +72,7 @@ static bool has_stops(const struct text_stops *stops)
 {
 	const struct pou *pou = pou_of(stops);
 
-	return stops->sim && pou && (pou->language == LANGUAGE_ST || (pou->sfc && pou->st)) &&
+	return stops->sim && pou && (pou->language == LANGUAGE_ST || pou->st) &&
 	       ladder_sim_document(stops->sim) == stops->document;
 }
 
@@ -80,12 +83,16 @@ static struct point *point_at(const struct text_stops *stops, guint index)
 	return &g_array_index(stops->point, struct point, index);
 }
 
+/* In the POU. */
 static int line_of(const struct text_stops *stops, const struct point *point)
 {
 	GtkTextIter at;
 
+	if (!point->mark)
+		return point->line + (point->below ? stops->part->lines +
+				      gtk_text_buffer_get_line_count(stops->buffer) : 0);
 	gtk_text_buffer_get_iter_at_mark(stops->buffer, &at, point->mark);
-	return gtk_text_iter_get_line(&at);
+	return stops->part->lines + gtk_text_iter_get_line(&at);
 }
 
 static void draw(struct text_stops *stops)
@@ -97,18 +104,25 @@ static void draw(struct text_stops *stops)
 static void drop_points(struct text_stops *stops)
 {
 	for (guint i = 0; i < stops->point->len; i++)
-		gtk_text_buffer_delete_mark(stops->buffer, point_at(stops, i)->mark);
+		if (point_at(stops, i)->mark)
+			gtk_text_buffer_delete_mark(stops->buffer, point_at(stops, i)->mark);
 	g_array_set_size(stops->point, 0);
 }
 
 static void add_point(struct text_stops *stops, const struct breakpoint *from)
 {
-	const int last = gtk_text_buffer_get_line_count(stops->buffer) - 1;
+	const int count = gtk_text_buffer_get_line_count(stops->buffer);
+	const int line = from->line - stops->part->lines;
 	struct point point = { .condition = from->condition != NULL };
 	GtkTextIter at;
 
-	gtk_text_buffer_get_iter_at_line(stops->buffer, &at, CLAMP(from->line, 0, last));
-	point.mark = gtk_text_buffer_create_mark(stops->buffer, NULL, &at, FALSE);
+	if (stops->part->kind == RANGE_WHOLE || (line >= 0 && line < count)) {
+		gtk_text_buffer_get_iter_at_line(stops->buffer, &at, CLAMP(line, 0, count - 1));
+		point.mark = gtk_text_buffer_create_mark(stops->buffer, NULL, &at, FALSE);
+	} else {
+		point.below = line >= count;
+		point.line = point.below ? line - count : from->line;
+	}
 	point.reached = ladder_sim_reached(stops->sim, *stops->pou, from->line);
 	g_array_append_val(stops->point, point);
 }
@@ -155,44 +169,42 @@ static void move_points(struct text_stops *stops)
 	load(stops);
 }
 
+static void hold(struct text_stops *stops, bool hold)
+{
+	if (stops->holds != hold)
+		ladder_sim_hold_stops(stops->sim, hold);
+	stops->holds = hold;
+}
+
+void text_stops_take(struct text_stops *stops)
+{
+	if (has_stops(stops))
+		hold(stops, true);
+}
+
 void text_stops_taken(struct text_stops *stops)
 {
 	if (has_stops(stops))
 		move_points(stops);
+	hold(stops, false);
 }
 
-void text_stops_exchanged(struct text_stops *stops, const char *before)
+void text_stops_exchanged(struct text_stops *stops)
 {
-	LadderBreakpoints *points = stops->sim ? ladder_sim_breakpoints(stops->sim) : NULL;
-	GtkTextIter start, end;
-	char *now;
-	int *to, count = 0;
-
-	if (!has_stops(stops) || !stops->point->len)
-		return;
-	gtk_text_buffer_get_bounds(stops->buffer, &start, &end);
-	now = gtk_text_buffer_get_text(stops->buffer, &start, &end, TRUE);
-	to = text_lines_match(before, now, &count);
-	for (guint i = 0, k = 0; to && i < ladder_breakpoints_count(points); i++) {
-		const struct breakpoint *point = ladder_breakpoints_at(points, i);
-
-		if (!name_equal(point->pou, stops->name) || k == stops->point->len)
-			continue;
-		gtk_text_buffer_get_iter_at_line(stops->buffer, &start,
-			point->line < count && to[point->line] >= 0 ? to[point->line] : point->line);
-		gtk_text_buffer_move_mark(stops->buffer, point_at(stops, k++)->mark, &start);
-	}
-	free(to);
-	g_free(now);
-	move_points(stops);
+	load(stops);
 }
+
 
 /* ---- where it stands ---- */
 
+/* @line: of the POU; it may not be shown. */
 static void wash(struct text_stops *stops, GtkTextTag *tag, int line)
 {
 	GtkTextIter start, end;
 
+	line -= stops->part->lines;
+	if (line < 0 || line >= gtk_text_buffer_get_line_count(stops->buffer))
+		return;
 	gtk_text_buffer_get_iter_at_line(stops->buffer, &start, line);
 	end = start;
 	if (!gtk_text_iter_forward_line(&end))
@@ -273,8 +285,10 @@ static unsigned waits_in(const struct text_stops *stops, int line)
 static unsigned marks_of(void *context, int line)
 {
 	const struct text_stops *stops = context;
-	unsigned marks = waits_in(stops, line);
+	unsigned marks;
 
+	line += stops->part->lines;
+	marks = waits_in(stops, line);
 	for (guint i = 0; i < stops->point->len; i++) {
 		const struct point *point = point_at(stops, i);
 
@@ -290,7 +304,8 @@ static unsigned marks_of(void *context, int line)
 static const struct breakpoint *breakpoint_in(struct text_stops *stops, int line)
 {
 	return has_stops(stops) ?
-	       ladder_breakpoints_find(ladder_sim_breakpoints(stops->sim), stops->name, line) : NULL;
+	       ladder_breakpoints_find(ladder_sim_breakpoints(stops->sim), stops->name,
+				       stops->part->lines + line) : NULL;
 }
 
 char *text_stops_say(struct text_stops *stops, int line)
@@ -319,9 +334,9 @@ void text_stops_toggle(struct text_stops *stops, int line)
 		return;
 	points = ladder_sim_breakpoints(stops->sim);
 	if (breakpoint_in(stops, line))
-		ladder_breakpoints_clear(points, stops->name, line);
+		ladder_breakpoints_clear(points, stops->name, stops->part->lines + line);
 	else
-		ladder_breakpoints_set(points, stops->name, line, NULL);
+		ladder_breakpoints_set(points, stops->name, stops->part->lines + line, NULL);
 }
 
 static void show_why(struct text_stops *stops, const char *why)
@@ -431,7 +446,7 @@ void text_stops_ask(struct text_stops *stops, int line)
 	gtk_text_view_buffer_to_window_coords(GTK_TEXT_VIEW(stops->view), GTK_TEXT_WINDOW_WIDGET,
 					      where.x, where.y, &where.x, &where.y);
 	where.width = MAX(where.width, 1);
-	stops->asked = line;
+	stops->asked = stops->part->lines + line;
 	gtk_editable_set_text(GTK_EDITABLE(stops->entry), at && at->condition ? at->condition : "");
 	show_why(stops, NULL);
 	gtk_popover_set_pointing_to(GTK_POPOVER(stops->popover), &where);
@@ -468,6 +483,7 @@ static void show_gutter(struct text_stops *stops)
 void text_stops_leave(struct text_stops *stops)
 {
 	drop_points(stops);
+	g_array_set_size(stops->waits, 0);
 	g_free(stops->name);
 	stops->name = g_strdup("");
 }
@@ -510,7 +526,8 @@ void text_stops_set_sim(struct text_stops *stops, LadderSim *sim)
 	g_signal_connect_swapped(ladder_sim_breakpoints(sim), "changed", G_CALLBACK(load), stops);
 }
 
-struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *document, const int *pou)
+struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *document, const int *pou,
+				  const struct text_range *part)
 {
 	struct text_stops *stops = g_new0(struct text_stops, 1);
 
@@ -519,6 +536,7 @@ struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *docume
 	stops->buffer = g_object_ref(gtk_text_view_get_buffer(GTK_TEXT_VIEW(view)));
 	stops->document = document;
 	stops->pou = pou;
+	stops->part = part;
 	stops->name = g_strdup("");
 	stops->point = g_array_new(FALSE, FALSE, sizeof(struct point));
 	stops->waits = g_array_new(FALSE, FALSE, sizeof(int));
@@ -534,6 +552,7 @@ void text_stops_free(struct text_stops *stops)
 {
 	if (!stops)
 		return;
+	hold(stops, false);
 	g_signal_handlers_disconnect_by_data(adw_style_manager_get_default(), stops);
 	if (stops->sim) {
 		g_signal_handlers_disconnect_by_data(stops->sim, stops);

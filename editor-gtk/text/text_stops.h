@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_stops - the breakpoints of a program in Structured Text, or of the actions of a chart, on its sheet: marks that move with the
- * lines, the line before which the program stands, and the question for a condition.
+ * text_stops - the breakpoints of a program in Structured Text, of the actions of a chart, or of EXECUTE boxes, on their sheet:
+ * marks that move with the lines, the line before which the program stands, and the question for a condition.
  */
 #ifndef EDITOR_TEXT_STOPS_H
 #define EDITOR_TEXT_STOPS_H
@@ -12,9 +12,10 @@
 
 struct text_stops;
 
-/** text_stops_new - on @view, of @document; @pou: where its number is; borrowed. Owns:
- * text_stops_free(), before @view goes. */
-struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *document, const int *pou);
+/** text_stops_new - on @view, of @document; @pou: where its number is; @part: which lines of it are
+ * shown; borrowed. Owns: text_stops_free(), before @view goes. Lines are those that are shown. */
+struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *document, const int *pou,
+				  const struct text_range *part);
 void text_stops_free(struct text_stops *stops);
 /** text_stops_set_sim - whose breakpoints they are; referenced. NULL: none are shown. */
 void text_stops_set_sim(struct text_stops *stops, LadderSim *sim);
@@ -22,10 +23,11 @@ void text_stops_set_sim(struct text_stops *stops, LadderSim *sim);
 void text_stops_leave(struct text_stops *stops);
 /** text_stops_renew - the POU has another number, name or language. */
 void text_stops_renew(struct text_stops *stops);
-/** text_stops_taken - the text of the sheet is in the document. */
+/** text_stops_take - the text of the sheet goes into the document; text_stops_taken: it is there. */
+void text_stops_take(struct text_stops *stops);
 void text_stops_taken(struct text_stops *stops);
-/** text_stops_exchanged - the text of the sheet was @before, and is another one now. */
-void text_stops_exchanged(struct text_stops *stops, const char *before);
+/** text_stops_exchanged - the sheet has another text of the document, or other lines of it. */
+void text_stops_exchanged(struct text_stops *stops);
 /** text_stops_toggle - a breakpoint in line @line, from 0, or none. */
 void text_stops_toggle(struct text_stops *stops, int line);
 /** text_stops_ask - for the condition of the breakpoint in line @line, from 0, which is set then. */

@@ -13,6 +13,7 @@
 #include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/text/text_stops.h"
 #include "editor-gtk/document/text_lines.h"
+#include "editor-gtk/document/text_range.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/sim/st_why.h"
 #include "editor-gtk/kit/text_scheme.h"
@@ -40,6 +41,8 @@ struct _LadderTextView {
 	LadderDocument *document;
 	LadderSim *sim;          /* NULL: none                                 */
 	int pou;
+	struct text_range part;   /* which lines of the POU are shown            */
+	bool lost;               /* they are not in it any more                 */
 	struct text_stops *stops; /* NULL: it goes                              */
 	struct text_folds *folds; /* likewise                                   */
 	LadderLineValues *values; /* the text, with values beside its lines     */
@@ -61,12 +64,45 @@ struct _LadderTextView {
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
 
+/* (): the shown part has gone from the text, or has another name. */
+static guint part_changed;
+
 /* ---- the text ---- */
 
-static char *text_of_document(LadderTextView *view)
+static char *text_of_buffer(LadderTextView *view);
+
+/* The whole text of the POU or the file. NULL: there is none. Caller frees. */
+static char *list_of_document(LadderTextView *view)
 {
 	return view->pou < 0 ? ladder_document_text(view->document, NULL) :
 	       ladder_document_list(view->document, view->pou);
+}
+
+static bool is_action(LadderTextView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+
+	return project && view->pou >= 0 && view->pou < project->pou_count &&
+	       project->pou[view->pou].kind == POU_ACTION;
+}
+
+/* What is to be shown. NULL: it has gone. Caller frees. */
+static char *text_of_document(LadderTextView *view)
+{
+	char *list = list_of_document(view), *shown, *text;
+
+	if (!list || view->part.kind == RANGE_WHOLE)
+		return list;
+	shown = text_of_buffer(view);
+	text = text_range_find(&view->part, list, shown);
+	g_free(shown);
+	if (text || !is_action(view)) {
+		g_free(list);
+		return text;
+	}
+	text_range_clear(&view->part); /* its heading cannot be read */
+	text_range_init(&view->part);
+	return list;
 }
 
 static char *text_of_buffer(LadderTextView *view)
@@ -76,6 +112,15 @@ static char *text_of_buffer(LadderTextView *view)
 
 	gtk_text_buffer_get_bounds(buffer, &start, &end);
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
+}
+
+/* The text of the POU as it is with the shown one. Caller frees. */
+static char *list_of_buffer(LadderTextView *view)
+{
+	char *shown = text_of_buffer(view), *list = text_range_whole(&view->part, shown);
+
+	g_free(shown);
+	return list;
 }
 
 /* Length of the common beginning, whole characters. */
@@ -126,20 +171,52 @@ static void exchange(LadderTextView *view, const char *now, const char *text)
 					   gtk_text_buffer_get_insert(buffer));
 }
 
+/* An action of a program or a block is shown without its heading, if it can be read. */
+static void choose_part(LadderTextView *view)
+{
+	char *list = view->part.kind == RANGE_WHOLE && is_action(view) ? list_of_document(view) : NULL;
+
+	if (list)
+		text_range_take(&view->part, list, text_range_heading(list));
+	g_free(list);
+}
+
+/* A screen reader says which part it is. */
+static void name_text(LadderTextView *view)
+{
+	char *name = ladder_text_view_part(view);
+
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->view), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+	g_free(name);
+}
+
 static void show_text(LadderTextView *view)
 {
-	char *text = text_of_document(view), *now = text_of_buffer(view);
+	char *name = g_strdup(view->part.name), *text, *now = text_of_buffer(view);
+	const int lines = view->part.lines;
+	bool changed;
 
+	choose_part(view);
+	text = text_of_document(view);
+	view->lost = !text;
+	changed = view->part.kind != RANGE_WHOLE && (!text || strcmp(name, view->part.name) != 0);
 	if (text && strcmp(text, now) != 0) {
 		view->ours = true;
 		text_folds_keep(view->folds);
 		exchange(view, now, text);
 		text_folds_kept(view->folds);
 		view->ours = false;
-		text_stops_exchanged(view->stops, now);
 	}
+	if (text && (strcmp(text, now) != 0 || lines != view->part.lines))
+		text_stops_exchanged(view->stops);
 	g_free(text);
 	g_free(now);
+	g_free(name);
+	if (!changed)
+		return;
+	name_text(view);
+	g_signal_emit(view, part_changed, 0);
 }
 
 static int cursor_line(LadderTextView *view)
@@ -169,9 +246,10 @@ static char *step_key(LadderTextView *view)
 /* This may destroy the view: a file that can be read again loses the page of its text. */
 static void put(LadderTextView *view, LadderDocument *document)
 {
-	char *text = text_of_buffer(view), *before, *key = step_key(view);
+	char *text = list_of_buffer(view), *before, *key = step_key(view);
 
 	view->ours = true;
+	text_stops_take(view->stops);
 	ladder_document_begin(document, _("Type text"), key);
 	if (view->pou >= 0) {
 		ladder_document_put_list(document, view->pou, text);
@@ -217,7 +295,7 @@ static void take_soon(LadderTextView *view, guint ms)
 static gboolean foresee(gpointer data)
 {
 	LadderTextView *view = data;
-	char *text = text_of_buffer(view);
+	char *text = list_of_buffer(view);
 
 	view->foreseeing = 0;
 	ladder_sim_foresee(view->sim, ladder_document_with_list(view->document, view->pou, text));
@@ -247,7 +325,7 @@ static void typed(LadderTextView *view)
 {
 	GdkFrameClock *clock = gtk_widget_get_frame_clock(GTK_WIDGET(view->view));
 
-	if (view->ours || view->taking || ladder_document_is_fixed(view->document))
+	if (view->ours || view->taking || view->lost || ladder_document_is_fixed(view->document))
 		return;
 	take_soon(view, SEEN_MS);
 	foresee_soon(view);
@@ -283,12 +361,17 @@ static void name_pou(LadderTextView *view)
 	text_stops_renew(view->stops);
 }
 
-/* Does not replace text typed since. */
+/* Does not replace text typed since. Whoever hears of a part that has gone may destroy the view. */
 static void document_changed(LadderTextView *view)
 {
+	g_object_ref(view);
 	if (!view->ours && !view->taking)
 		show_text(view);
-	name_pou(view);
+	else if (!view->ours)
+		g_free(text_of_document(view)); /* the text around the part */
+	if (view->stops)
+		name_pou(view);
+	g_object_unref(view);
 }
 
 static void variable_changed(LadderTextView *view, int pou)
@@ -372,9 +455,9 @@ static gboolean look_at_call(gpointer data)
 	gtk_text_buffer_get_iter_at_mark(GTK_TEXT_BUFFER(view->buffer), &at,
 		gtk_text_buffer_get_insert(GTK_TEXT_BUFFER(view->buffer)));
 	if (ladder_text_view_is_st(view)) {
-		text = text_of_buffer(view);
+		text = list_of_buffer(view);
 		call = text_complete_call(view->document, view->pou, text,
-					  gtk_text_iter_get_line(&at),
+					  view->part.lines + gtk_text_iter_get_line(&at),
 					  gtk_text_iter_get_line_index(&at));
 		g_free(text);
 	}
@@ -588,9 +671,9 @@ char *ladder_text_view_why(LadderTextView *view)
 
 	if (!view->sim || !ladder_text_view_is_st(view))
 		return NULL;
-	text = text_of_buffer(view);
+	text = list_of_buffer(view);
 	why = st_why(view->sim, project_text(project, project->pou[view->pou].name), text,
-		     cursor_line(view));
+		     view->part.lines + cursor_line(view));
 	g_free(text);
 	return why;
 }
@@ -656,9 +739,16 @@ static void add_fault(LadderTextView *view, const struct diag *diag, int before,
 		      const char *shown, const char *canonical)
 {
 	struct flaw fault = { diag->line - 1 - before, diag->column - 1, NULL, *diag };
+	const int last = text_lines_count(canonical);
 
 	if (fault.line < 0)
 		return;
+	if (view->part.kind != RANGE_WHOLE && fault.line > last) {
+		if (fault.line > last + 1)
+			return;
+		fault.line = last; /* something lacks before the end            */
+		fault.column = -1;
+	}
 	text_lines_place(shown, canonical, &fault.line, &fault.column);
 	if (fault.line >= gtk_text_buffer_get_line_count(GTK_TEXT_BUFFER(view->buffer)))
 		return;
@@ -671,9 +761,9 @@ static void show_errors(LadderTextView *view)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
 	const struct diag_list *diags = ladder_document_diags(view->document);
-	const int before = ladder_document_lines_before(view->document, view->pou);
 	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
-	const int lines = canonical ? text_lines_count(canonical) : 0;
+	const int before = ladder_document_lines_before(view->document, view->pou) + view->part.lines;
+	const int lines = canonical ? text_lines_count(canonical) + (view->part.kind != RANGE_WHOLE) : 0;
 	GtkTextIter start, end;
 
 	gtk_text_buffer_get_bounds(buffer, &start, &end);
@@ -699,8 +789,56 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou)
 {
 	text_stops_leave(view->stops);
 	view->pou = pou;
+	text_range_clear(&view->part);
+	text_range_init(&view->part);
 	show_text(view);
+	name_text(view);
 	name_pou(view);
+}
+
+void ladder_text_view_set_part(LadderTextView *view, int line)
+{
+	char *list;
+
+	ladder_text_view_take(view);
+	list = list_of_document(view);
+	if (!list || !text_range_take(&view->part, list, line - 1)) {
+		text_range_clear(&view->part);
+		text_range_init(&view->part);
+	}
+	g_free(list);
+	text_stops_leave(view->stops);
+	show_text(view);
+	name_text(view);
+	name_pou(view);
+	show_errors(view);
+}
+
+bool ladder_text_view_has(LadderTextView *view, int line)
+{
+	char *text;
+	bool has;
+
+	if (view->part.kind == RANGE_WHOLE)
+		return true;
+	text = text_of_document(view);
+	has = text && line > view->part.lines && line <= view->part.lines + 1 + text_lines_count(text);
+	g_free(text);
+	return has;
+}
+
+char *ladder_text_view_part(LadderTextView *view)
+{
+	switch (view->lost ? RANGE_WHOLE : view->part.kind) {
+	case RANGE_BOX:
+		return view->part.name[0] ? g_strdup_printf(_("Statements of %s"), view->part.name) :
+		       g_strdup(_("Statements of the box"));
+	case RANGE_ACTION:
+		return g_strdup_printf(_("Text of action %s"), view->part.name);
+	case RANGE_WHOLE:
+		break;
+	}
+	return view->lost ? NULL : g_strdup(_("Text of the program"));
 }
 
 void ladder_text_view_toggle_stop(LadderTextView *view)
@@ -736,7 +874,8 @@ int ladder_text_view_hidden(LadderTextView *view, int line)
 
 bool ladder_text_view_run_here(LadderTextView *view)
 {
-	return view->sim && ladder_sim_run_to(view->sim, view->pou, cursor_line(view));
+	return view->sim && ladder_sim_run_to(view->sim, view->pou,
+					      view->part.lines + cursor_line(view));
 }
 
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)
@@ -788,8 +927,8 @@ bool ladder_text_view_is_at(LadderTextView *view, int line)
 	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
 	GtkTextIter at;
 
-	line--;
-	if (canonical)
+	line -= view->part.lines + 1;
+	if (canonical && line >= 0)
 		text_lines_place(shown, canonical, &line, NULL);
 	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
 	g_free(canonical);
@@ -803,7 +942,7 @@ void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
 	GtkTextIter at;
 
-	line = MAX(line - 1, 0);
+	line = MAX(line - 1 - view->part.lines, 0);
 	column--;
 	if (canonical)
 		text_lines_place(shown, canonical, &line, &column);
@@ -829,6 +968,10 @@ static void ladder_text_view_dispose(GObject *object)
 {
 	LadderTextView *view = LADDER_TEXT_VIEW(object);
 
+	/* Nothing below asks for a timer again. */
+	if (view->buffer)
+		g_signal_handlers_disconnect_by_data(view->buffer, view);
+	g_clear_object(&view->buffer);
 	g_clear_handle_id(&view->taking, g_source_remove);
 	g_clear_handle_id(&view->looking, g_source_remove);
 	g_clear_handle_id(&view->foreseeing, g_source_remove);
@@ -844,7 +987,10 @@ static void ladder_text_view_dispose(GObject *object)
 
 static void ladder_text_view_finalize(GObject *object)
 {
-	g_array_unref(LADDER_TEXT_VIEW(object)->faults);
+	LadderTextView *view = LADDER_TEXT_VIEW(object);
+
+	g_array_unref(view->faults);
+	text_range_clear(&view->part);
 	G_OBJECT_CLASS(ladder_text_view_parent_class)->finalize(object);
 }
 
@@ -856,6 +1002,8 @@ static gboolean ladder_text_view_grab_focus(GtkWidget *widget)
 
 static void ladder_text_view_class_init(LadderTextViewClass *class)
 {
+	part_changed = g_signal_new("part-changed", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0,
+				    NULL, NULL, NULL, G_TYPE_NONE, 0);
 	GTK_WIDGET_CLASS(class)->grab_focus = ladder_text_view_grab_focus;
 	G_OBJECT_CLASS(class)->dispose = ladder_text_view_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_text_view_finalize;
@@ -886,6 +1034,7 @@ static void clear_fault(gpointer fault)
 static void ladder_text_view_init(LadderTextView *view)
 {
 	view->st_chart = -1;
+	text_range_init(&view->part);
 	view->faults = g_array_new(FALSE, FALSE, sizeof(struct flaw));
 	g_array_set_clear_func(view->faults, clear_fault);
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
@@ -915,9 +1064,6 @@ static void build(LadderTextView *view)
 	view->call = GTK_LABEL(gtk_label_new(""));
 	gtk_source_view_set_highlight_current_line(view->view, TRUE);
 	gtk_source_view_set_auto_indent(view->view, TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->view),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Text of the program"), -1);
 	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
@@ -937,15 +1083,15 @@ static void build(LadderTextView *view)
 	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
 	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
 	view->folds = text_folds_new(view->values);
-	view->stops = text_stops_new(view->values, view->document, &view->pou);
+	line_values_set_part(view->values, &view->part);
+	view->stops = text_stops_new(view->values, view->document, &view->pou, &view->part);
 	line_values_set_note(view->values, say_line, view);
 	keys = verbs_controller(VERB_TEXT);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	gtk_widget_add_controller(GTK_WIDGET(view->view), keys);
-	text_complete_attach(view->view, view->document, &view->pou);
+	text_complete_attach(view->view, view->document, &view->pou, &view->part);
 	gtk_widget_set_has_tooltip(GTK_WIDGET(view->view), TRUE);
 	g_signal_connect(view->view, "query-tooltip", G_CALLBACK(tell_pointed), view);
-	g_object_unref(view->buffer);
 }
 
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
@@ -968,6 +1114,7 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(show_errors), view);
 	text_scheme_follow(view->buffer);
 	show_text(view);
+	name_text(view);
 	name_pou(view);
 	return GTK_WIDGET(view);
 }

@@ -19,6 +19,20 @@ G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
 int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
+/**
+ * ladder_text_view_set_part - shows nothing but the EXECUTE box or the action around a line; all, if
+ * there is none
+ * @line: 1-based, of the POU as a file holds it
+ *
+ * It emits "part-changed" when that part gets another name or is gone. An action of a program or a
+ * block is always shown so.
+ */
+void ladder_text_view_set_part(LadderTextView *view, int line);
+/** ladder_text_view_has - is that line shown? */
+bool ladder_text_view_has(LadderTextView *view, int line);
+/** ladder_text_view_part - what is shown: "Text of the program", "Statements of Count"; NULL: its lines
+ * have gone. Caller frees. */
+char *ladder_text_view_part(LadderTextView *view);
 /** ladder_text_view_set_sim - the values beside the lines and in their tooltips come from @sim;
  * keeps a reference. NULL: none. */
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);

@@ -17,6 +17,7 @@ struct _LadderRungPage {
 	LadderDocument *document;
 	LadderSim *sim;
 	GtkWidget *sheet, *below, *place;
+	GtkLabel *heading;
 	GtkWidget *text;      /* NULL: closed                                  */
 	bool below_active;    /* it has the focus, or had it last              */
 };
@@ -82,18 +83,46 @@ static void close_clicked(LadderRungPage *page)
 	gtk_widget_grab_focus(page->sheet);
 }
 
+/* Another name, or the box has gone. */
+static void part_changed(LadderRungPage *page)
+{
+	char *part = ladder_text_view_part(LADDER_TEXT_VIEW(page->text));
+	const bool had_focus = page->below_active && gtk_widget_get_focus_child(page->place);
+
+	if (part) {
+		gtk_label_set_text(page->heading, part);
+	} else {
+		close_below(page);
+		if (had_focus)
+			gtk_widget_grab_focus(page->sheet);
+	}
+	g_free(part);
+}
+
+static void open_text(LadderRungPage *page)
+{
+	page->text = ladder_text_view_new(page->document,
+					  ladder_canvas_pou(LADDER_CANVAS(page->sheet)));
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
+	follow_focus(page, page->text, G_CALLBACK(below_entered));
+	g_signal_connect_swapped(page->text, "part-changed", G_CALLBACK(part_changed), page);
+	gtk_widget_set_vexpand(page->text, TRUE);
+	gtk_box_append(GTK_BOX(page->place), page->text);
+	gtk_widget_set_visible(page->below, TRUE);
+}
+
 void ladder_rung_page_go(LadderRungPage *page, int line, int column)
 {
-	if (!page->text) {
-		page->text = ladder_text_view_new(page->document,
-						  ladder_canvas_pou(LADDER_CANVAS(page->sheet)));
-		ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
-		follow_focus(page, page->text, G_CALLBACK(below_entered));
-		gtk_widget_set_vexpand(page->text, TRUE);
-		gtk_box_append(GTK_BOX(page->place), page->text);
-		gtk_widget_set_visible(page->below, TRUE);
-	}
-	ladder_text_view_go_here(LADDER_TEXT_VIEW(page->text), line, column);
+	const bool opens = !page->text;
+	LadderTextView *text;
+
+	if (opens)
+		open_text(page);
+	text = LADDER_TEXT_VIEW(page->text);
+	if (opens || !ladder_text_view_has(text, line))
+		ladder_text_view_set_part(text, line);
+	part_changed(page);
+	ladder_text_view_go_here(text, line, column);
 	set_active(page, true);
 }
 
@@ -105,6 +134,8 @@ static void statements_wanted(LadderRungPage *page, int rung, int row, int col)
 	const int line = text ? boxed_line(text, &project->pou[pou], rung, row, col) : 0;
 
 	g_free(text);
+	if (page->text && line > 0)
+		ladder_text_view_set_part(LADDER_TEXT_VIEW(page->text), line);
 	ladder_rung_page_go(page, line > 0 ? line : 1, 5);
 }
 
@@ -131,12 +162,13 @@ static void ladder_rung_page_class_init(LadderRungPageClass *class)
 static void ladder_rung_page_init(LadderRungPage *page)
 {
 	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
-	GtkWidget *heading = gtk_label_new(_("Text of the program"));
+	GtkWidget *heading = gtk_label_new("");
 	GtkWidget *close = gtk_button_new_from_icon_name("window-close-symbolic");
 
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(page), GTK_ORIENTATION_VERTICAL);
 	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
 	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->heading = GTK_LABEL(heading);
 	tip_set(close, _("Close"));
 	spoken_name(close, _("Close"));
 	gtk_widget_add_css_class(close, "flat");

@@ -150,28 +150,60 @@ static void show_rungs(LadderSfcPage *page, int first)
 	page->shown = heading;
 }
 
+/* Another name, or the action has gone. */
+static void part_changed(LadderSfcPage *page)
+{
+	char *part = ladder_text_view_part(LADDER_TEXT_VIEW(page->text));
+	const bool had_focus = page->below_active && gtk_widget_get_focus_child(page->place);
+
+	if (part) {
+		gtk_label_set_text(page->heading, part);
+	} else {
+		close_below(page);
+		if (had_focus)
+			gtk_widget_grab_focus(page->chart);
+	}
+	g_free(part);
+}
+
 static void open_text(LadderSfcPage *page)
 {
 	close_below(page);
 	page->text = ladder_text_view_new(page->document, page->pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
 	follow_focus(page, page->text, G_CALLBACK(below_entered));
-	put_below(page, page->text, _("Text of the program"), false);
+	g_signal_connect_swapped(page->text, "part-changed", G_CALLBACK(part_changed), page);
+	put_below(page, page->text, "", false);
 }
 
-static void show_text(LadderSfcPage *page, int line)
+/* @line: of the program, from 1. Of a line in an action only the action is shown. */
+static void show_text(LadderSfcPage *page, int line, int column)
 {
-	open_text(page);
-	ladder_text_view_go(LADDER_TEXT_VIEW(page->text), line, 5);
+	const bool opens = !page->text;
+	LadderTextView *text;
+
+	if (opens)
+		open_text(page);
+	text = LADDER_TEXT_VIEW(page->text);
+	if (opens || !ladder_text_view_has(text, line))
+		ladder_text_view_set_part(text, line);
+	part_changed(page);
+	ladder_text_view_go_here(text, line, column);
 	set_active(page, true);
 }
 
 void ladder_sfc_page_show_line(LadderSfcPage *page, int line)
 {
-	if (!page->text)
-		open_text(page);
-	ladder_text_view_go_here(LADDER_TEXT_VIEW(page->text), line + 1, 1);
-	set_active(page, true);
+	show_text(page, line + 1, 1);
+}
+
+/* @line: of the file. */
+static void show_body(LadderSfcPage *page, int line)
+{
+	line -= ladder_document_lines_before(page->document, page->pou);
+	if (page->text)
+		ladder_text_view_set_part(LADDER_TEXT_VIEW(page->text), line);
+	show_text(page, line, 5);
 }
 
 static void body_wanted(LadderSfcPage *page, int first, int count)
@@ -179,7 +211,7 @@ static void body_wanted(LadderSfcPage *page, int first, int count)
 	if (count > 0)
 		show_rungs(page, first);
 	else
-		show_text(page, first);
+		show_body(page, first);
 }
 
 /* The first rung of the body that was shown: the nearest body with its heading, else one

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/stand_bar.h"
 
+#include "editor-gtk/document/text_range.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
@@ -15,15 +16,36 @@
 
 /* ---- words ---- */
 
-/* "Fill line 12", "Main rung 3"; with the instance of a block. Caller frees. */
+/* An action or a box has line numbers of its own: "line 2 of Main.Count". @line: of the POU, from 0.
+ * Caller frees. */
+static char *line_words(LadderSim *sim, int pou, int line, const char *name)
+{
+	LadderDocument *document = ladder_sim_document(sim);
+	char *list = ladder_document_list(document, pou), *path, *words;
+	struct text_range range;
+	bool part;
+
+	text_range_init(&range);
+	part = list && text_range_take(&range, list, line) &&
+	       ladder_document_project(document)->pou[pou].kind != POU_ACTION;
+	path = part ? g_strdup_printf("%s.%s", name, range.name[0] ? range.name : "EXECUTE") :
+		      g_strdup(name);
+	words = g_strdup_printf(_("line %d of %s"), line + 1 - range.lines, path);
+	text_range_clear(&range);
+	g_free(list);
+	g_free(path);
+	return words;
+}
+
+/* "line 12 of Fill", "rung 3 of Main"; with the instance of a block. Caller frees. */
 static char *place_words(LadderSim *sim, const struct stops_frame *frame)
 {
 	int pou;
 	const int line = ladder_sim_stack_line(sim, frame, &pou);
-	char *place = frame->at.line ?
-		g_strdup_printf(_("line %d of %s"), line >= 0 ? line + 1 : (int)frame->at.line,
-				frame->at.pou) :
-		g_strdup_printf(_("rung %d of %s"), (int)frame->at.rung, frame->at.pou);
+	char *place = !frame->at.line ?
+		g_strdup_printf(_("rung %d of %s"), (int)frame->at.rung, frame->at.pou) :
+		line >= 0 ? line_words(sim, pou, line, frame->at.pou) :
+		g_strdup_printf(_("line %d of %s"), (int)frame->at.line, frame->at.pou);
 	char *whole = frame->instance[0] ?
 		g_strdup_printf(_("%s (instance %s)"), place, frame->instance) : g_strdup(place);
 

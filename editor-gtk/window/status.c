@@ -158,12 +158,37 @@ static char *percent(double zoom)
 	return g_strdup_printf("%d %%", (int)(zoom * 100 + 0.5));
 }
 
+static void show_place(struct status *status);
+
+/* The text below a sheet; NULL: none. */
+static void follow(struct status *status, GtkTextBuffer *text)
+{
+	if (text == status->below)
+		return;
+	if (status->below) {
+		g_signal_handlers_disconnect_by_data(status->below, status);
+		g_object_remove_weak_pointer(G_OBJECT(status->below), (gpointer *)&status->below);
+	}
+	status->below = text;
+	if (!text)
+		return;
+	g_object_add_weak_pointer(G_OBJECT(text), (gpointer *)&status->below);
+	core_connect(status->core, text, "notify::cursor-position", G_CALLBACK(show_place), status,
+		     G_CONNECT_SWAPPED);
+}
+
 static void show_place(struct status *status)
 {
 	struct front *front = status->core->front;
-	LadderCanvas *canvas = front_seen_canvas(front);
 	GtkTextBuffer *text = page_text(front_tab(front));
+	LadderTextView *list = front_list(front);
+	LadderCanvas *canvas = NULL;
 
+	if (list && !text)
+		text = GTK_TEXT_BUFFER(ladder_text_view_buffer(list));
+	else
+		canvas = front_seen_canvas(front);
+	follow(status, list && text != page_text(front_tab(front)) ? text : NULL);
 	if (canvas)
 		show(status, ladder_canvas_place(canvas), percent(ladder_canvas_zoom(canvas)),
 		     ladder_canvas_next_keys(canvas));

@@ -12,6 +12,7 @@
 struct status {
 	struct core *core;
 	GtkLabel *pill, *place, *checked, *zoom;
+	GtkTextBuffer *below;      /* followed; NULL: none                   */
 	int forces;                /* when the hint was made                  */
 };
 

@@ -44,7 +44,7 @@ END_PROGRAM''')
 
 def text_of(editor):
     """The text, not its heading."""
-    return until(lambda: [node for node in editor.all('Text of the program') if node.has(12)],
+    return until(lambda: [node for node in editor.all('Text of action Count', 'text') if node.has(12)],
                  'the focus in the text')[0]
 
 
@@ -68,7 +68,7 @@ def written(screen):
     shape(editor, 'Fill does: N Count')
     editor.click(shape(editor, 'Fill does: N Count'), count=2)
     view = text_of(editor)
-    until(lambda: '  ACTION Count:\n    ;\n  END_ACTION\n' in view.text(), 'the new action')
+    until(lambda: view.text() == '    ;', 'the new action')
     editor.keys('End', 'BackSpace')
     editor.type('IF')
     offered(editor, 'whole statement')
@@ -89,7 +89,7 @@ def written(screen):
     editor.type('IN := Fill.X, PT := T#20ms);')
     editor.keys('Return')
     editor.type('Runs := Runs + 1;')
-    until(lambda: 'Runs := Runs + 1;\n  END_ACTION' in view.text(), 'the last statement')
+    until(lambda: view.text().endswith('Runs := Runs + 1;'), 'the last statement')
     good(editor)
     text = editor.save(path)
     assert '''  ACTION Count:
@@ -104,7 +104,7 @@ def written(screen):
     assert lines(path, '@print Fill.X Runs\n.\nGo=1\nGo=0\n. x3\n')[-2:] == ['Runs=1', 'Runs=1']
     for _ in range(60):
         editor.keys('ctrl+z')
-    until(lambda: 'Count' not in view.text(), 'the chart without the action')
+    until(lambda: not editor.all('Text of action Count'), 'the chart without the action')
     assert editor.save(path) == MIXER
 
 
@@ -159,14 +159,14 @@ def stops(screen):
     editor.keys('ctrl+m')
     editor.says('SIMULATION')
     editor.click(editor.find('Go, %IX0.0', 'check box'))
-    until(lambda: editor.all('Stands before line %d of Mixer' % line, 'label'), 'the action')
+    until(lambda: editor.all('Stands before line %d of Mixer.Count' % line, 'label'), 'the action')
     editor.shot('chart-text-stands')
     editor.keys('F8')
-    until(lambda: editor.all('Stands before line %d of Mixer' % (line + 1), 'label'), 'the next line')
+    until(lambda: editor.all('Stands before line %d of Mixer.Count' % (line + 1), 'label'), 'the next line')
     editor.click(max(editor.all('Close', 'push button'), key=lambda node: node.box()[1]))
-    until(lambda: not editor.all('Text of the program'), 'the text to be gone')
+    until(lambda: not editor.all('Text of action Count', 'text'), 'the text to be gone')
     editor.click(editor.find('Step over', 'push button'))
-    until(lambda: not editor.all('Stands before line %d of Mixer' % (line + 1), 'label'), 'another line')
+    until(lambda: not editor.all('Stands before line %d of Mixer.Count' % (line + 1), 'label'), 'another line')
     view = text_of(editor)
     onto(editor, view, 'Runs := Runs + 1')
     editor.keys('shift+F9')
