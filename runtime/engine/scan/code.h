@@ -73,7 +73,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 10u
+#define CODE_VERSION 11u
 #define CODE_AREAS   16
 
 /* A pointer: offset of a place, its bytes, and the position from its first byte on. */
@@ -253,13 +253,11 @@ struct program {
 /* n of REAL, DINT, INT: the functions of these names; no MOD of REAL. */
 enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_MOD, MATH_COUNT };
 #define MATH_OF(n)   ((n) & 7u)
-/* n of CMP: <= and >= of two values. */
-#define CODE_AT_MOST  0xccu
-#define CODE_AT_LEAST 0xaau
+#define CODE_AT_MOST 0xccu /* n of CMP: <= of two values. */
 #define MATH_ENABLED 8u  /* flag beside it: en is tested; else it is CODE_TRUE    */
 #define MATH_LEFT    16u /* flag, not with MATH_ENABLED: dst = a if there is no result */
 #define MATH_LOOP    64u /* flag, of ADD of INT and DINT without others: CMP_INT or CMP_DINT of its
-			  * result by <= or >= follows, and JMPC by that */
+			  * result follows, without another bit, and JMPC by that */
 #define MATH_LIKELY  32u /* flag, with MATH_ENABLED: en is hardly ever FALSE, so a branch is faster */
 
 /**
@@ -318,6 +316,11 @@ static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t cou
 	    bit - bits[low - 1].first >= bits[low - 1].count)
 		return 0;
 	return bits[low - 1].slot + (bit - bits[low - 1].first);
+}
+/** code_order_alone - whether the table @n of CMP asks for the order alone, not for the bit c. Scan-safe: yes. */
+static inline bool code_order_alone(uint32_t n)
+{
+	return n < 256 && n >> 4 == (n & 15);
 }
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */

@@ -392,8 +392,8 @@ static bool check_loop(const uint32_t *code, uint32_t words)
 		return true;
 	return op != VM_REAL && *code >> 8 == (MATH_ADD | MATH_LOOP) && words >= 14 &&
 	       (*cmp & 0xff) == (op == VM_INT ? VM_CMP_INT : VM_CMP_DINT) && cmp[1] == code[3] &&
-	       (*cmp >> 8 == CODE_AT_MOST || *cmp >> 8 == CODE_AT_LEAST) &&
-	       *jump == VM_JMPC && jump[2] == cmp[4];
+	       code_order_alone(*cmp >> 8) &&
+	       (*jump & 0xff) == VM_JMPC && jump[2] == cmp[4];
 }
 #endif
 

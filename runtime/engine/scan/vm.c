@@ -675,6 +675,9 @@ static inline uint32_t fits(int64_t value, size_t size)
 	return value == (size == 2 ? (int16_t)value : (int32_t)value);
 }
 
+/* How two values compare: bit 0: a >= b, bit 1: a <= b; neither: not a number. */
+#define ORDER(a, b) ((uint32_t)((a) >= (b)) | (uint32_t)((a) <= (b)) << 1)
+
 /* Operands of what follows on MATH_LOOP, from the ADD on. */
 enum { LOOP_CMP = 6, LOOP_RIGHT = 8, LOOP_TEST = 10, LOOP_JUMP = 11, LOOP_WORDS = 14 };
 
@@ -682,14 +685,18 @@ enum { LOOP_CMP = 6, LOOP_RIGHT = 8, LOOP_TEST = 10, LOOP_JUMP = 11, LOOP_WORDS 
 static INLINE bool step(uint8_t *m, const uint32_t *pc, size_t size, bool *more)
 {
 	const int64_t sum = (int64_t)whole(m + pc[4], size) + whole(m + pc[5], size);
+	const uint32_t table = pc[LOOP_CMP] >> 8, unless = pc[LOOP_JUMP] >> 8;
+	int32_t right;
+	bool is;
 
 	if (!LIKELY(fits(sum, size)))
 		return false;
 	memcpy(m + pc[3], &sum, size); /* its low bytes: little-endian */
 	m[pc[2]] = 1;
-	*more = pc[LOOP_CMP] >> 8 == CODE_AT_MOST ? sum <= whole(m + pc[LOOP_RIGHT], size) :
-						      sum >= whole(m + pc[LOOP_RIGHT], size);
-	m[pc[LOOP_TEST]] = *more;
+	right = whole(m + pc[LOOP_RIGHT], size); /* behind the sum, which it may be */
+	is = LIKELY(table == CODE_AT_MOST) ? sum <= right : table >> ORDER(sum, right) & 1;
+	m[pc[LOOP_TEST]] = is;
+	*more = is != unless;
 	return true;
 }
 
@@ -735,9 +742,6 @@ static INLINE bool run_quick(uint8_t *m, const uint32_t *pc, uint32_t n, size_t 
 	memcpy(m + pc[2], &out, size); /* its low bytes: little-endian */
 	return true;
 }
-
-/* How two values compare: bit 0: a >= b, bit 1: a <= b; neither: not a number. */
-#define ORDER(a, b) ((uint32_t)((a) >= (b)) | (uint32_t)((a) <= (b)) << 1)
 
 static uint32_t order(const uint8_t *m, const uint32_t *pc)
 {

@@ -214,9 +214,9 @@ bool list_is_ahead(const struct list *list, uint32_t name)
 	return !list->label[fold(list, name)];
 }
 
-/* Marks the step of a loop: ADD, and a comparison that ends the code, which makes the BOOL at @slot.
+/* Marks a step and its limit: ADD, and a comparison that ends the code, which makes the BOOL at @slot.
  * They follow each other even where a label stands between them. */
-static void mark_loop(struct assembler *as, uint32_t slot)
+static void mark_step(struct assembler *as, uint32_t slot)
 {
 	uint32_t *add, *cmp, op;
 
@@ -227,7 +227,7 @@ static void mark_loop(struct assembler *as, uint32_t slot)
 	op = *add & 0xff;
 	if ((op == VM_INT || op == VM_DINT) && *add >> 8 == MATH_ADD &&
 	    (*cmp & 0xff) == (op == VM_INT ? VM_CMP_INT : VM_CMP_DINT) && cmp[1] == add[3] &&
-	    cmp[4] == slot && (*cmp >> 8 == CODE_AT_MOST || *cmp >> 8 == CODE_AT_LEAST))
+	    cmp[4] == slot && code_order_alone(*cmp >> 8))
 		*add |= MATH_LOOP << 8;
 }
 
@@ -253,13 +253,15 @@ void list_flow(struct list *list, const struct il_line *line)
 		emit_op(list->as, VM_END, 0);
 		return;
 	}
-	if (line->op == OP_JMP && line->modifiers == MOD_C && !list_is_ahead(list, target))
-		mark_loop(list->as, slot);
+	if (line->modifiers & MOD_C)
+		mark_step(list->as, slot);
 	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP,
 		line->modifiers & MOD_C && line->modifiers & MOD_N);
 	list_target(list, target);
 	if (line->modifiers & MOD_C)
 		emit(list->as, slot);
+	else if (!list->as->failed)
+		list->fixup[list->fixup_count - 1].jump = true;
 }
 
 /* The result does not change. */
@@ -351,13 +353,18 @@ static uint32_t leads_to(const struct assembler *as, uint32_t at)
 	return at;
 }
 
-/* From behind, so that what a jump leads to is known. */
+/* From behind, so that what a jump leads to is known. One to the end of the list ends it itself. */
 void list_patch(struct list *list, uint32_t end)
 {
-	for (int i = list->fixup_count; i-- > 0;) {
-		const uint32_t at = list->fixup[i].fold ?
-			list->label[list->fixup[i].fold] - 1 : end;
+	const struct assembler *as = list->as;
+	uint32_t *code = as->text->word;
 
-		list->as->text->word[list->fixup[i].word] = leads_to(list->as, at);
+	for (int i = list->fixup_count; i-- > 0;) {
+		const struct fixup *fixup = &list->fixup[i];
+		const uint32_t at = leads_to(as, fixup->fold ? list->label[fixup->fold] - 1 : end);
+
+		code[fixup->word] = at;
+		if (fixup->jump && code[at] == VM_END && !(as->listing && as->text == &as->watch))
+			code[fixup->word - 1] = code[fixup->word] = VM_END;
 	}
 }

@@ -380,15 +380,17 @@ static void test_steps(void)
 	CHECK_AS(marks_of(VM_INT, 1) == (MATH_ADD | MATH_LOOP) &&
 		 marks_of(VM_DINT, 0) == (MATH_ADD | MATH_LOOP), "a FOR has a step, up or down");
 	CHECK((add[6] & 0xff) == VM_CMP_INT && add[6] >> 8 == CODE_AT_MOST && add[11] == VM_JMPC);
-	CHECK(find(VM_DINT, 0)[6] >> 8 == CODE_AT_LEAST);
+	CHECK(find(VM_DINT, 0)[6] >> 8 == 0xaa);
 	CHECK_AS(!refuses_marks(VM_INT, 1, MATH_ADD), "no mark is needed");
 	CHECK_AS(refuses_marks(VM_INT, 0, MATH_ADD | MATH_LOOP), "without a comparison it is no step");
 	CHECK(refuses_marks(VM_INT, 1, MATH_SUB | MATH_LOOP) && refuses_marks(VM_INT, 1, MATH_ADD | MATH_LOOP | MATH_LEFT));
 	CHECK(refuses_marks(VM_INT, 1, MATH_ADD | MATH_LOOP | MATH_ENABLED));
-	CHECK(refuses(VM_INT, 1, 6, VM_CMP_INT | 0x22u << 8) && refuses(VM_INT, 1, 6, VM_CMP_INT | 0xcau << 8));
+	CHECK(refuses(VM_INT, 1, 6, VM_CMP_INT | 0x2au << 8) && refuses(VM_INT, 1, 6, VM_CMP_INT | 0xcau << 8));
+	CHECK_AS(!refuses(VM_INT, 1, 6, VM_CMP_INT | 0x22u << 8) && !refuses(VM_INT, 1, 11, VM_JMPC | 1u << 8),
+		 "any order will do, and a jump unless it is so");
 	CHECK(refuses(VM_INT, 1, 6, VM_CMP_DINT | 0xccu << 8) && refuses(VM_INT, 1, 7, add[8]));
 	CHECK(refuses(VM_INT, 1, 3, other) && refuses(VM_INT, 1, 13, add[2]));
-	CHECK(refuses(VM_INT, 1, 11, VM_JMPC | 1u << 8));
+	CHECK(refuses(VM_INT, 1, 11, VM_JMPC | 2u << 8) && refuses(VM_INT, 1, 11, VM_JMP));
 }
 
 static void test_shorts(void)

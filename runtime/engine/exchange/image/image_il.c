@@ -1672,19 +1672,20 @@ static void put_body(struct maker *m, uint32_t entry)
 {
 	const struct code_program *at = &m->program->entry[entry];
 	const uint32_t *text = m->program->text, end = at->text + at->text_words;
-	uint32_t words;
+	uint32_t words, before = VM_COUNT;
 
 	for (uint32_t i = at->text; i < end; i += code_words(text + i))
 		note_targets(m, text + i);
-	for (uint32_t i = at->text; i < end; i += words) {
+	for (uint32_t i = at->text; i < end; before = text[i] & 0xff, i += words) {
 		if (m->target[i])
 			put_label(m, "L", i);
 		words = put_instance_call(m, i, end);
 		if (words)
 			continue;
 		words = code_words(text + i);
-		/* A RET at the end says nothing, unless something jumps there. */
-		if ((text[i] & 0xff) != VM_END || i + 1 < end || m->target[i] || i == at->text)
+		/* A RET at the end or behind another says nothing, unless something jumps there. */
+		if ((text[i] & 0xff) != VM_END || m->target[i] || i == at->text ||
+		    (i + 1 < end && before != VM_END))
 			put_code(m, text + i);
 	}
 }
