@@ -11,6 +11,7 @@
 #include "engine/check/check_il.h"
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
+#include "engine/check/generic.h"
 #include "engine/check/settle.h"
 #include "engine/model/caller.h"
 #include "engine/model/located.h"
@@ -452,7 +453,9 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	struct il *il = watch ? &unit->watch : &unit->il;
 	enum iec_type **types = watch ? &unit->watch_types : &unit->types;
 
-	if (unit->pou->language == LANGUAGE_IL) {
+	if (generic_is(unit->pou)) {
+		il->arena = &ladder->arena;
+	} else if (unit->pou->language == LANGUAGE_IL) {
 		*il = unit->pou->il;
 		il_order_args(t->scope, unit->pou, il);
 	} else if (unit->pou->language == LANGUAGE_SFC) {
@@ -644,6 +647,8 @@ static bool build(struct ladder *ladder)
 	if (!project || ladder->built || ladder->diags.errors || ladder->leaves)
 		return ladder->program.header && ladder->diags.errors == 0;
 	ladder->built = true;
+	if (!generic_add(project, &ladder->arena, &ladder->diags))
+		return ladder->diags.errors ? false : no_memory(ladder, project->file);
 	if (!begin_translation(ladder))
 		return no_memory(ladder, project->file);
 	bad = check_all(ladder);
@@ -660,6 +665,30 @@ static bool build(struct ladder *ladder)
 	return good;
 }
 
+/* Several copies of a function have the same mistakes: each is told once. */
+static void say_once(const struct project *project, struct diag_list *diags)
+{
+	bool copies = false;
+	int kept = 0;
+
+	for (int i = 0; i < project->pou_count; i++)
+		copies |= project->pou[i].copy_of > 0;
+	for (int i = 0; copies && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		bool again = false;
+
+		for (int k = 0; k < kept && !again; k++)
+			again = diags->diag[k].id == diag->id && diags->diag[k].line == diag->line &&
+				diags->diag[k].column == diag->column && diags->diag[k].rung == diag->rung &&
+				diags->diag[k].row == diag->row && diags->diag[k].col == diag->col &&
+				diags->diag[k].file == diag->file && strcmp(diags->diag[k].arg, diag->arg) == 0;
+		diags->errors -= again && diag_severity(diag->id) == SEVERITY_ERROR;
+		if (!again)
+			diags->diag[kept++] = *diag;
+	}
+	diags->count = copies ? kept : diags->count;
+}
+
 bool ladder_build(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
@@ -668,8 +697,11 @@ bool ladder_build(struct ladder *ladder)
 		    no_memory(ladder, project->file);
 
 	good = good && build(ladder);
-	if (project)
+	if (project) {
+		say_once(project, &ladder->diags);
+		generic_end(project, pous);
 		project->pou_count = pous;
+	}
 
 	place_foreign(ladder);
 	ladder->program.classic = ladder->foreign && ladder->foreign->loaded;

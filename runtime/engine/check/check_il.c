@@ -5,6 +5,7 @@
 #include "engine/check/check_il.h"
 #include "engine/base/name.h"
 #include "engine/check/constant.h"
+#include "engine/check/generic.h"
 
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
@@ -1111,6 +1112,18 @@ static bool il_check_whole_move(struct il_check *c, int at)
 	return il_check_same(c, in, from, to) && can_write(c, out, to);
 }
 
+/* A function with ARRAY[*], of which only Structured Text makes copies; told. */
+static bool has_any_bounds(struct il_check *c, const struct il_line *line)
+{
+	const struct project *project = scope_project(c->fn.scope);
+	const struct pou *pou = shape_pou(project, (enum word)line->word);
+
+	if (!pou || !generic_is(pou))
+		return false;
+	il_report(&c->fn, line, DIAG_ANY_BOUNDS_CALL, project_text(project, pou->name));
+	return true;
+}
+
 static bool check_line(struct il_check *c, int at, enum iec_type *type)
 {
 	const struct il_line *line = &c->fn.il->line[at];
@@ -1126,10 +1139,14 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 		c->jumps |= line->op == OP_JMP && line->modifiers & MOD_C;
 		break;
 	case IL_FN:
+		if (has_any_bounds(c, line))
+			return false;
 		if (word_is_own((enum word)line->word))
 			return il_check_own_fn(c, at);
 		return check_fn(c, at, type);
 	case IL_CALL:
+		if (has_any_bounds(c, line))
+			return false;
 		if (word_is_own((enum word)line->word))
 			return il_check_own_call(c, at);
 		if (il_is_whole_move(c, at))

@@ -7,6 +7,7 @@
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
+#include "engine/check/generic.h"
 #include "engine/check/access.h"
 #include "engine/check/check_config.h"
 #include "engine/check/check_operand.h"
@@ -573,10 +574,10 @@ static void check_pous(struct names_check *c)
 		else if (is_reserved(c, name, fold) || (pou_has_frame(pou) && is_taken(c, name)))
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
-		if (mark && mark->pou)
+		if (mark && mark->pou && !pou->copy_of)
 			report_line(c, DIAG_DUPLICATE_NAME, pou, pou->line,
 				    name);
-		else if (mark)
+		else if (mark && !mark->pou)
 			mark->pou = i + 1;
 	}
 }
@@ -861,7 +862,7 @@ static void check_uses(struct names_check *c, int table_number)
 				&c->project->pou[table_number - 1] : NULL;
 	const struct var_table *table = pou ? &pou->vars : &c->project->globals;
 
-	for (int i = 0; i < table->block_count; i++) {
+	for (int i = 0; i < table->block_count && !(pou && generic_is(pou)); i++) {
 		const struct var_block *block = &table->block[i];
 
 		int end = block->first + block->count;
@@ -886,6 +887,8 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 	for (int i = 0; i < c->project->pou_count; i++) {
 		const struct pou *pou = &c->project->pou[i];
 
+		if (generic_is(pou)) /* its copies are checked */
+			continue;
 		check_table(c, pou, &pou->vars);
 		check_external(c, pou);
 		note_il(c, pou);

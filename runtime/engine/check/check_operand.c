@@ -10,6 +10,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/check/attempt.h"
+#include "engine/check/generic.h"
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
@@ -733,6 +734,24 @@ static bool use_measured(struct operand_check *c, struct operand_spot at, struct
 	return true;
 }
 
+/* LOWER_BOUND, UPPER_BOUND; false: another call. */
+static bool use_bound(struct operand_check *c, struct operand_spot at, struct expr *expr,
+		      const struct expr_node *call)
+{
+	struct expr_bound bound;
+	char text[LIMIT_NAME + 1];
+	int64_t value;
+
+	if (!expr_is_bound(call))
+		return false;
+	snprintf(text, sizeof(text), "%.*s", call->len < LIMIT_NAME ? call->len : LIMIT_NAME, call->text);
+	if (!expr_bound(expr, call, &bound) || !bound_value(c->scope, c->pou, expr, &bound, &value))
+		operand_report(c, DIAG_BOUND_OF, at, text);
+	for (int at_arg = call->left; at_arg >= 0; at_arg = expr->node[at_arg].right)
+		expr->node[expr->node[at_arg].left].whole = true;
+	return true;
+}
+
 /* `Table(1)` for Table[1]. */
 static bool is_array_name(struct operand_check *c, const struct expr_node *call)
 {
@@ -746,7 +765,8 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 		       const struct expr_node *call)
 {
 	struct word_table *words = &c->project->words;
-	enum word word = expr_function(words, call);
+	const enum word plain = expr_function(words, call);
+	const enum word word = generic_word(c->scope, c->pou, expr, call, plain);
 	const struct word_row *row = words_row(words, word);
 	struct expr_args args = { .wrong = -1, .text = "" };
 	enum diag_id why;
@@ -754,6 +774,8 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	if (word == WORD_COUNT && c->statement && expr_is_clock(call))
 		return;
 	if (word == WORD_COUNT && c->statement && use_measured(c, at, expr, call))
+		return;
+	if (word == WORD_COUNT && c->statement && use_bound(c, at, expr, call))
 		return;
 	if (word == WORD_COUNT && c->statement && is_array_name(c, call)) {
 		char text[2 * LIMIT_NAME + 8];
@@ -783,6 +805,12 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	if (word_is_own(word) && row->owner >= 0 && c->project->pou[row->owner].no_result &&
 	    !(c->item && c->item->kind == ST_CALL && call == &expr->node[expr->root]))
 		operand_report(c, DIAG_NO_RESULT, at, row->word);
+	if (word_is_own(word) && row->owner >= 0 && generic_is(&c->project->pou[row->owner])) {
+		operand_report(c, c->statement ? DIAG_ANY_BOUNDS_OF : DIAG_ANY_BOUNDS_CALL, at, row->word);
+		for (int i = 0; i < args.count; i++)
+			expr->node[args.arg[i].at].whole = true;
+		return;
+	}
 	note_others(c, at, expr, &args);
 	if (word_is_own(word)) {
 		for (int i = 0; i < args.count; i++)

@@ -39,6 +39,37 @@ struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
 	return NULL;
 }
 
+bool expr_is_bound(const struct expr_node *call)
+{
+	return call->op == EXPR_CALL && (ascii_is("LOWER_BOUND", call->text, call->len) ||
+					 ascii_is("UPPER_BOUND", call->text, call->len));
+}
+
+bool expr_bound(struct expr *expr, const struct expr_node *call, struct expr_bound *out)
+{
+	const struct expr_node *arg[2] = { NULL, NULL };
+	int count = 0, at = call->left;
+
+	if (!expr_is_bound(call))
+		return false;
+	for (; at >= 0 && count < 2; at = expr->node[at].right)
+		arg[count++] = &expr->node[at]; /* from the last one on */
+	if (count != 2 || at >= 0)
+		return false;
+	*out = (struct expr_bound){ .upper = ascii_is("UPPER_BOUND", call->text, call->len) };
+	for (int i = 0; i < 2; i++) {
+		const bool array = arg[i]->len ? ascii_is("ARR", arg[i]->text, arg[i]->len) : i == 1;
+
+		if (arg[i]->len && !array && !ascii_is("DIM", arg[i]->text, arg[i]->len))
+			return false;
+		if (array)
+			out->array = &expr->node[arg[i]->left];
+		else
+			out->number = &expr->node[arg[i]->left];
+	}
+	return out->array && out->number;
+}
+
 int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)
 {
 	if (index < row->pin_count)

@@ -37,6 +37,16 @@ enum expr_measure { MEASURE_PLACE, MEASURE_SIZE, MEASURE_VALID };
  * Scan-safe: yes. */
 struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
 				enum expr_measure *what);
+/* LOWER_BOUND(array, number), UPPER_BOUND: of its dimension with this number. */
+struct expr_bound {
+	struct expr_node *array, *number;
+	bool upper;
+};
+/** expr_is_bound - a call of LOWER_BOUND or UPPER_BOUND. Scan-safe: yes. */
+bool expr_is_bound(const struct expr_node *call);
+/** expr_bound - the arguments of LOWER_BOUND or UPPER_BOUND; false: the call is none of them, or has others.
+ * Scan-safe: yes. */
+bool expr_bound(struct expr *expr, const struct expr_node *call, struct expr_bound *out);
 /**
  * expr_match - matches the arguments of @call to the pins of @row
  *

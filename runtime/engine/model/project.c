@@ -329,7 +329,12 @@ void project_write_array(const struct project *project, const struct var *var, c
 {
 	const struct var_written *written = var->written;
 
-	if (written && written->bound[0]) {
+	if (var->any_bounds) {
+		sink_text(sink, "ARRAY[*");
+		for (int i = 1; i < var->own_dims; i++)
+			sink_text(sink, ", *");
+		sink_text(sink, "] OF ");
+	} else if (written && written->bound[0]) {
 		sink_text(sink, "ARRAY[");
 		sink_text(sink, project_text(project, written->bound[0]));
 		sink_text(sink, "..");

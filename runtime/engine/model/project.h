@@ -77,6 +77,7 @@ struct pou {
 	enum pou_language language;
 	bool no_result;         /* of a function: its heading has no type; the result is a BOOL
 				 * that nobody reads                           */
+	int copy_of;            /* while a project is built: of that POU, + 1, with bounds; 0: of none */
 	bool unsaid;            /* its first line has no language: the body shows it */
 	enum pou_kind kind;
 	enum word word;         /* of a function or block; WORD_COUNT: none    */

@@ -86,6 +86,7 @@ struct var {                 /* as small as it can be: a project has thousands *
 	bool has_init : 1;
 	bool wide : 1;       /* a STRING that is written WSTRING               */
 	bool letter : 1;     /* that is written CHAR, or WCHAR                 */
+	bool any_bounds : 1; /* ARRAY[*]: one element a dimension stands for all; check/generic.h */
 	bool inherits : 1;   /* the initial value is that of its type, not in the file */
 	uint8_t dims;        /* of its array; 0 or 1: array alone counts       */
 	uint8_t own_dims;    /* so many are in the declaration, the others in its named type */

@@ -65,6 +65,18 @@ static bool fail_bounds(struct reader *r, int64_t low, int64_t high)
 	return reader_fail_word(r, DIAG_BAD_BOUNDS, text);
 }
 
+/* `*`: the bounds are those of the argument. */
+static bool read_any_bounds(struct reader *r, struct var *var, struct dimensions *out)
+{
+	if (!r->pou || r->pou->kind != POU_FUNCTION || r->members || !(r->var_flags & (VAR_INPUT | VAR_IN_OUT)) ||
+	    (out->count > 0 && !var->any_bounds))
+		return reader_fail_token(r, DIAG_ANY_BOUNDS);
+	var->any_bounds = true;
+	out->dim[out->count++] = (struct var_array){ 0, 1 };
+	reader_step(r);
+	return true;
+}
+
 /* `1..10` */
 static bool read_dimension(struct reader *r, struct var *var, struct dimensions *out)
 {
@@ -73,6 +85,8 @@ static bool read_dimension(struct reader *r, struct var *var, struct dimensions 
 
 	if (out->count == LIMIT_INDICES)
 		return reader_fail_many(r, DIAG_TOO_MANY, "dimensions", LIMIT_INDICES);
+	if (reader_is(r, '*') || var->any_bounds)
+		return read_any_bounds(r, var, out);
 	if (!read_bound(r, var, WRITTEN_LOW, &low))
 		return false;
 	text[0] = buffer_take(r, &r->text);

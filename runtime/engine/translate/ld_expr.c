@@ -6,6 +6,7 @@
  * power of the cell, as the same boxes in series would.
  */
 #include "engine/check/attempt.h"
+#include "engine/check/generic.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/shape.h"
@@ -131,7 +132,8 @@ static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
 
 static enum word function_of(const struct ld *ld, const struct expr_node *node)
 {
-	return expr_function(&ld->translation->project->words, node);
+	return generic_word(ld->translation->scope, ld->unit->pou, ld->expr, node,
+			    expr_function(&ld->translation->project->words, node));
 }
 
 /* ---- types ---- */
@@ -1184,6 +1186,19 @@ static struct value chain_measure(struct chain *c, const struct expr_node *of, e
 	return constant(c, text, (size_t)len, false, hint);
 }
 
+/* LOWER_BOUND, UPPER_BOUND */
+static struct value chain_bound(struct chain *c, const struct expr_bound *bound, enum iec_type hint)
+{
+	int64_t value = 0;
+	char text[24];
+	int len;
+
+	if (!bound_value(c->ld->translation->scope, c->ld->unit->pou, c->ld->expr, bound, &value))
+		c->ld->failed = true;
+	len = snprintf(text, sizeof(text), "%lld", (long long)value);
+	return constant(c, text, (size_t)len, false, hint);
+}
+
 /* TIME(): milliseconds in 32 bits, which begin again at 0. */
 static struct value chain_clock(struct chain *c)
 {
@@ -1219,12 +1234,15 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	struct value none = { .type = IEC_NONE };
 	const struct expr_node *of;
 	struct expr_args args;
+	struct expr_bound bound;
 	enum expr_measure what;
 
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return chain_clock(c);
 	if (word == WORD_COUNT && (of = expr_measured(c->ld->expr, node, &what)))
 		return chain_measure(c, of, what, hint);
+	if (word == WORD_COUNT && expr_bound(c->ld->expr, node, &bound))
+		return chain_bound(c, &bound, hint);
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, ld_row(c->ld, word), &args) != DIAG_COUNT) {
 		c->ld->failed = true;
