@@ -453,7 +453,7 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	struct il *il = watch ? &unit->watch : &unit->il;
 	enum iec_type **types = watch ? &unit->watch_types : &unit->types;
 
-	if (generic_is(unit->pou)) {
+	if (pou_has_any_bounds(unit->pou)) {
 		il->arena = &ladder->arena;
 	} else if (unit->pou->language == LANGUAGE_IL) {
 		*il = unit->pou->il;

@@ -9,7 +9,6 @@
  */
 #include "ladder/report.h"
 
-#include "engine/check/generic.h"
 #include "engine/exchange/image/image_il.h"
 
 #include <stdio.h>
@@ -88,7 +87,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 		int count = 0;
 		struct var *const *temp = ladder_temporaries(ladder, i, &count);
 
-		if (generic_is(pou)) /* its calls have one list for each set of bounds */
+		if (pou_has_any_bounds(pou)) /* its calls have one list for each set of bounds */
 			continue;
 		pou->il = *ladder_il(ladder, i);
 		pou->language = LANGUAGE_IL;

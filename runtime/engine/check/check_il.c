@@ -1118,7 +1118,7 @@ static bool has_any_bounds(struct il_check *c, const struct il_line *line)
 	const struct project *project = scope_project(c->fn.scope);
 	const struct pou *pou = shape_pou(project, (enum word)line->word);
 
-	if (!pou || !generic_is(pou))
+	if (!pou || !pou_has_any_bounds(pou))
 		return false;
 	il_report(&c->fn, line, DIAG_ANY_BOUNDS_CALL, project_text(project, pou->name));
 	return true;

@@ -862,7 +862,7 @@ static void check_uses(struct names_check *c, int table_number)
 				&c->project->pou[table_number - 1] : NULL;
 	const struct var_table *table = pou ? &pou->vars : &c->project->globals;
 
-	for (int i = 0; i < table->block_count && !(pou && generic_is(pou)); i++) {
+	for (int i = 0; i < table->block_count && !(pou && pou_has_any_bounds(pou)); i++) {
 		const struct var_block *block = &table->block[i];
 
 		int end = block->first + block->count;
@@ -887,7 +887,7 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 	for (int i = 0; i < c->project->pou_count; i++) {
 		const struct pou *pou = &c->project->pou[i];
 
-		if (generic_is(pou)) /* its copies are checked */
+		if (pou_has_any_bounds(pou)) /* its copies are checked */
 			continue;
 		check_table(c, pou, &pou->vars);
 		check_external(c, pou);

@@ -27,14 +27,6 @@ struct generic {
 	bool failed;
 };
 
-bool generic_is(const struct pou *pou)
-{
-	for (int i = 0; pou->kind == POU_FUNCTION && i < pou->vars.count; i++)
-		if (pou->vars.var[i].any_bounds)
-			return true;
-	return false;
-}
-
 /* The dimensions of the array at @node of the expression. False: it is none. */
 static bool bounds_at(struct scope *scope, const struct pou *pou, struct expr *expr, int node,
 		      struct bounds *out)
@@ -103,7 +95,7 @@ static int generic_of(const struct project *project, enum word word)
 {
 	const struct word_row *row = words_own(&project->words, word);
 
-	return row && row->kind == WORD_FN && row->owner >= 0 && generic_is(&project->pou[row->owner]) ?
+	return row && row->kind == WORD_FN && row->owner >= 0 && pou_has_any_bounds(&project->pou[row->owner]) ?
 	       row->owner : -1;
 }
 
@@ -286,7 +278,7 @@ static void note_calls(struct generic *g, int end)
 	for (int i = g->from; i < end && !g->failed; i++) {
 		const struct st *st = g->project->pou[i].st;
 
-		for (int k = 0; st && !generic_is(&g->project->pou[i]) && k < st->count; k++)
+		for (int k = 0; st && !pou_has_any_bounds(&g->project->pou[i]) && k < st->count; k++)
 			if (st->item[k].kind != ST_COMMENT)
 				note_statement(g, i, &st->item[k]);
 	}
@@ -306,7 +298,7 @@ static bool add_uncalled(struct project *project, int count)
 		struct bounds *bounds;
 		int found = 0, arrays = 0;
 
-		if (!generic_is(&project->pou[of]))
+		if (!pou_has_any_bounds(&project->pou[of]))
 			continue;
 		for (int i = count; i < project->pou_count; i++)
 			found += project->pou[i].copy_of == of + 1;
@@ -338,7 +330,7 @@ bool generic_add(struct project *project, struct arena *arena, struct diag_list 
 	bool any = false, last = false;
 
 	for (int i = 0; i < count; i++)
-		any |= generic_is(&project->pou[i]);
+		any |= pou_has_any_bounds(&project->pou[i]);
 	if (!any)
 		return true;
 	g.expr = arena_alloc(arena, sizeof(*g.expr));

@@ -25,6 +25,4 @@ struct expr_bound;
  * the second no number of a dimension. */
 bool bound_value(struct scope *scope, const struct pou *pou, struct expr *expr, const struct expr_bound *bound,
 		 int64_t *out);
-/** generic_is - has it an ARRAY[*]? Scan-safe: yes. */
-bool generic_is(const struct pou *pou);
 #endif

@@ -115,6 +115,14 @@ bool pou_has_frame(const struct pou *pou)
 	return pou->kind == POU_FUNCTION || pou->kind == POU_BLOCK;
 }
 
+bool pou_has_any_bounds(const struct pou *pou)
+{
+	for (int i = 0; pou->kind == POU_FUNCTION && i < pou->vars.count; i++)
+		if (pou->vars.var[i].any_bounds)
+			return true;
+	return false;
+}
+
 const struct boxed *pou_boxed(const struct pou *pou, int rung, int row, int col)
 {
 	int low = 0, high = pou->boxed_count;
