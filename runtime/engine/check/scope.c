@@ -555,6 +555,24 @@ static bool step_action(struct path *path, const struct word_row *row, const cha
 	return action >= 0 || refuse(path, DIAG_NO_PIN);
 }
 
+/* The members of a union are looked at through a pointer to its variable: memory has one type. */
+static bool step_overlapped(struct path *path)
+{
+	struct meaning *m = &path->m, *pointer;
+
+	if (m->through || !m->var)
+		return true;
+	pointer = arena_alloc(path->scope->arena, sizeof(*pointer));
+	if (!pointer)
+		return refuse(path, DIAG_NO_MEMORY);
+	*pointer = (struct meaning){ .kind = MEANING_PIN, .type = IEC_LWORD, .index = m->index, .pou = m->pou,
+				     .var = m->var, .address_of = m->var->name };
+	path->pointer = pointer;
+	path->count = 0;
+	m->through = true;
+	return true;
+}
+
 /* `.Speed`. Inner variables of a block cannot be named from outside. */
 static bool step_into(struct path *path)
 {
@@ -581,6 +599,8 @@ static bool step_into(struct path *path)
 		path->pin = index;
 	if (row->kind == WORD_FB)
 		m->writable = row->pin[index].dir == PIN_IN;
+	if (row->overlaps && !step_overlapped(path))
+		return false;
 	m->like = declares(path->scope, m->word, index);
 	mean_pin(path->scope, &row->pin[index], m);
 	return true;

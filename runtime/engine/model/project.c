@@ -371,11 +371,22 @@ void project_write_init(const struct project *project, const struct var *var, co
 	sink_text(sink, text);
 }
 
+const char *project_struct_begin(const struct structure *structure)
+{
+	return structure->overlap == OVERLAP_UNION ? "UNION" :
+	       structure->overlap == OVERLAP_STRUCT ? "STRUCT OVERLAP" : "STRUCT";
+}
+
+const char *project_struct_end(const struct structure *structure)
+{
+	return structure->overlap == OVERLAP_UNION ? "END_UNION" : "END_STRUCT";
+}
+
 /* On one line. Depth: LIMIT_NESTING. */
 static void write_members(const struct project *project, const struct structure *structure,
 			  const struct sink *sink)
 {
-	sink_text(sink, "STRUCT ");
+	sink_printf(sink, "%s ", project_struct_begin(structure));
 	for (int i = 0; i < structure->vars.count; i++) {
 		const struct var *var = &structure->vars.var[i];
 
@@ -384,7 +395,7 @@ static void write_members(const struct project *project, const struct structure 
 		project_write_init(project, var, sink);
 		sink_text(sink, "; ");
 	}
-	sink_text(sink, "END_STRUCT");
+	sink_text(sink, project_struct_end(structure));
 }
 
 void project_write_type(const struct project *project, const struct var *var,

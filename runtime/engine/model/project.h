@@ -100,10 +100,14 @@ struct pou {
 	uint8_t included;       /* 1: of a file named by INCLUDE               */
 };
 
+/* Whether its members share their bytes, and how it is written: UNION, STRUCT OVERLAP. */
+enum overlap { OVERLAP_NONE, OVERLAP_UNION, OVERLAP_STRUCT };
+
 /* TYPE name : STRUCT … END_STRUCT; END_TYPE */
 struct structure {
 	uint32_t name;          /* string id; 0: STRUCT … END_STRUCT in a declaration */
 	enum word word;
+	enum overlap overlap : 8;
 	struct var_table vars;  /* its members                                 */
 	uint32_t comment;       /* comments before its END_STRUCT              */
 	uint32_t text;          /* string id: all of it, if it has no name: two alike are one type */
@@ -276,6 +280,9 @@ const char *access_word(bool writes);
 void project_write_type(const struct project *project, const struct var *var,
 			const struct sink *sink);
 
+/** project_struct_begin, project_struct_end - STRUCT and END_STRUCT, or the words of a union. Static. */
+const char *project_struct_begin(const struct structure *structure);
+const char *project_struct_end(const struct structure *structure);
 /** project_write_array - the `ARRAY[1..Limit] OF ` of it; nothing of a variable that is no array.
  * Scan-safe: no. */
 void project_write_array(const struct project *project, const struct var *var, const struct sink *sink);

@@ -3,7 +3,7 @@
  * shape - rows of a project's own words, and the order of their parts in memory.
  *
  * Parts are ordered by type, so that few runs describe them; blocks and structures come
- * last. A type that contains itself has no size and is an error.
+ * last. Those of a structure in a union lie as they are declared. A type that contains itself has no size and is an error.
  */
 #include "engine/model/shape.h"
 
@@ -187,6 +187,12 @@ static int count_edges(const struct pou *pou)
 	return count;
 }
 
+static bool is_union(const struct shaper *s, const struct word_row *row)
+{
+	return row->kind == WORD_STRUCT && !is_temps(row) && row->owner >= 0 &&
+	       s->project->structure[row->owner].overlap != OVERLAP_NONE;
+}
+
 static bool make_pins(struct shaper *s, int index)
 {
 	struct word_row *row = own_row(s, index);
@@ -197,13 +203,16 @@ static bool make_pins(struct shaper *s, int index)
 
 	row->size = BLOCK_ALIGN;
 	row->pin_count = row->ordered = 0;
-	row->retain = false;
+	row->retain = row->texts = row->straight = false;
+	row->overlaps = is_union(s, row);
 	if (!table)
 		return true;
 	if (row->kind == WORD_FB) {
 		edges = count_edges(&s->project->pou[row->owner]);
 		s->project->pou[row->owner].edges = edges;
 	}
+	if (row->overlaps)
+		edges = 1; /* the bytes that all members share */
 	count = table->count + edges;
 	if (count > LIMIT_MEMBERS) {
 		report(s, index, DIAG_TOO_MANY, "members");
@@ -224,6 +233,69 @@ static bool make_pins(struct shaper *s, int index)
 
 /* ---- places ---- */
 
+/* All members begin at the first byte; a pin without a name has the bytes of the longest one. */
+static bool place_union(struct shaper *s, int index)
+{
+	struct word_row *row = own_row(s, index);
+	struct word_pin *pin = (struct word_pin *)row->pin;
+	struct word_pin *bytes = &pin[row->pin_count - 1];
+	uint16_t *order = arena_alloc(&s->project->arena, sizeof(*order));
+	uint64_t most = 1;
+	int depth = 0;
+
+	if (!order)
+		return false;
+	for (int i = 0; i < row->pin_count - 1; i++) {
+		const struct extent extent = shape_of(&s->project->words, &pin[i]);
+		const struct word_row *inner = pin[i].type == IEC_NONE ?
+			words_row(&s->project->words, pin[i].word) : NULL;
+
+		pin[i].offset = 0;
+		most = extent.size > most ? extent.size : most;
+		row->texts |= pin[i].type == IEC_STRING || (inner && (inner->kind == WORD_FB || inner->texts));
+		depth = inner && inner->depth > depth ? inner->depth : depth;
+	}
+	if (most > LIMIT_DATA)
+		report(s, index, DIAG_TYPE_TOO_LARGE, row->word);
+	else if (row->texts)
+		report(s, index, DIAG_UNION, row->word);
+	most = most > LIMIT_DATA ? 1 : most;
+	*bytes = (struct word_pin){ .name = "", .dir = PIN_VAR, .type = IEC_LWORD,
+				    .elements = (uint32_t)(most + 7) / 8 };
+	*order = (uint16_t)(row->pin_count - 1);
+	row->order = order;
+	row->ordered = 1;
+	row->size = bytes->elements * 8;
+	row->depth = (uint8_t)(depth + 1);
+	if (row->depth > LIMIT_NESTING) {
+		row->depth = LIMIT_NESTING;
+		report(s, index, DIAG_TOO_DEEP, row->word);
+	}
+	return true;
+}
+
+/* The structures in unions, at every depth. */
+static void mark_straight(struct shaper *s)
+{
+	bool more = true;
+
+	while (more) {
+		more = false;
+		for (int i = 0; i < s->project->words.count; i++) {
+			const struct word_row *row = own_row(s, i);
+
+			for (int k = 0; k < row->pin_count && (row->overlaps || row->straight); k++) {
+				struct word_row *inner = row->pin[k].type != IEC_NONE ? NULL :
+					words_own(&s->project->words, row->pin[k].word);
+
+				if (!inner || inner->kind != WORD_STRUCT || inner->straight)
+					continue;
+				inner->straight = more = true;
+			}
+		}
+	}
+}
+
 static bool place_pins(struct shaper *s, int index)
 {
 	struct word_row *row = own_row(s, index);
@@ -235,9 +307,9 @@ static bool place_pins(struct shaper *s, int index)
 
 	if (!order)
 		return false;
-	for (int type = 1; type <= IEC_TYPE_COUNT; type++)
+	for (int type = row->straight ? IEC_TYPE_COUNT : 1; type <= IEC_TYPE_COUNT; type++)
 		for (int i = 0; i < row->pin_count; i++) {
-			enum iec_type own = (enum iec_type)(type % IEC_TYPE_COUNT);
+			enum iec_type own = row->straight ? pin[i].type : (enum iec_type)(type % IEC_TYPE_COUNT);
 			struct extent extent;
 
 			if (pin[i].type != own || pin[i].dir == PIN_NONE)
@@ -251,12 +323,14 @@ static bool place_pins(struct shaper *s, int index)
 				report(s, index, DIAG_TYPE_TOO_LARGE, row->word);
 				return true;
 			}
+			row->texts |= own == IEC_STRING || (own == IEC_NONE && !word_is_own(pin[i].word));
 			if (own == IEC_NONE && word_is_own(pin[i].word)) {
 				const struct word_row *inner = words_row(
 					&s->project->words, pin[i].word);
 
 				depth = inner->depth > depth ? inner->depth : depth;
 				row->retain |= inner->retain;
+				row->texts |= inner->texts || inner->kind == WORD_FB;
 			}
 		}
 	row->order = order;
@@ -312,7 +386,7 @@ static bool place_all(struct shaper *s)
 			}
 			inner = s->stack[--s->depth];
 			s->state[inner] = STATE_DONE;
-			if (!place_pins(s, inner))
+			if (own_row(s, inner)->overlaps ? !place_union(s, inner) : !place_pins(s, inner))
 				return false;
 		}
 	}
@@ -333,6 +407,8 @@ bool shape_make(struct project *project, struct diag_list *diags)
 
 	for (int i = 0; i < project->words.count && memory; i++)
 		memory = make_pins(&s, i);
+	if (memory)
+		mark_straight(&s);
 	if (memory && place_all(&s))
 		return s.good;
 	return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,

@@ -249,6 +249,19 @@ static bool is_initial(uint8_t type, const uint8_t *bytes, uint32_t size)
 }
 
 /* Initial bytes must be whole values. */
+#ifdef RUNGBOARD_SMALL
+#define is_raw(...) false /* no unions: their members are behind pointers */
+#else
+/* Members of a union lie in LWORDs, whatever their types are. */
+static bool is_raw(const struct verifier *v, uint32_t at, uint64_t bytes)
+{
+	const struct code_run *run = code_run_at(v->program, at);
+
+	return run && run->kind == RUN_VALUES && run->type == IEC_LWORD &&
+	       at + bytes <= run->offset + (uint64_t)run->count * code_run_size(run);
+}
+#endif
+
 static bool check_init_bytes(struct verifier *v, uint32_t offset,
 			     const uint8_t *bytes, uint32_t len)
 {
@@ -256,7 +269,10 @@ static bool check_init_bytes(struct verifier *v, uint32_t offset,
 		uint8_t mark = v->mark[offset];
 		uint32_t size = 1;
 
-		if (mark >= MARK_VALUE) {
+		if ((mark == MARK_VALUE + IEC_LWORD || (mark < MARK_VALUE && mark != MARK_AREA)) &&
+		    is_raw(v, offset, 1)) {
+			; /* byte by byte */
+		} else if (mark >= MARK_VALUE) {
 			size = value_bytes(v, offset);
 			if (size > len ||
 			    !is_initial(mark % MARK_VALUE, bytes, size))
@@ -334,6 +350,9 @@ static bool check_symbol(struct verifier *v, uint32_t symbol, const char *name)
 	uint32_t at = CODE_OFFSET(symbol), count = code_bounds(name).count;
 	const struct code_run *run = code_run_at(v->program, at);
 
+	if (!(CODE_TYPE(symbol) & SYMBOL_BIT) && verify_is_type(type) && type != IEC_STRING &&
+	    is_raw(v, at, (uint64_t)type_size(type) * (count ? count : 1)))
+		return true;
 	if (count && CODE_TYPE(symbol) & SYMBOL_BIT)
 		return type == IEC_BOOL && verify_bits(v, at, count, false);
 	if (count)

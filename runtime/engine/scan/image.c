@@ -281,8 +281,12 @@ union iec_value image_get(const struct image *image, struct location at)
 		return value;
 	if (LOCATION_IS_PART(at))
 		return part_of(iec_load(image->memory + at.where, (enum iec_type)at.number), at);
-	if (at.area == AREA_NONE)
-		return iec_load(image->memory + at.where, at.type);
+	if (at.area == AREA_NONE) {
+		value = iec_load(image->memory + at.where, at.type);
+		if (at.type == IEC_BOOL) /* of a union, which may hold another byte */
+			value.i = value.i != 0;
+		return value;
+	}
 	value.i = image_get_bit(image, at.area, at.where);
 	return value;
 }

@@ -48,12 +48,27 @@ static uint32_t elements_of(const struct symbol *symbol)
 	return symbol->elements ? symbol->elements : 1;
 }
 
+#ifdef RUNGBOARD_SMALL
+#define is_byte(...) false
+#else
+/* A BOOL of a union, where the byte may be another number: the other members keep it. */
+static bool is_byte(const struct program *program, const struct symbol *symbol)
+{
+	const struct code_run *run = symbol->at.area == AREA_NONE && symbol->at.type == IEC_BOOL ?
+				     code_run_at(program, symbol->at.where) : NULL;
+
+	return run && run->type != IEC_BOOL && run->kind != RUN_INSTANCE;
+}
+#endif
+
 /* Bytes of the value; 0: it cannot be retained. */
 static uint32_t value_size(const struct program *program,
 			   const struct symbol *symbol)
 {
 	uint32_t room;
 
+	if (is_byte(program, symbol))
+		return 0;
 	if (symbol->at.type != IEC_STRING)
 		return iec_type_row(symbol->at.type)->size * elements_of(symbol);
 	room = text_room(program, symbol->at.where);

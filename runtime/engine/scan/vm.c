@@ -222,6 +222,28 @@ static bool copy_text(struct vm *vm, const uint32_t *at, bool poke)
 	return true;
 }
 
+static bool is_raw(const struct code_run *run)
+{
+	return run && run->kind == RUN_VALUES && run->type == IEC_LWORD;
+}
+
+/* A union is LWORDs, whatever its members are. Bytes that may be copied from @from to @to; 0: none. */
+static uint32_t raw_bytes(const struct program *p, uint32_t to, uint32_t from, uint32_t most)
+{
+	const struct code_run *one = code_run_at(p, to), *other = code_run_at(p, from);
+	const struct code_run *typed = is_raw(one) ? other : one;
+	const uint32_t at = is_raw(one) ? from : to;
+	uint32_t left = 1;
+
+	if (!is_raw(one) && !is_raw(other))
+		return 0;
+	if (typed && (typed->kind != RUN_VALUES || typed->type == IEC_STRING))
+		return 0;
+	if (typed)
+		left = code_run_size(typed) - (at - typed->offset) % code_run_size(typed);
+	return left < most ? left : most;
+}
+
 /* Bytes from @a and @b on that hold values of one type, or nothing; 0: they differ. */
 static uint32_t alike(const struct program *p, uint32_t a, uint32_t b, uint32_t most)
 {
@@ -240,6 +262,17 @@ static uint32_t alike(const struct program *p, uint32_t a, uint32_t b, uint32_t 
 	return left < most ? left : most - most % unit;
 }
 
+/* The BOOLs of what came out of a union: any byte but 0 is TRUE. */
+static void make_bools(struct vm *vm, uint32_t to, uint32_t size)
+{
+	for (uint32_t i = 0; i < size; i++) {
+		const struct code_run *run = code_run_at(vm->program, to + i);
+
+		if (run && run->type == IEC_BOOL)
+			vm->memory[to + i] = vm->memory[to + i] != 0;
+	}
+}
+
 static bool copy_whole(struct vm *vm, const uint32_t *at, bool poke)
 {
 	const uint32_t size = at[AT_INDEX];
@@ -247,12 +280,21 @@ static bool copy_whole(struct vm *vm, const uint32_t *at, bool poke)
 
 	if (!lead_whole(vm, at, size, &where))
 		return false;
+	const uint32_t to = poke ? where : at[VALUE], from = poke ? at[VALUE] : where;
+	bool raw = false;
+
 	for (uint32_t i = 0; i < size; i += step) {
-		step = alike(vm->program, at[VALUE] + i, where + i, size - i);
+		step = alike(vm->program, to + i, from + i, size - i);
+		if (!step) {
+			step = raw_bytes(vm->program, to + i, from + i, size - i);
+			raw = true;
+		}
 		if (!step)
 			return false;
 	}
-	memmove(vm->memory + (poke ? where : at[VALUE]), vm->memory + (poke ? at[VALUE] : where), size);
+	memmove(vm->memory + to, vm->memory + from, size);
+	if (raw)
+		make_bools(vm, to, size);
 	return true;
 }
 
@@ -269,6 +311,11 @@ static bool peek(struct vm *vm, const uint32_t *at)
 	if (led.text) { /* behind its end is a 0 */
 		if (led.at != led.text->length && led.at < led.text->capacity)
 			byte.i = (unsigned char)led.text->text[led.at];
+		put(vm->memory, at[VALUE], byte);
+		return true;
+	}
+	if (CODE_TYPE(at[POINTER]) == IEC_BOOL) { /* of any byte */
+		byte.i = vm->memory[led.where] != 0;
 		put(vm->memory, at[VALUE], byte);
 		return true;
 	}

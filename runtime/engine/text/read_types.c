@@ -9,8 +9,6 @@
 #include "engine/text/reader.h"
 #include "engine/text/writer.h"
 
-#include "engine/base/ascii.h"
-
 #include "engine/base/literal.h"
 #include "engine/model/named.h"
 
@@ -244,14 +242,35 @@ static bool read_head(struct reader *r, struct structure *out)
 	return true;
 }
 
+/* The word at the cursor, STRUCT or UNION. */
+static enum overlap struct_word(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	if (lex_is(&ahead, "UNION"))
+		return OVERLAP_UNION;
+	ahead.newlines = ahead.comments = false;
+	lex_next(&ahead);
+	return lex_is(&ahead, "OVERLAP") ? OVERLAP_STRUCT : OVERLAP_NONE;
+}
+
+/* Behind STRUCT, STRUCT OVERLAP or UNION. */
+static void step_to_members(struct reader *r, const struct structure *structure)
+{
+	if (structure->overlap == OVERLAP_STRUCT)
+		reader_step(r);
+	r->across_lines = false;
+	reader_next(r);
+}
+
 /* STRUCT … END_STRUCT; with the comment behind it. */
 static bool read_struct(struct reader *r, struct structure *out)
 {
-	r->across_lines = false;
-	reader_next(r);
+	out->overlap = struct_word(r);
+	step_to_members(r, out);
 	read_members(r, &out->vars);
-	if (!lex_is(&r->lex, "END_STRUCT"))
-		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
+	if (!lex_is(&r->lex, project_struct_end(out)))
+		return reader_fail_word(r, DIAG_EXPECTED, project_struct_end(out));
 	reader_next(r);
 	if (reader_is(r, ';'))
 		reader_next(r);
@@ -281,6 +300,7 @@ bool reader_inner_struct(struct reader *r, struct var *var)
 	const int index = project->structure_count;
 	struct word_row *row;
 
+	made.overlap = struct_word(r);
 	if (r->inner == LIMIT_NESTING)
 		return reader_fail_token(r, DIAG_TOO_DEEP);
 	made.word = reader_own_word(r, reader_intern(r, "STRUCT", 6), WORD_STRUCT);
@@ -290,8 +310,7 @@ bool reader_inner_struct(struct reader *r, struct var *var)
 	row->owner = index;
 	project->structure[index] = made;
 	r->inner++;
-	r->across_lines = false;
-	reader_next(r);
+	step_to_members(r, &made);
 	read_members(r, &made.vars);
 	r->across_lines = true;
 	r->inner--;
@@ -299,8 +318,8 @@ bool reader_inner_struct(struct reader *r, struct var *var)
 	project->structure[index] = made;
 	row->owner = drop_alike(project, index, &made.word) ? -1 : index;
 	var->fb = made.word;
-	if (!lex_is(&r->lex, "END_STRUCT"))
-		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
+	if (!lex_is(&r->lex, project_struct_end(&made)))
+		return reader_fail_word(r, DIAG_EXPECTED, project_struct_end(&made));
 	r->begun = r->lex.token.line;
 	reader_step(r);
 	return true;
@@ -370,30 +389,10 @@ static void add_struct(struct reader *r, const struct structure *head, struct pa
 	project->structure[index] = made;
 	part->count = project->structure_count - part->index; /* those inside it, too */
 	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
-	       !lex_is(&r->lex, "END_STRUCT") && !lex_is(&r->lex, "END_TYPE"))
+	       !reader_ends_struct(r) && !lex_is(&r->lex, "END_TYPE"))
 		reader_next(r);
-	if (!good && lex_is(&r->lex, "END_STRUCT"))
+	if (!good && reader_ends_struct(r))
 		reader_skip_line(r);
-}
-
-/* A word of other tools. */
-static bool is_word(const struct reader *r, const char *word)
-{
-	return ascii_is(word, r->lex.token.text, r->lex.token.len);
-}
-
-/* Members that share memory: the layout of data has one type for each value. */
-static void refuse_union(struct reader *r, const struct structure *head)
-{
-	reader_fail_word(r, DIAG_UNION, project_text(r->project, head->name));
-	r->across_lines = false;
-	while (r->lex.token.kind != TOKEN_END && !read_ends_block(r) && !is_word(r, "END_UNION") &&
-	       !lex_is(&r->lex, "END_TYPE"))
-		reader_next(r);
-	if (is_word(r, "END_UNION"))
-		reader_next(r);
-	if (reader_is(r, ';'))
-		reader_next(r);
 }
 
 /* `Name : … ;` @comment: gets the place of its comment. */
@@ -405,13 +404,9 @@ static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 
 	r->across_lines = true;
 	good = read_head(r, &head);
-	if (good && lex_is(&r->lex, "STRUCT")) {
+	if (good && (lex_is(&r->lex, "STRUCT") || lex_is(&r->lex, "UNION"))) {
 		add_struct(r, &head, part);
 		*comment = index < r->project->structure_count ? &r->project->structure[index].comment : NULL;
-		return;
-	}
-	if (good && is_word(r, "UNION")) {
-		refuse_union(r, &head);
 		return;
 	}
 	r->begun = r->lex.token.line;
@@ -419,11 +414,11 @@ static void add_type(struct reader *r, struct part *part, uint32_t **comment)
 	part->count = r->project->structure_count - part->index;
 	r->across_lines = false;
 	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
-	       !lex_is(&r->lex, "END_TYPE") && !lex_is(&r->lex, "END_STRUCT")) {
+	       !lex_is(&r->lex, "END_TYPE") && !reader_ends_struct(r)) {
 		good = reader_is(r, ';');
 		reader_next(r);
 	}
-	if (!good && lex_is(&r->lex, "END_STRUCT"))
+	if (!good && reader_ends_struct(r))
 		reader_skip_line(r);
 }
 

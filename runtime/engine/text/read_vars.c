@@ -307,7 +307,7 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 		return read_pointer(r, var);
 	if (reader_is(r, '('))
 		return reader_own_type(r, var, name);
-	if (lex_is(&r->lex, "STRUCT"))
+	if (lex_is(&r->lex, "STRUCT") || (lex_is(&r->lex, "UNION") && !is_named(r, var)))
 		return reader_inner_struct(r, var);
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
@@ -545,10 +545,15 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 	return true;
 }
 
+bool reader_ends_struct(const struct reader *r)
+{
+	return lex_is(&r->lex, "END_STRUCT") || lex_is(&r->lex, "END_UNION");
+}
+
 void reader_skip_declaration(struct reader *r)
 {
 	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR") &&
-	       !(r->members && lex_is(&r->lex, "END_STRUCT"))) {
+	       !(r->members && reader_ends_struct(r))) {
 		bool last = reader_is(r, ';');
 
 		reader_next(r);
@@ -563,7 +568,7 @@ static void read_declarations(struct reader *r, struct var_table *table)
 		reader_skip_newlines(r);
 		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
 		    lex_is(&r->lex, "END_VAR") || read_ends_block(r) ||
-		    (r->members && lex_is(&r->lex, "END_STRUCT")))
+		    (r->members && reader_ends_struct(r)))
 			return;
 		r->across_lines = true;
 		r->begun = r->lex.token.line;

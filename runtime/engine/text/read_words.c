@@ -109,9 +109,11 @@ static void skip_type(struct lex *lex)
 	int open = 0;
 
 	for (; lex->token.kind != TOKEN_END && !lex_is(lex, "END_TYPE"); lex_next(lex)) {
-		open += lex_is(lex, "STRUCT");
-		open -= lex_is(lex, "END_STRUCT");
-		if (open == 0 && (lex_is(lex, ";") || lex_is(lex, "END_STRUCT")))
+		const bool ends = lex_is(lex, "END_STRUCT") || lex_is(lex, "END_UNION");
+
+		open += lex_is(lex, "STRUCT") || lex_is(lex, "UNION");
+		open -= ends;
+		if (open == 0 && (lex_is(lex, ";") || ends))
 			return;
 	}
 }
@@ -128,7 +130,7 @@ static void look_at_types(struct look *look, struct lex *lex)
 			continue;
 		lex_next(lex);
 		skip_newlines(lex);
-		if (lex_is(lex, "STRUCT"))
+		if (lex_is(lex, "STRUCT") || lex_is(lex, "UNION"))
 			add_name(look, &name, WORD_STRUCT);
 		else
 			add_named(look, &name);

@@ -242,6 +242,8 @@ void read_words(struct reader *r, const char *text, size_t len);
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind);
 void read_pou(struct reader *r, enum pou_kind kind);
 void read_types(struct reader *r);
+/** reader_ends_struct - END_STRUCT or END_UNION? */
+bool reader_ends_struct(const struct reader *r);
 /** reader_inner_struct - STRUCT … END_STRUCT as the type of a variable, or UNION … END_UNION; the cursor stands on its word. */
 bool reader_inner_struct(struct reader *r, struct var *var);
 /** read_members - declarations of a structure, up to END_STRUCT. */

@@ -148,11 +148,12 @@ static void write_inner(const struct sink *sink, const struct project *project,
 	struct widths widths = measure(project, structure->vars.var, structure->vars.count);
 
 	widths.depth = around->depth + 1;
-	sink_text(sink, "STRUCT\n");
+	sink_text(sink, project_struct_begin(structure));
+	sink_text(sink, "\n");
 	for (int i = 0; i < structure->vars.count; i++)
 		write_var(sink, project, &structure->vars.var[i], &widths);
 	sink_repeat(sink, "  ", widths.depth);
-	sink_text(sink, "END_STRUCT");
+	sink_text(sink, project_struct_end(structure));
 }
 
 uint32_t write_inner_text(struct project *project, const struct structure *structure)
@@ -400,13 +401,13 @@ static void write_struct(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_STRUCT, number, true);
 	sink_text(sink, "  ");
 	write_id(sink, project, structure->name);
-	sink_text(sink, " : STRUCT\n");
+	sink_printf(sink, " : %s\n", project_struct_begin(structure));
 	for (int i = 0; i < structure->vars.count; i++) {
 		sink_mark(sink, TEXT_VAR, i, true);
 		write_var(sink, project, &var[i], &widths);
 		sink_mark(sink, TEXT_VAR, i, false);
 	}
-	sink_text(sink, "  END_STRUCT;");
+	sink_printf(sink, "  %s;", project_struct_end(structure));
 	if (structure->comment) {
 		sink_text(sink, " ");
 		write_id(sink, project, structure->comment);

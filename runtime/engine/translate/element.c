@@ -69,8 +69,8 @@ static uint32_t shortness(uint32_t value, uint32_t base, uint32_t index)
 /* Does the scan compute the place of the element itself? Else it is added to the pointer. */
 static bool is_plain_index(const struct meaning *m)
 {
-	return m->opens == 0 || (m->opens == 1 && !meaning_is_whole(m) && m->type != IEC_STRING &&
-				 m->open[0].stride == iec_type_row(m->type)->size);
+	return m->opens == 0 || (m->opens == 1 && m->open[0].array.count == LIMIT_ELEMENTS &&
+				 !meaning_is_whole(m) && m->type != IEC_STRING);
 }
 
 /* Stores @from at @to, if it is a value of @range. Returns the BOOL that tells. */

@@ -283,10 +283,12 @@ static const struct word_pin *next_pin(struct level *top, const struct var *var,
 static const char *edge_key(const struct assembler *as, const struct word_row *row,
 			    int index)
 {
+	if (row->kind != WORD_FB)
+		return NULL;
 	const struct unit *unit = &as->translation->unit[row->owner];
 
 	index -= unit->pou->vars.count;
-	if (row->kind != WORD_FB || row->pin[row->pin_count - 1].name[0] || index < 0 ||
+	if (row->pin[row->pin_count - 1].name[0] || index < 0 ||
 	    !unit->temps || index >= unit->temps->edge_key_count)
 		return NULL;
 	return unit->temps->edge_key[index];
