@@ -5,7 +5,6 @@
 #include "engine/check/check_il.h"
 #include "engine/base/name.h"
 #include "engine/check/constant.h"
-#include "engine/check/generic.h"
 
 #include "engine/model/named.h"
 #include "engine/model/advice.h"

@@ -7,7 +7,6 @@
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
-#include "engine/check/generic.h"
 #include "engine/check/access.h"
 #include "engine/check/check_config.h"
 #include "engine/check/check_operand.h"

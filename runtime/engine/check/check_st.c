@@ -4,6 +4,7 @@
  */
 #include "engine/check/check_st.h"
 
+#include "engine/check/letters.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/st.h"
 
@@ -217,16 +218,28 @@ static bool is_function(struct operand_check *c, const struct expr_node *callee)
 	return !m || m->kind != MEANING_INSTANCE;
 }
 
+/* st_next() with letters of texts as functions. */
+static bool next_part(struct operand_check *c, struct st_walk *walk, struct st_part *part)
+{
+	if (!st_next(walk, part, c->expr, c->diags, c->place))
+		return false;
+	if (part->role == ST_ASSIGNED || part->role == ST_VALUE || part->role == ST_INPUT)
+		letters_rewrite(c->scope, c->pou, c->expr);
+	return true;
+}
+
 /* A function as a statement: as an expression. */
 static void check_function(struct operand_check *c)
 {
 	struct st_walk walk;
 
 	st_begin(&walk, &c->project->names, c->item);
-	if (expr_parse(&walk.lex, c->expr, c->diags, c->place))
+	if (expr_parse(&walk.lex, c->expr, c->diags, c->place)) {
+		letters_rewrite(c->scope, c->pou, c->expr);
 		check_part(c, c->expr, OPERAND_READ);
-	else
+	} else {
 		c->good = false;
+	}
 }
 
 static bool said_call(struct operand_check *c, enum diag_id id, const struct st_part *part)
@@ -264,7 +277,7 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 	struct callee callee;
 	struct st_part part;
 
-	if (!st_next(walk, &part, c->expr, c->diags, c->place)) {
+	if (!next_part(c, walk, &part)) {
 		c->good = false;
 		return;
 	}
@@ -276,7 +289,7 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 		return;
 	if (!check_callee(c, c->expr, &callee))
 		return;
-	while (st_next(walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
+	while (next_part(c, walk, &part) && part.role != ST_NO_PART)
 		if (part.role != ST_OPEN)
 			check_argument(c, &callee, &part, c->expr);
 		else if (!has_pin(c, &callee, &part))
@@ -324,7 +337,7 @@ static void check_statement(struct operand_check *c)
 		check_call_parts(c, &walk);
 		return;
 	}
-	while (st_next(&walk, &part, c->expr, c->diags, c->place) && part.role != ST_NO_PART)
+	while (next_part(c, &walk, &part) && part.role != ST_NO_PART)
 		if (part.role == ST_VARIABLE)
 			check_counter(c, c->expr);
 		else if (part.role == ST_LOW || part.role == ST_HIGH)

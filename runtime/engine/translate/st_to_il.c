@@ -5,6 +5,7 @@
  * Expressions are those of ladders (ld_expr.c); blocks become labels and jumps. A FOR and a CASE
  * keep what they compute once in temporaries until their end.
  */
+#include "engine/check/letters.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/translate/ladder_unit.h"
@@ -153,7 +154,11 @@ static uint32_t st_intern(struct st_il *s, const char *text, size_t len)
 /* The next part of a statement, which the check has read before. */
 static bool next_part(struct st_il *s, struct st_walk *walk, struct st_part *part)
 {
-	return st_next(walk, part, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT });
+	if (!st_next(walk, part, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
+		return false;
+	if (part->role == ST_ASSIGNED || part->role == ST_VALUE || part->role == ST_INPUT)
+		letters_rewrite(s->translation->scope, s->pou, s->ld.expr);
+	return true;
 }
 
 /* A simulation may stand before what comes next: st_to_il(). */
@@ -1061,8 +1066,10 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 	}
 	/* A function: its result is not used. */
 	st_begin(walk, &s->translation->project->names, s->ld.item);
-	if (expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
-		ld_value(&s->ld, &type, &good);
+	if (!expr_parse(&walk->lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
+		return;
+	letters_rewrite(s->translation->scope, s->pou, s->ld.expr);
+	ld_value(&s->ld, &type, &good);
 }
 
 /* ---- the walk ---- */
