@@ -9,6 +9,7 @@
 #include "editor-gtk/document/bookmarks.h"
 #include "editor-gtk/document/checker.h"
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/document/history.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/kit/diag_said.h"
@@ -1685,29 +1686,6 @@ bool ladder_document_needs_rung_file(LadderDocument *document)
 	return drawn || project_has_head(project) || *project_view(project);
 }
 
-/* The text of a rung file, where DWORD_TO_REAL keeps the bits, for one in which it keeps the number. */
-static char *with_number_words(const char *text, gsize *len)
-{
-	GString *out = g_string_new(NULL);
-	const char *from = text;
-	struct lex lex;
-
-	lex_init(&lex, text, *len);
-	while (lex_next(&lex) != TOKEN_END) {
-		const char *word = lex.token.kind != TOKEN_NAME ? NULL :
-				   words_number(lex.token.text, lex.token.len);
-
-		if (!word)
-			continue;
-		g_string_append_len(out, from, lex.token.text - from);
-		g_string_append(out, word);
-		from = lex.token.text + lex.token.len;
-	}
-	g_string_append_len(out, from, text + *len - from);
-	*len = out->len;
-	return g_string_free(out, FALSE);
-}
-
 static void say_first(const struct diag_list *diags, GError **error)
 {
 	const struct diag *first = diag_first_error(diags);
@@ -1731,7 +1709,7 @@ static char *as_rung_file(LadderDocument *document, gsize *len, struct ladder **
 	text = ladder_document_text(document, len);
 	project->source[0].plain = true;
 	if (project->words.as_numbers) {
-		own = with_number_words(text, len);
+		own = plain_file_numbers(text, len);
 		g_free(text);
 		text = own;
 	}

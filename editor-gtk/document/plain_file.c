@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/document/plain_file.h"
 
+#include "engine/base/lex.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,15 +52,62 @@ static int by_name(gconstpointer a, gconstpointer b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+char *plain_file_numbers(const char *text, gsize *len)
+{
+	GString *out = g_string_new(NULL);
+	const char *from = text;
+	struct lex lex;
+
+	lex_init(&lex, text, *len);
+	while (lex_next(&lex) != TOKEN_END) {
+		const char *word = lex.token.kind != TOKEN_NAME ? NULL :
+				   words_number(lex.token.text, lex.token.len);
+
+		if (!word)
+			continue;
+		g_string_append_len(out, from, lex.token.text - from);
+		g_string_append(out, word);
+		from = lex.token.text + lex.token.len;
+	}
+	g_string_append_len(out, from, text + *len - from);
+	*len = out->len;
+	return g_string_free(out, FALSE);
+}
+
+char *plain_file_join(struct ladder *ladder, gsize *len)
+{
+	const struct project *project = ladder_project(ladder);
+	GString *all = g_string_new(NULL);
+	char *joined;
+
+	for (int i = 0; i < project->source_count; i++) {
+		size_t size;
+		char *text = ladder_write_source(ladder, i, &size);
+
+		if (!text) {
+			g_string_free(all, TRUE);
+			return NULL;
+		}
+		g_string_append_printf(all, "%s%.*s", i ? "\n" : "", (int)size, text);
+		free(text);
+	}
+	*len = all->len;
+	if (!project->words.as_numbers)
+		return g_string_free(all, FALSE);
+	joined = plain_file_numbers(all->str, len);
+	g_string_free(all, TRUE);
+	return joined;
+}
+
 /* The text of a project that no single file holds as it is. */
-static char *text_of(struct ladder *ladder, const GPtrArray *paths, bool folder, size_t *len)
+static char *text_of(struct ladder *ladder, const GPtrArray *paths, bool folder, gsize *len)
 {
 	const struct project *project;
 
 	if (!ladder_load_files(ladder, (const char *const *)paths->pdata, (int)paths->len))
 		return NULL;
 	project = ladder_project(ladder);
-	return project && (folder || project->source[0].foreign) ? ladder_write(ladder, len) : NULL;
+	return project && (folder || project->source[0].foreign) ? plain_file_join(ladder, len) : NULL;
 }
 
 char *plain_file_import(const char *path, gsize *len)
@@ -66,15 +115,13 @@ char *plain_file_import(const char *path, gsize *len)
 	GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
 	const bool folder = g_file_test(path, G_FILE_TEST_IS_DIR);
 	struct ladder *ladder = ladder_new();
-	char *text = NULL, *copy;
+	char *text = NULL;
 
 	collect(paths, path, 0);
 	g_ptr_array_sort(paths, by_name);
 	if (ladder && paths->len)
 		text = text_of(ladder, paths, folder, len);
-	copy = text ? g_memdup2(text, *len + 1) : NULL;
-	free(text);
 	ladder_free(ladder);
 	g_ptr_array_unref(paths);
-	return copy;
+	return text;
 }

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/online/board_copy.h"
 
+#include "editor-gtk/document/plain_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/sim_program.h"
 
@@ -20,6 +21,11 @@
 
 /* ---- what came ---- */
 
+static GHashTable *new_table(void)
+{
+	return g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)g_bytes_unref);
+}
+
 /* A name that stays below the folder: no way up, no other root, no control character. */
 static bool is_safe(const char *name, size_t len)
 {
@@ -34,44 +40,115 @@ static bool is_safe(const char *name, size_t len)
 	return true;
 }
 
-/* u16 how many files, and for each text name, u32 length, its bytes; the program first. */
-static bool read_sources(struct board_copy *copy, struct wire_reader in)
+static bool read_sources(struct board_copy *copy, const struct stored *stored)
 {
-	const uint16_t count = wire_left(&in) ? wire_u16(&in) : 0;
+	struct wire_reader in;
+	const uint16_t count = stored_sources(stored, &in);
+	struct stored_source source;
 
 	for (uint16_t i = 0; i < count; i++) {
-		size_t name_len;
-		const char *name = wire_text(&in, &name_len);
-		const uint32_t len = wire_u32(&in);
-		const uint8_t *bytes = wire_bytes(&in, len);
+		char *name;
 
-		if (in.failed || !is_safe(name, name_len))
+		if (!stored_take_source(&in, &source) || !is_safe(source.name, source.name_len))
 			return false;
-		if (i == 0) {
-			copy->name = g_strndup(name, name_len);
-			copy->text = g_strndup((const char *)bytes, len);
-		} else {
-			g_hash_table_insert(copy->files, g_strndup(name, name_len),
-					    g_bytes_new(bytes, len));
-		}
+		name = g_strndup(source.name, source.name_len);
+		if (i == 0)
+			copy->name = g_strdup(name);
+		g_hash_table_insert(copy->files, name, g_bytes_new(source.bytes, source.len));
 	}
 	return wire_done(&in);
+}
+
+/* As load() of struct ladder_files. */
+static char *load_file(void *context, const char *path, size_t *len)
+{
+	GBytes *bytes = g_hash_table_lookup(context, path);
+	char *text;
+
+	if (!bytes)
+		return NULL;
+	*len = g_bytes_get_size(bytes);
+	text = malloc(*len + 1);
+	if (!text)
+		return NULL;
+	memcpy(text, g_bytes_get_data(bytes, NULL), *len);
+	text[*len] = '\0';
+	return text;
+}
+
+static void free_table(void *context)
+{
+	g_hash_table_unref(context);
+}
+
+void board_copy_give_files(const struct board_copy *copy, struct ladder *reader)
+{
+	ladder_set_files(reader, &(struct ladder_files){ .load = load_file,
+		.context = g_hash_table_ref(copy->files), .free = free_table });
+}
+
+/* The program as one text, if it is several files of plain IEC text without errors. */
+static char *joined(const struct board_copy *copy)
+{
+	struct ladder *ladder = ladder_new();
+	GPtrArray *names = g_ptr_array_new();
+	const struct project *project;
+	char *text = NULL;
+	GHashTableIter at;
+	gpointer name;
+	gsize len;
+
+	if (!ladder)
+		g_error("out of memory");
+	board_copy_give_files(copy, ladder);
+	g_ptr_array_add(names, copy->name);
+	g_hash_table_iter_init(&at, copy->files);
+	while (g_hash_table_iter_next(&at, &name, NULL))
+		if (strcmp(name, copy->name) != 0)
+			g_ptr_array_add(names, name);
+	ladder_load_stored(ladder, (const char *const *)names->pdata, (int)names->len);
+	project = ladder_project(ladder);
+	if (project && project->source_count > 1)
+		text = plain_file_join(ladder, &len);
+	g_ptr_array_unref(names);
+	ladder_free(ladder);
+	return text;
+}
+
+/* The first file is the program, or all of them are. */
+static void part_sources(struct board_copy *copy)
+{
+	char *text = g_hash_table_size(copy->files) > 1 ? joined(copy) : NULL;
+	GBytes *first;
+
+	if (text) {
+		copy->text = text;
+		g_free(copy->name);
+		copy->name = g_strdup("program");
+		copy->parts = g_steal_pointer(&copy->files);
+		copy->files = new_table();
+	} else if (copy->name) {
+		first = g_hash_table_lookup(copy->files, copy->name);
+		copy->text = g_strndup(g_bytes_get_data(first, NULL), g_bytes_get_size(first));
+		g_hash_table_remove(copy->files, copy->name);
+	}
 }
 
 struct board_copy *board_copy_read(const struct stored *stored)
 {
 	struct board_copy *copy = g_new0(struct board_copy, 1);
 
-	copy->files = g_hash_table_new_full(g_str_hash, g_str_equal, g_free,
-					    (GDestroyNotify)g_bytes_unref);
+	copy->files = new_table();
+	copy->parts = new_table();
 	copy->image = g_bytes_new(stored_part(stored, STORED_IMAGE), stored->len[STORED_IMAGE]);
 	copy->map = g_strndup((const char *)stored_part(stored, STORED_MAP),
 			      stored->len[STORED_MAP]);
-	if (read_sources(copy, wire_read(stored_part(stored, STORED_SOURCES),
-					 stored->len[STORED_SOURCES])))
-		return copy;
-	board_copy_free(copy);
-	return NULL;
+	if (!read_sources(copy, stored)) {
+		board_copy_free(copy);
+		return NULL;
+	}
+	part_sources(copy);
+	return copy;
 }
 
 void board_copy_free(struct board_copy *copy)
@@ -80,6 +157,7 @@ void board_copy_free(struct board_copy *copy)
 		return;
 	g_clear_pointer(&copy->image, g_bytes_unref);
 	g_clear_pointer(&copy->files, g_hash_table_unref);
+	g_clear_pointer(&copy->parts, g_hash_table_unref);
 	g_free(copy->map);
 	g_free(copy->name);
 	g_free(copy->text);
@@ -131,6 +209,12 @@ static int write_all(int fd, const char *bytes, gsize len)
 	return fsync(fd) == 0 ? 0 : errno;
 }
 
+static char *is_there(const char *path)
+{
+	return g_strdup_printf(_("“%s” is there already; nothing was written. Choose another folder."),
+			       path);
+}
+
 /* Only if no file is there: nothing is ever replaced. NULL: good. Caller frees. */
 static char *put_file(struct made *made, const char *folder, const char *name, const void *bytes,
 		      gsize len)
@@ -150,8 +234,7 @@ static char *put_file(struct made *made, const char *folder, const char *name, c
 			failed = errno;
 	}
 	if (failed == EEXIST)
-		why = g_strdup_printf(_("“%s” is there already; nothing was written. Choose another "
-					"folder."), path);
+		why = is_there(path);
 	else if (failed)
 		why = g_strdup_printf(_("“%s”: %s. Nothing was written."), path,
 				      g_strerror(failed));
@@ -182,18 +265,39 @@ char *board_copy_make_lists(struct board_copy *copy)
 	return said;
 }
 
+static char *put_table(struct made *made, const char *folder, GHashTable *files)
+{
+	GHashTableIter at;
+	gpointer name, bytes;
+	char *why = NULL;
+
+	g_hash_table_iter_init(&at, files);
+	while (!why && g_hash_table_iter_next(&at, &name, &bytes))
+		why = put_file(made, folder, name, g_bytes_get_data(bytes, NULL),
+			       g_bytes_get_size(bytes));
+	return why;
+}
+
+/* What else is in a folder would belong to its program, so it is a new one. */
+static char *put_parts(struct made *made, const struct board_copy *copy, const char *folder)
+{
+	char *inner = g_build_filename(folder, copy->name, NULL), *why;
+
+	why = g_file_test(inner, G_FILE_TEST_EXISTS) ? is_there(inner) :
+	      put_table(made, inner, copy->parts);
+	g_free(inner);
+	return why;
+}
+
 char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map)
 {
 	struct made made = { g_ptr_array_new_with_free_func(g_free),
 			     g_ptr_array_new_with_free_func(g_free) };
-	GHashTableIter at;
-	gpointer name, bytes;
-	char *why = put_file(&made, folder, copy->name, copy->text, strlen(copy->text));
+	char *why = g_hash_table_size(copy->parts) ? put_parts(&made, copy, folder) :
+		    put_file(&made, folder, copy->name, copy->text, strlen(copy->text));
 
-	g_hash_table_iter_init(&at, copy->files);
-	while (!why && g_hash_table_iter_next(&at, &name, &bytes))
-		why = put_file(&made, folder, name, g_bytes_get_data(bytes, NULL),
-			       g_bytes_get_size(bytes));
+	if (!why)
+		why = put_table(&made, folder, copy->files);
 	if (!why)
 		why = put_file(&made, folder, map, copy->map, strlen(copy->map));
 	if (why)
@@ -262,7 +366,8 @@ static bool add_sources(GByteArray *bytes, struct ladder *ladder, LadderDocument
 {
 	const struct project *project = ladder_project(ladder);
 	const char *path = ladder_document_path(document);
-	char *name = path ? g_path_get_basename(path) : g_strdup("program.rung");
+	char *name = path ? g_path_get_basename(path) :
+			    g_strdup(project->source[0].plain ? "program.st" : "program.rung");
 	bool good = true;
 
 	add_u16(bytes, (guint16)(1 + project->used_count));

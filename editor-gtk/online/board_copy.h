@@ -18,13 +18,17 @@ struct board_copy {
 	GBytes *image;
 	char *map;
 	char *name, *text;     /* the program; NULL: there are no sources      */
-	GHashTable *files;     /* the others: GBytes by name                   */
+	GHashTable *files;     /* files that it names: GBytes by name          */
+	GHashTable *parts;     /* not empty: the program is several files of plain IEC text, GBytes by
+				  name, which @text joins; @name is that of a folder for them */
 };
 
 /** board_copy_read - Owns: board_copy_free(). Fails: NULL: it is damaged, or has a name that
  * leaves the folder. */
 struct board_copy *board_copy_read(const struct stored *stored);
 void board_copy_free(struct board_copy *copy);
+/** board_copy_give_files - @reader finds the files that the program names. */
+void board_copy_give_files(const struct board_copy *copy, struct ladder *reader);
 /** board_copy_make_lists - without sources: `name` and `text` become the program as instruction lists
  * made from the image. Returns NULL, or what they lack, a line each; caller frees. Fails: `text` stays
  * NULL. */
@@ -34,7 +38,8 @@ char *board_copy_make_lists(struct board_copy *copy);
  * @map: name of the file of the map, "garage-door.io"
  *
  * All or nothing: if one of them is there already, or cannot be written, what was written goes
- * again. Nothing is ever replaced. Returns NULL, or why not; caller frees.
+ * again. Nothing is ever replaced. A program of several files gets a new folder in @folder. Returns
+ * NULL, or why not; caller frees.
  */
 char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map);
 

@@ -545,27 +545,6 @@ static bool runs(LadderBoardValues *values, const struct sim_program *program)
 	return memcmp(identity, values->identity, sizeof(identity)) == 0;
 }
 
-static void free_table(void *context)
-{
-	g_hash_table_unref(context);
-}
-
-static char *load_file(void *context, const char *path, size_t *len)
-{
-	GBytes *bytes = g_hash_table_lookup(context, path);
-	char *text;
-
-	if (!bytes)
-		return NULL;
-	*len = g_bytes_get_size(bytes);
-	text = malloc(*len + 1);
-	if (!text)
-		return NULL;
-	memcpy(text, g_bytes_get_data(bytes, NULL), *len);
-	text[*len] = '\0';
-	return text;
-}
-
 static struct sim_program *read_copy(const struct board_copy *copy, GError **error)
 {
 	struct ladder *reader = ladder_new();
@@ -575,9 +554,7 @@ static struct sim_program *read_copy(const struct board_copy *copy, GError **err
 
 	if (!reader)
 		g_error("out of memory");
-	if (copy->files)
-		ladder_set_files(reader, &(struct ladder_files){ .load = load_file,
-			.context = g_hash_table_ref(copy->files), .free = free_table });
+	board_copy_give_files(copy, reader);
 	program = sim_program_read(reader, g_intern_string("-"), copy->text, strlen(copy->text),
 				   error);
 	image = copy->image ? g_bytes_get_data(copy->image, &len) : NULL;

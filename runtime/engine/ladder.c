@@ -333,7 +333,8 @@ static int read_named(struct ladder *ladder, const char *const *paths, int count
 		if (!name)
 			return no_memory(ladder, "") ? 0 : read;
 		files[read].name = name;
-		files[read].text = file_read(name, LIMIT_TEXT, &files[read].len, &ladder->diags);
+		files[read].text = ladder->files.load ? load_named(ladder, name, &files[read].len) :
+				   file_read(name, LIMIT_TEXT, &files[read].len, &ladder->diags);
 		read += files[read].text != NULL;
 	}
 	return read;
@@ -363,6 +364,19 @@ bool ladder_load_files(struct ladder *ladder, const char *const *paths, int coun
 		free((void *)files[--read].text);
 	free(files);
 	return ladder->good;
+}
+
+bool ladder_load_stored(struct ladder *ladder, const char *const *names, int count)
+{
+	size_t len = 0;
+	char *text = load_named(ladder, names[0], &len);
+	const struct project *project;
+
+	ladder_load_text(ladder, names[0], text ? text : "", len);
+	free(text);
+	project = ladder->project;
+	return count > 1 && project && project->source[0].plain ?
+	       ladder_load_files(ladder, names, count) : ladder->good;
 }
 
 void ladder_leave_expressions(struct ladder *ladder, bool leave)

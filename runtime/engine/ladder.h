@@ -97,6 +97,14 @@ bool ladder_load(struct ladder *ladder, const char *path);
  * Their order means nothing. The rest is as of ladder_load().
  */
 bool ladder_load_files(struct ladder *ladder, const char *const *paths, int count);
+/**
+ * ladder_load_stored - reads the files of one project as a board stores them
+ * @names: @count, 1 or more, as of ladder_set_files(), which has them all. They are files of plain IEC
+ *         text, or the first is a rung file that names the others. The first must stay valid.
+ *
+ * The rest is as of ladder_load().
+ */
+bool ladder_load_stored(struct ladder *ladder, const char *const *names, int count);
 /** ladder_load_text - the same from memory; @file names it in diagnostics. */
 bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 		      size_t len);

@@ -91,22 +91,19 @@ static enum status describe(struct remote *remote, const struct board_status *no
 
 static bool add_sources(struct bytes *archive, const struct stored *stored)
 {
-	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
-					  stored->len[STORED_SOURCES]);
-	const uint16_t count = stored->len[STORED_SOURCES] ? wire_u16(&in) : 0;
+	struct wire_reader in;
+	const uint16_t count = stored_sources(stored, &in);
+	struct stored_source source;
 
-	for (uint16_t i = 0; i < count && !in.failed; i++) {
+	for (uint16_t i = 0; i < count; i++) {
 		char name[sizeof(SOURCES) + WIRE_TEXT_MOST];
-		size_t len;
-		const char *text = wire_text(&in, &len);
-		const uint32_t size = wire_u32(&in);
-		const uint8_t *bytes = wire_bytes(&in, size);
 
-		snprintf(name, sizeof(name), SOURCES "%.*s", (int)len, text);
-		if (bytes)
-			tar_add(archive, name, bytes, size);
+		if (!stored_take_source(&in, &source))
+			return false;
+		snprintf(name, sizeof(name), SOURCES "%.*s", (int)source.name_len, source.name);
+		tar_add(archive, name, source.bytes, source.len);
 	}
-	return !in.failed;
+	return true;
 }
 
 /* The program must not change while its parts and its values are read. */

@@ -10,33 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One of the files that a board stores; all are borrowed. */
-struct source {
-	const char *name;
-	size_t name_len;
-	const uint8_t *bytes;
-	uint32_t len;
-};
-
-/* Takes the next one. False: the bytes are damaged. */
-static bool take(struct wire_reader *in, struct source *out)
-{
-	out->name = wire_text(in, &out->name_len);
-	out->len = wire_u32(in);
-	out->bytes = wire_bytes(in, out->len);
-	return !in->failed && out->bytes;
-}
-
 /* As load() of struct ladder_files. */
 static char *load_source(void *context, const char *path, size_t *len)
 {
-	const struct stored *stored = context;
-	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
-					  stored->len[STORED_SOURCES]);
-	const uint16_t count = wire_u16(&in);
-	struct source source;
+	struct wire_reader in;
+	const uint16_t count = stored_sources(context, &in);
+	struct stored_source source;
 
-	for (uint16_t i = 0; i < count && take(&in, &source); i++) {
+	for (uint16_t i = 0; i < count && stored_take_source(&in, &source); i++) {
 		char *text;
 
 		if (source.name_len != strlen(path) ||
@@ -53,28 +34,45 @@ static char *load_source(void *context, const char *path, size_t *len)
 	return NULL;
 }
 
-/* The program of the board: from its sources, or from its image. @name: gets the name of the
- * program's file, which must stay while @ladder has it; others are named relative to it. */
-static enum status load_board(struct remote *remote, struct ladder *ladder,
-			      struct stored *stored, char *name, size_t size)
+/* The names of its sources, for the ladder that reads them: one block, which the caller frees. */
+static enum status name_sources(struct remote *remote, const struct stored *stored, char ***out, int *count)
+{
+	struct wire_reader in;
+	struct stored_source source;
+	char **name, *at;
+
+	*count = stored_sources(stored, &in);
+	*out = name = malloc((size_t)(*count + 1) * sizeof(*name) + stored->len[STORED_SOURCES]);
+	if (!name)
+		return report_no_memory(remote->where);
+	at = (char *)(name + *count + 1);
+	for (int i = 0; i < *count; i++) {
+		if (!stored_take_source(&in, &source))
+			return remote_fail(remote, DESK_NONSENSE);
+		name[i] = at;
+		memcpy(at, source.name, source.name_len);
+		at[source.name_len] = '\0';
+		at += source.name_len + 1;
+	}
+	return STATUS_GOOD;
+}
+
+/* The program of the board: from its sources, or from its image. @names: stay while @ladder has
+ * them; the caller frees. */
+static enum status load_board(struct remote *remote, struct ladder *ladder, struct stored *stored,
+			      char ***names)
 {
 	const struct ladder_files files = { .load = load_source, .context = stored };
-	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
-					  stored->len[STORED_SOURCES]);
-	struct source source;
+	int count;
+	enum status status = name_sources(remote, stored, names, &count);
 	bool good;
 
-	if (stored->len[STORED_SOURCES] && wire_u16(&in)) {
-		if (!take(&in, &source) || source.name_len >= size)
-			return remote_fail(remote, DESK_NONSENSE);
-		memcpy(name, source.name, source.name_len);
-		name[source.name_len] = '\0';
-		ladder_set_files(ladder, &files);
-		good = ladder_load_text(ladder, name, source.bytes, source.len);
-	} else {
-		good = ladder_load_text(ladder, remote->where, stored_part(stored, STORED_IMAGE),
-					stored->len[STORED_IMAGE]);
-	}
+	if (status != STATUS_GOOD)
+		return status;
+	ladder_set_files(ladder, &files);
+	good = count ? ladder_load_stored(ladder, (const char *const *)*names, count) :
+	       ladder_load_text(ladder, remote->where, stored_part(stored, STORED_IMAGE),
+				stored->len[STORED_IMAGE]);
 	report_diags(ladder_diags(ladder));
 	return good ? STATUS_GOOD : STATUS_WRONG;
 }
@@ -84,7 +82,7 @@ enum status remote_compare(struct remote *remote)
 	struct ladder *there = program_new(false), *here = program_new(false);
 	struct stored stored = { .bytes = NULL };
 	struct bytes bytes = { .at = NULL };
-	char name[WIRE_TEXT_MOST + 1];
+	char **names = NULL;
 	enum status status = STATUS_WRONG;
 
 	if (remote->call->arg_count != 3) {
@@ -97,13 +95,14 @@ enum status remote_compare(struct remote *remote)
 		if (status == STATUS_GOOD)
 			status = remote_receive(remote, &stored, &bytes);
 		if (status == STATUS_GOOD)
-			status = load_board(remote, there, &stored, name, sizeof(name));
+			status = load_board(remote, there, &stored, &names);
 		/* Status 1 means that they differ, so an error is 2. */
 		status = status == STATUS_GOOD ? diff_programs(remote->call, there, here) :
 						 STATUS_WRONG;
 	}
 	ladder_free(there);
 	ladder_free(here);
+	free(names);
 	free(bytes.at);
 	return status;
 }

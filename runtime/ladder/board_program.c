@@ -27,21 +27,33 @@
 
 /* ---- what goes to the board ---- */
 
-/* The name that a file has in the sources: from the folder of the program on. */
-static const char *source_name(const char *path, const char *main_path)
+/* The folder of the program, with its slash: that of its file, or of all its files. */
+static size_t folder_len(const struct project *project)
 {
-	const char *slash = strrchr(main_path, '/'), *own = strrchr(path, '/');
-	const size_t folder = slash ? (size_t)(slash + 1 - main_path) : 0;
+	const char *first = project->source->name;
+	size_t len = strlen(first);
 
-	if (strncmp(path, main_path, folder) == 0 && !strstr(path + folder, "..") &&
+	for (int i = 0; i < project->source_count; i++)
+		while (len > 0 && (first[len - 1] != '/' ||
+				   strncmp(project->source[i].name, first, len) != 0))
+			len--;
+	return len;
+}
+
+/* The name that a file has in the sources: from the folder of the program on. */
+static const char *source_name(const char *path, const char *first, size_t folder)
+{
+	const char *own = strrchr(path, '/');
+
+	if (strncmp(path, first, folder) == 0 && !strstr(path + folder, "..") &&
 	    path[folder] != '/')
 		return path + folder;
 	return own ? own + 1 : path;
 }
 
-static bool add_source(struct bytes *bytes, const char *path, const char *main_path)
+static bool add_source(struct bytes *bytes, const char *path, const struct project *project)
 {
-	const char *name = source_name(path, main_path);
+	const char *name = source_name(path, project->source->name, folder_len(project));
 	uint8_t head[6];
 	struct wire_writer out = wire_write(head, sizeof(head));
 	size_t len;
@@ -74,11 +86,11 @@ static bool add_sources(struct bytes *bytes, struct ladder *ladder)
 	if (!project)
 		return true;
 	for (int i = 0; i < project->source_count && good; i++)
-		good = add_source(bytes, project->source[i].name, project->source->name);
+		good = add_source(bytes, project->source[i].name, project);
 	for (int i = 0; i < project->included_count && good; i++)
-		good = add_source(bytes, project->included[i], project->source->name);
+		good = add_source(bytes, project->included[i], project);
 	for (int i = 0; i < project->used_count && good; i++)
-		good = add_source(bytes, project->used[i], project->source->name);
+		good = add_source(bytes, project->used[i], project);
 	return good;
 }
 
@@ -509,20 +521,16 @@ static enum status put_file(const struct upload *upload, const struct upload_fil
 static enum status each_source(const struct upload *upload)
 {
 	const struct stored *stored = upload->stored;
-	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
-					  stored->len[STORED_SOURCES]);
-	const uint16_t count = stored->len[STORED_SOURCES] ? wire_u16(&in) : 0;
+	struct wire_reader in;
+	const uint16_t count = stored_sources(stored, &in);
 	enum status status = STATUS_GOOD;
+	struct stored_source source;
 
-	for (uint16_t i = 0; i < count && status == STATUS_GOOD; i++) {
-		struct upload_file file;
-
-		file.name = wire_text(&in, &file.name_len);
-		file.len = wire_u32(&in);
-		file.bytes = wire_bytes(&in, file.len);
-		status = file.bytes ? upload->step(upload, &file) :
-				      remote_fail(upload->remote, DESK_NONSENSE);
-	}
+	for (uint16_t i = 0; i < count && status == STATUS_GOOD; i++)
+		status = stored_take_source(&in, &source) ?
+			 upload->step(upload, &(struct upload_file){ source.name, source.name_len,
+								    source.bytes, source.len }) :
+			 remote_fail(upload->remote, DESK_NONSENSE);
 	return status;
 }
 
@@ -597,10 +605,9 @@ static enum status write_lists(struct upload *upload)
 
 static bool has_sources(const struct stored *stored)
 {
-	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
-					  stored->len[STORED_SOURCES]);
+	struct wire_reader in;
 
-	return stored->len[STORED_SOURCES] && wire_u16(&in) > 0;
+	return stored_sources(stored, &in) > 0;
 }
 
 enum status remote_upload(struct remote *remote)

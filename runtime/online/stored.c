@@ -30,6 +30,20 @@ const uint8_t *stored_part(const struct stored *stored, enum stored_part part)
 	return at;
 }
 
+uint16_t stored_sources(const struct stored *stored, struct wire_reader *in)
+{
+	*in = wire_read(stored_part(stored, STORED_SOURCES), stored->len[STORED_SOURCES]);
+	return stored->len[STORED_SOURCES] ? wire_u16(in) : 0;
+}
+
+bool stored_take_source(struct wire_reader *in, struct stored_source *out)
+{
+	out->name = wire_text(in, &out->name_len);
+	out->len = wire_u32(in);
+	out->bytes = wire_bytes(in, out->len);
+	return !in->failed && out->bytes;
+}
+
 void slot_seal(const struct stored *stored, uint32_t seq, const uint8_t beside[32], uint8_t *out)
 {
 	const uint32_t size = stored_size(stored);

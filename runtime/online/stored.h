@@ -26,6 +26,19 @@ uint32_t stored_size(const struct stored *stored);
 /** stored_part - the bytes of one part. */
 const uint8_t *stored_part(const struct stored *stored, enum stored_part part);
 
+/* One of the files of STORED_SOURCES, the program first; all are borrowed. */
+struct stored_source {
+	const char *name;
+	size_t name_len;
+	const uint8_t *bytes;
+	uint32_t len;
+};
+
+/** stored_sources - how many there are. @in: gets what stored_take_source() reads. */
+uint16_t stored_sources(const struct stored *stored, struct wire_reader *in);
+/** stored_take_source - the next one. Fails: false: the bytes are damaged. */
+bool stored_take_source(struct wire_reader *in, struct stored_source *out);
+
 /**
  * slot_seal - writes head and checksum around the bytes of @stored
  * @out: SLOT_HEAD + stored_size() + 4 bytes; gets the parts, too

@@ -3661,6 +3661,31 @@ def test_command_compares():
         assert board.command('compare', 'bad.rung')[0] == 2
 
 
+def test_files_of_plain_text_are_one_project():
+    """A folder of IEC text: each file has its name below the folder, also on the way back."""
+    with slots() as board:
+        files = {'deep/kinds.st': 'TYPE\n  Kind : (Off, Go);\nEND_TYPE\nVAR_GLOBAL\n  Most : INT := 3;\nEND_VAR\n',
+                 'deep/main.st': 'FUNCTION_BLOCK Ramp\nVAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Y : INT;\nEND_VAR\n'
+                                 '  IF On AND Y < Most THEN\n    Y := Y + 1;\n  END_IF;\nEND_FUNCTION_BLOCK\n',
+                 'main.st': 'PROGRAM Main\nVAR\n  Start AT %IX0.0 : BOOL;\n  Motor AT %QX0.0 : BOOL;\n  R : Ramp;\n'
+                            '  Now : Kind;\nEND_VAR\n  R(On := Start);\n  Motor := R.Y = Most;\n  IF Motor THEN\n    Now := Go;\n'
+                            '  END_IF;\nEND_PROGRAM\n'}
+        os.makedirs(f'{board.folder}/line/deep')
+        for name, text in files.items():
+            board.write('line/' + name, text)
+        status, out, err = board.command('download', 'line', 'board.io', '--yes')
+        assert status == 0, (out, err)
+        status, out, err = board.command('compare', 'line')
+        assert (status, out) == (0, ''), (out, err)
+        status, out, err = board.command('upload', '-o', 'back')
+        assert status == 0, err
+        for name, text in files.items():
+            assert board.read('back/' + name) == text, out
+        board.write('line/deep/kinds.st', files['deep/kinds.st'].replace('3', '4'))
+        status, out, err = board.command('compare', 'line')
+        assert status == 1 and 'Most' in out, (out, err)
+
+
 def test_command_says_what_is_wrong():
     with Board() as board:
         for words, code, text in [

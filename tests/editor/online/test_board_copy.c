@@ -121,6 +121,55 @@ static void hostile(void)
 	      !takes("\xff"));
 }
 
+/* Two files of IEC text, stored by a command, are one program here, also if a block of theirs has the
+ * name of a block of the catalogue; they come back as they were, in a new folder. */
+static void several(const char *folder)
+{
+	static const char *const file[][2] = {
+		{ "main.st", "PROGRAM Main\nVAR\n  R : Ramp;\nEND_VAR\n  R();\nEND_PROGRAM\n" },
+		{ "deep/ramp.st", "FUNCTION_BLOCK Ramp\nVAR_OUTPUT\n  Y : INT;\nEND_VAR\n"
+				  "  Y := Y + 1;\nEND_FUNCTION_BLOCK\n" },
+	};
+	uint8_t bytes[600];
+	struct wire_writer out = wire_write(bytes, sizeof(bytes));
+	struct stored stored = { .bytes = bytes };
+	LadderDocument *document = ladder_document_new();
+	struct board_copy *copy;
+	char *why, *text = NULL, *path, *map = g_build_filename(folder, "program.io", NULL);
+
+	wire_put_u16(&out, 2);
+	for (int i = 0; i < 2; i++) {
+		wire_put_string(&out, file[i][0]);
+		wire_put_u32(&out, (uint32_t)strlen(file[i][1]));
+		wire_put_bytes(&out, file[i][1], strlen(file[i][1]));
+	}
+	stored.len[STORED_SOURCES] = (uint32_t)wire_len(&out);
+	copy = board_copy_read(&stored);
+	CHECK(copy && copy->text && g_hash_table_size(copy->parts) == 2);
+	ladder_document_open_text(document, NULL, copy->text, strlen(copy->text), true);
+	ladder_document_check_now(document);
+	CHECK_AS(ladder_document_project(document) && ladder_document_diags(document)->errors == 0,
+		 "the joined text is a program");
+	CHECK_TEXT(copy->name, "program");
+	why = board_copy_save(copy, folder, "program.io");
+	CHECK_AS(!why && g_file_test(map, G_FILE_TEST_EXISTS), "all is written");
+	for (int i = 0; i < 2; i++) {
+		path = g_build_filename(folder, "program", file[i][0], NULL);
+		CHECK(g_file_get_contents(path, &text, NULL, NULL));
+		CHECK_TEXT(text, file[i][1]);
+		g_clear_pointer(&text, g_free);
+		g_free(path);
+	}
+	g_unlink(map);
+	why = board_copy_save(copy, folder, "program.io");
+	CHECK_AS(why && strstr(why, "is there already"), "no folder gets files of another program");
+	CHECK(!g_file_test(map, G_FILE_TEST_EXISTS));
+	g_free(why);
+	g_free(map);
+	board_copy_free(copy);
+	g_object_unref(document);
+}
+
 static int changes;
 
 static void changed(void)
@@ -178,6 +227,7 @@ int main(void)
 
 	comes_back(board.folder);
 	leaves_nothing(board.folder);
+	several(board.folder);
 	hostile();
 	ports(board.folder);
 	board_close(&board);

@@ -513,6 +513,32 @@ static void knows_no_sources(void)
 	board_close(&board);
 }
 
+/* The board runs a folder of IEC text that a command has sent. */
+static void shows_several_files(void)
+{
+	struct test_board board = { .empty = false };
+	char *path;
+
+	board_open(&board, "eng");
+	path = board_path(&board, "line");
+	g_mkdir(path, 0700);
+	board_write(&board, "line/kinds.st", "TYPE\n  Kind : (Off, Go);\nEND_TYPE\n"
+		    "VAR_GLOBAL\n  Most : INT := 3;\nEND_VAR\n");
+	board_write(&board, "line/main.st", "PROGRAM Main\nVAR\n  Motor AT %QX0.0 : BOOL;\n"
+		    "  Now : Kind;\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\n"
+		    "  Motor := Count >= Most;\n  IF Motor THEN\n    Now := Go;\n  END_IF;\nEND_PROGRAM\n");
+	download(&board, "line");
+	open_editor(OTHER);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK_SOON(ladder_sim_twin(sim) && value("Most") == 3 && value("Main.Motor") == 1 &&
+		   value("Main.Now") == 1);
+	CHECK(!told || !*told);
+	close_editor();
+	g_free(path);
+	board_close(&board);
+}
+
 static void waits_for_a_program(void)
 {
 	struct test_board board = { .empty = true };
@@ -562,6 +588,7 @@ int main(void)
 	numbers_a_chart();
 	says_how_late_it_is();
 	knows_no_sources();
+	shows_several_files();
 	waits_for_a_program();
 	gets_another_program();
 	return tap_done();
