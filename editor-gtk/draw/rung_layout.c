@@ -126,7 +126,7 @@ static void measure_columns(const struct drafting *drafting, struct rung_layout 
 	const struct rung *rung = layout->rung;
 
 	for (int d = 0; d < layout->columns; d++)
-		layout->column_width[d] = RUNG_CELL_WIDTH;
+		layout->column_need[d] = RUNG_TIGHT_WIDTH;
 	for (int row = 0; row < rung->rows; row++)
 		for (int col = 0; col < rung->cols; col++) {
 			int d = rung_layout_column(layout, row, col);
@@ -136,12 +136,14 @@ static void measure_columns(const struct drafting *drafting, struct rung_layout 
 			    d >= layout->columns)
 				continue;
 			need = element_width(drafting, rung, row, col);
-			if (need > layout->column_width[d])
-				layout->column_width[d] = need;
+			if (need > layout->column_need[d])
+				layout->column_need[d] = need;
 		}
-	layout->natural = 0;
-	for (int d = 0; d < layout->columns; d++)
-		layout->natural += layout->column_width[d];
+	layout->natural = layout->tight = 0;
+	for (int d = 0; d < layout->columns; d++) {
+		layout->natural += MAX(layout->column_need[d], RUNG_CELL_WIDTH);
+		layout->tight += layout->column_need[d];
+	}
 }
 
 /* ---- heights ---- */
@@ -260,11 +262,18 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 	g_free(heading.comment);
 }
 
-static void place_columns(struct rung_layout *layout)
+/* The right rail is @width from the left one. */
+static void place_columns(struct rung_layout *layout, float width)
 {
+	const float spare = layout->natural - layout->tight;
+	const float part = spare > 0 ? MIN((width - layout->tight) / spare, 1) : 1;
 	int last = layout->columns - 1;
 	float x = RUNG_LEFT;
 
+	layout->right = RUNG_LEFT + width;
+	for (int d = 0; d <= last; d++)
+		layout->column_width[d] = layout->column_need[d] + part *
+			(MAX(layout->column_need[d], RUNG_CELL_WIDTH) - layout->column_need[d]);
 	for (int d = 0; d < last; d++) {
 		layout->column_x[d] = x;
 		x += layout->column_width[d];
@@ -281,10 +290,11 @@ struct rung_layout *rung_layout_new(const struct drafting *drafting,
 
 	columns = MAX(columns, rung_layout_columns(rung));
 	layout = g_malloc0(sizeof(*layout) + (size_t)shown * sizeof(struct rung_row) +
-			   (size_t)columns * 2 * sizeof(float));
+			   (size_t)columns * 3 * sizeof(float));
 	layout->row = (struct rung_row *)(layout + 1);
 	layout->column_x = (float *)(layout->row + shown);
 	layout->column_width = layout->column_x + columns;
+	layout->column_need = layout->column_width + columns;
 	layout->rung = rung;
 	layout->number = number;
 	layout->rows = shown;
@@ -309,8 +319,12 @@ void rung_layout_free(struct rung_layout *layout)
 
 void rung_layout_stretch(struct rung_layout *layout, float width)
 {
-	layout->right = RUNG_LEFT + MAX(width, layout->natural);
-	place_columns(layout);
+	place_columns(layout, MAX(width, layout->natural));
+}
+
+void rung_layout_fit(struct rung_layout *layout, float width)
+{
+	place_columns(layout, MAX(width, layout->tight));
 }
 
 float rung_layout_width(const struct rung_layout *layout)

@@ -22,6 +22,7 @@
 #define RUNG_LEFT        61     /* x of the left rail                           */
 #define RUNG_AFTER       24     /* behind the right rail                        */
 #define RUNG_CELL_WIDTH  98
+#define RUNG_TIGHT_WIDTH 66     /* of a cell where there is no room             */
 #define RUNG_CELL_HEIGHT 84
 #define RUNG_WIRE        46     /* of a row: from its top to its wire           */
 #define RUNG_HALF        12     /* half the height of a contact                 */
@@ -55,7 +56,8 @@ struct rung_layout {
 	int number;              /* 1-based                                     */
 	int rows, columns;       /* as shown                                    */
 	float right;             /* x of the right rail                         */
-	float natural;           /* least distance of the rails                 */
+	float natural;           /* distance of the rails with cells of usual width */
+	float tight;             /* least distance of the rails                 */
 	float top;               /* y of the first row                          */
 	float height;            /* of the whole strip                          */
 	float title_y;           /* baseline of title and number                */
@@ -63,6 +65,7 @@ struct rung_layout {
 	int comment_lines;       /* below the title; 0: beside it                */
 	float heading_room;      /* px of such lines, from the rail on          */
 	float *column_x, *column_width; /* of the columns                       */
+	float *column_need;      /* width that the names in them need           */
 	struct rung_row *row;
 };
 
@@ -82,6 +85,9 @@ void rung_layout_free(struct rung_layout *layout);
 /** rung_layout_stretch - moves the right rail to @width from the left one, or to the
  * natural distance if that is more. */
 void rung_layout_stretch(struct rung_layout *layout, float width);
+/** rung_layout_fit - the same, but where there is less room than the natural distance, columns become
+ * narrower, down to what their names need. */
+void rung_layout_fit(struct rung_layout *layout, float width);
 /** rung_layout_width - of the whole strip, with gutter and margin. */
 float rung_layout_width(const struct rung_layout *layout);
 

@@ -89,7 +89,7 @@ struct _LadderGridView {
 	int first, count;           /* rungs of the POU that are shown; -1: all  */
 	GArray *strips;             /* of struct strip                         */
 	int columns;                /* of the sheet                            */
-	float natural, rail;        /* distance of the rails: of the widest rung, as shown */
+	float natural, rail;        /* distance of the rails: the least of the widest rung, as shown */
 	struct drafting drafting;
 	struct grid_names *names;
 	guint idle;                 /* lays out rungs out of sight              */

@@ -352,7 +352,7 @@ static void widen(LadderGridView *view)
 		struct strip *strip = strip_of(view, (int)i);
 
 		if (strip->layout) {
-			rung_layout_stretch(strip->layout, rail);
+			rung_layout_fit(strip->layout, rail);
 			forget_drawing(strip);
 		}
 	}
@@ -389,9 +389,9 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		rows = MAX(rows, view->wire.rows); /* the wire may end in a new row */
 	strip->layout = rung_layout_new(&view->drafting, shown,
 					view->first + rung + 1, rows);
-	view->natural = MAX(view->natural, strip->layout->natural);
+	view->natural = MAX(view->natural, strip->layout->tight);
 	widen(view);
-	rung_layout_stretch(strip->layout, view->rail);
+	rung_layout_fit(strip->layout, view->rail);
 	strip->measured = true;
 	grown = strip->layout->height - strip->height;
 	strip->height = strip->layout->height;
@@ -458,7 +458,7 @@ graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int r
 
 float strips_width(LadderGridView *view)
 {
-	return RUNG_LEFT + MAX(view->rail, RUNG_LEAST_COLUMNS * RUNG_CELL_WIDTH) +
+	return RUNG_LEFT + MAX(view->rail, RUNG_LEAST_COLUMNS * RUNG_TIGHT_WIDTH) +
 	       RUNG_AFTER;
 }
 

@@ -115,6 +115,22 @@ def small(screen):
     editor.find('Find an element')
 
 
+def narrow(screen):
+    """1024x700, editing: a rung with contacts, a timer and a counter is no wider than the sheet; a click meets its cells"""
+    path = new_file(screen, GOOD.replace('COIL Lamp |', 'CTU Parts R:=Stop PV:=10 | NC Stop | NC Start | COIL Lamp |')
+                    .replace('  Delay : TON;', '  Delay : TON;\n  Parts : CTU;'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    left, _, width, _ = editor.place(editor.sheet())
+    for what in ('Rung 1, COIL', 'Motor'), ('Rung 2, COIL', 'Lamp'):
+        x, _, wide, _ = editor.place(editor.element(*what))
+        assert left < x and x + wide + 24 <= left + width, (what, x, wide, left, width)
+    for column, *what in ('E', 'Rung 2, NC', 'Start'), ('C', 'Rung 2, CTU', 'Parts'), ('F', 'Rung 2, COIL', 'Lamp'):
+        editor.click(editor.element(*what))
+        editor.says('Rung 2 · column ' + column)
+    editor.shot('looks-narrow')
+
+
 def columns(screen):
     """1024x700: the symbols have no room for all columns; the menu brings one back, by keys alone"""
     path = new_file(screen, GOOD)
@@ -190,7 +206,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
+small.size = narrow.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, columns, last_tab, large_letters, large, sharp])
+main([light, dark, high, small, narrow, columns, last_tab, large_letters, large, sharp])
