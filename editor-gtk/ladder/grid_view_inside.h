@@ -137,8 +137,8 @@ struct strip *strips_get(LadderGridView *view, int rung);
 void strips_lay_out(LadderCanvas *canvas, double page);
 /** strips_resize_later - asks for another size when idle; safe during allocation. */
 void strips_resize_later(LadderGridView *view);
-/** strips_pinned - px of the widget that the outputs of a rung are moved left: while simulating
- * they stay visible at the edge of a page that is narrower than the rungs; 0: they are not. */
+/** strips_pinned - px of the widget that the outputs of a rung are moved left: they stay visible at the
+ * edge of a page that is narrower than the rungs; 0: they are not. */
 float strips_pinned(LadderGridView *view, const struct strip *strip);
 /** strip_box - a cell as shown, px at 100 %: an output where it is pinned. */
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column);

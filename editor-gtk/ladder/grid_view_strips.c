@@ -441,7 +441,7 @@ float strips_pinned(LadderGridView *view, const struct strip *strip)
 	const float by = strips_width(view) * (float)view->canvas->zoom - x - page;
 	const struct rung_layout *layout = strip->layout;
 
-	return canvas_is_live(LADDER_CANVAS(view)) && by > 0 && layout &&
+	return by > 0 && layout &&
 	       (strips_width(view) - layout->column_x[layout->columns - 1]) *
 	       (float)view->canvas->zoom < page / 2 ? by : 0;
 }

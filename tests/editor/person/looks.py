@@ -131,6 +131,27 @@ def narrow(screen):
     editor.shot('looks-narrow')
 
 
+def edge(screen):
+    """1024x700, editing: the coil of a rung that is too wide stays at the edge of the sheet; it is edited there"""
+    path = new_file(screen, GOOD.replace('COIL Lamp |', '| '.join(['NO Start '] * 12) + '| COIL Lamp |'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    left, _, width, _ = editor.place(editor.sheet())
+    for what in ('Rung 1, COIL', 'Motor'), ('Rung 2, COIL', 'Lamp'):
+        x, _, wide, _ = editor.place(editor.element(*what))
+        assert left < x and x + wide <= left + width, (what, x, wide, left, width)
+    editor.click(editor.element('Rung 1, COIL', 'Motor'))
+    editor.keys('slash')
+    editor.element('Rung 1, COILNOT', 'Motor')
+    editor.shot('looks-edge')
+    assert 'COILNOT Motor' in editor.save(path)
+    editor.keys('ctrl+Home', *['Right'] * 8)
+    editor.says('Rung 1 · column I')
+    editor.element('Rung 1, COILNOT', 'Motor')
+    editor.keys('ctrl+Home')
+    check(path)
+
+
 def columns(screen):
     """1024x700: the symbols have no room for all columns; the menu brings one back, by keys alone"""
     path = new_file(screen, GOOD)
@@ -206,7 +227,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = narrow.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
+small.size = narrow.size = edge.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, narrow, columns, last_tab, large_letters, large, sharp])
+main([light, dark, high, small, narrow, edge, columns, last_tab, large_letters, large, sharp])
