@@ -504,6 +504,17 @@ char *ladder_document_with_list(LadderDocument *document, int pou, const char *l
 	return g_strconcat(place->head, list, place->tail, NULL);
 }
 
+bool ladder_document_took(LadderDocument *document, const char *text)
+{
+	const struct list_place *place = g_object_get_data(G_OBJECT(document), "list-place");
+	const gsize head = place ? strlen(place->head) : 0;
+	const gsize typed = place && place->typed ? strlen(place->typed) : 0;
+
+	return typed && place->version == document->version && ladder_document_is_whole(document) &&
+	       strncmp(text, place->head, head) == 0 && strncmp(text + head, place->typed, typed) == 0 &&
+	       strcmp(text + head + typed, place->tail) == 0;
+}
+
 /* ---- one POU, and nothing beside it ---- */
 
 /* Is it PROGRAM or another word that begins a POU? @ends: with END_ before it. */

@@ -164,6 +164,9 @@ char *ladder_document_list(LadderDocument *document, int pou);
 /** ladder_document_with_list - the text of the document if that POU had the text @list. Caller frees.
  * Fails: NULL: a text of the document cannot be read. */
 char *ladder_document_with_list(LadderDocument *document, int pou, const char *list);
+/** ladder_document_took - did the last change put the text of a POU into the document, and was @text then
+ * what it read? The document itself has it in its canonical form. */
+bool ladder_document_took(LadderDocument *document, const char *text);
 /** ladder_document_put_list - from PROGRAM to END_PROGRAM; never refused. A text that
  * cannot be read is kept beside the project until it can, and ladder_document_diags() say
  * why. */

@@ -707,7 +707,7 @@ struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
 /* An edit that is built: see below. */
 struct rebuild {
 	struct ladder *reader;   /* NULL: it was used                          */
-	char *text;
+	char *text, *form;       /* @form: of the document; NULL: @text          */
 	gsize len;
 	const char *file;
 	guint64 version;         /* of the document that has the text          */
@@ -725,6 +725,7 @@ static void rebuild_free(gpointer pointer)
 	ladder_free(rebuild->reader);
 	sim_program_unref(rebuild->program);
 	g_free(rebuild->text);
+	g_free(rebuild->form);
 	g_free(rebuild);
 }
 
@@ -957,10 +958,12 @@ static void exchange(LadderSim *sim, struct sim_program *program)
 }
 
 /* The document has the text of @rebuild. */
-static void use(LadderSim *sim, const struct rebuild *rebuild)
+static void use(LadderSim *sim, struct rebuild *rebuild)
 {
 	struct sim_program *program = rebuild->program;
 
+	if (program && rebuild->form)
+		sim_program_set_form(program, g_steal_pointer(&rebuild->form));
 	if (program && sim->thread) {
 		exchange(sim, program);
 		sim->version = rebuild->version;
@@ -1012,8 +1015,8 @@ static void number_again(LadderSim *sim)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 }
 
-/* A text in another form than the document writes does not come as it was typed, and neither do the
- * next ones: a build in vain takes as long as the other. */
+/* A text that did not come: the next ones may not come either, and a build in vain takes as long as the
+ * other. */
 #define RESTS 20
 
 /* @text: taken. */
@@ -1036,14 +1039,18 @@ static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, b
 	g_object_unref(task);
 }
 
-/* What was foreseen has become the text of the document, by one change. Files beside it may have
- * changed if there were more. */
+/* What was foreseen has become the text of the document, by one change, or what it was read from. Files
+ * beside it may have changed if there were more. */
 static bool came_true(LadderSim *sim, struct rebuild *rebuild, const char *text)
 {
 	if (!rebuild || !rebuild->foreseen ||
-	    rebuild->version + 1 != ladder_document_version(sim->document) ||
-	    strcmp(rebuild->text, text) != 0)
+	    rebuild->version + 1 != ladder_document_version(sim->document))
 		return false;
+	if (strcmp(rebuild->text, text) != 0) {
+		if (!ladder_document_took(sim->document, rebuild->text))
+			return false;
+		rebuild->form = g_strdup(text);
+	}
 	rebuild->version++;
 	rebuild->foreseen = false;
 	return true;

@@ -170,11 +170,11 @@ bool sim_program_runs(const struct sim_program *program, const struct program *i
 static char *plain_text(const struct sim_program *program)
 {
 	const struct project *project = ladder_project(program->ladder);
+	const char *text = program->form ? program->form : program->text;
 	const char *view = project ? project_view(project) : "";
-	const char *at = *view ? strstr(program->text, view) : NULL;
+	const char *at = *view ? strstr(text, view) : NULL;
 
-	return at ? g_strdup_printf("%.*s%s", (int)(at - program->text), program->text,
-				    at + strlen(view)) : g_strdup(program->text);
+	return at ? g_strdup_printf("%.*s%s", (int)(at - text), text, at + strlen(view)) : g_strdup(text);
 }
 
 /* @a and @b have the same areas. */
@@ -185,18 +185,37 @@ static bool is_safe_same(const struct sim_program *a, const struct sim_program *
 	       a->safe == b->safe;
 }
 
-bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b)
+/* Texts that were typed in another form have other lines. */
+static bool is_code_same(const struct sim_program *a, const struct sim_program *b)
 {
 	const struct code_header *x = a->program->header, *y = b->program->header;
+	guint8 left[32], right[32];
+
+	if (x->size == y->size && memcmp(a->program->base, b->program->base, x->size) == 0)
+		return true;
+	if ((!a->form && !b->form) || x->data_size != y->data_size)
+		return false;
+	code_identity(a->program, left);
+	code_identity(b->program, right);
+	return memcmp(left, right, sizeof(left)) == 0;
+}
+
+void sim_program_set_form(struct sim_program *program, char *form)
+{
+	g_free(program->form);
+	program->form = form;
+}
+
+bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b)
+{
 	char *left, *right;
 	bool same;
 
-	if (x->size != y->size || memcmp(a->program->base, b->program->base, x->size) != 0 ||
-	    !is_safe_same(a, b))
+	if (!is_safe_same(a, b))
 		return false;
 	left = g_strchomp(plain_text(a));
 	right = g_strchomp(plain_text(b));
-	same = strcmp(left, right) == 0;
+	same = strcmp(left, right) == 0 && is_code_same(a, b);
 	g_free(left);
 	g_free(right);
 	return same;
@@ -215,6 +234,7 @@ void sim_program_unref(struct sim_program *program)
 		return;
 	ladder_free(program->ladder);
 	g_free(program->text);
+	g_free(program->form);
 	g_free(program->safe);
 	g_free(program->image);
 	g_free(program);

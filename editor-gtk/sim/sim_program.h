@@ -13,6 +13,7 @@ struct sim_program {
 	struct ladder *ladder;
 	const struct program *program;
 	char *text;              /* its source                                 */
+	char *form;              /* the same as the document writes it, if that differs; or NULL */
 	guint8 *image;           /* of a board, which `program` reads; else NULL */
 	struct program opened;   /* of it                                      */
 	guint8 *safe;            /* for twin_set_safe(), from the I/O map beside it */
@@ -40,7 +41,10 @@ bool sim_program_open_image(struct sim_program *program, const void *bytes, gsiz
 bool sim_program_runs(const struct sim_program *program, const struct program *image);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
-/** sim_program_is_same - same code, safe values and text; the VIEW parts may differ. */
+/** sim_program_set_form - takes @form: the text in the form of the document. Of the window only. */
+void sim_program_set_form(struct sim_program *program, char *form);
+/** sim_program_is_same - same code, safe values and text, in the form of the document; the VIEW parts may
+ * differ. */
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 
 /** sim_place_words - a place in the program, as the sheet shows it. Caller frees. */
