@@ -36,6 +36,7 @@ struct _LadderPalette {
 	GtkWidget *search, *families;
 	enum palette_kind kind;
 	int own;                    /* number of words of the project shown    */
+	bool stale;                 /* hidden, with rows of a project before    */
 	struct offer best;          /* best match of the search                */
 	enum rank rank;             /* how well it fits                        */
 };
@@ -361,6 +362,7 @@ static void fill(LadderPalette *palette)
 	GtkWidget *family;
 
 	palette->rank = RANK_NONE;
+	palette->stale = false;
 	while ((family = gtk_widget_get_first_child(palette->families)))
 		gtk_box_remove(GTK_BOX(palette->families), family);
 	if (palette->kind == PALETTE_CHART)
@@ -393,13 +395,23 @@ static void place_best(LadderPalette *palette)
 				   "win.place-part", "i", best.id);
 }
 
-/* Rows of words of the project are freed with it. */
+/* Rows of words of the project are freed with it. Nobody reads those of a hidden palette: who types a text
+ * does not wait for it. */
 static void project_changed(LadderPalette *palette)
 {
 	const struct project *project = ladder_document_project(palette->document);
 
-	if (palette->kind == PALETTE_LADDER &&
-	    (palette->own > 0 || (project && project->words.count > 0)))
+	if (palette->kind != PALETTE_LADDER ||
+	    (palette->own == 0 && (!project || project->words.count == 0)))
+		return;
+	palette->stale = true;
+	if (gtk_widget_get_mapped(GTK_WIDGET(palette)))
+		fill(palette);
+}
+
+static void shown(LadderPalette *palette)
+{
+	if (palette->stale)
 		fill(palette);
 }
 
@@ -471,6 +483,7 @@ GtkWidget *ladder_palette_new(LadderDocument *document)
 
 	palette->document = g_object_ref(document);
 	palette->kind = PALETTE_LADDER;
+	g_signal_connect(palette, "map", G_CALLBACK(shown), NULL);
 	g_signal_connect_object(document, "project-changed", G_CALLBACK(project_changed),
 				palette, G_CONNECT_SWAPPED);
 	fill(palette);

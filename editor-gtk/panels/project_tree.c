@@ -105,6 +105,11 @@ static char *shape_of(LadderDocument *document)
 		g_string_append_printf(shape, "%s %d %d\n",
 			project_text(project, project->pou[i].name),
 			(int)project->pou[i].kind, project->pou[i].rung_count);
+	for (int i = 0; project && i < project->structure_count; i++)
+		g_string_append_printf(shape, "%s %d\n", project_text(project, project->structure[i].name),
+				       project->structure[i].vars.count);
+	for (int i = 0; project && i < project->named_count; i++)
+		g_string_append_printf(shape, "%s\n", project_text(project, project->named[i].name));
 	if (project)
 		g_string_append_printf(shape, "%d %d %s", listing_symbol_count(project),
 				       project->part_count, project_view(project));
@@ -139,10 +144,18 @@ static void follow_later(struct tree *tree)
 		tree->timer = g_timeout_add(100, follow_now, tree);
 }
 
+/* Only names of variables and the like may have changed if it has the same shape. */
 static void project_changed(struct tree *tree)
 {
+	char *shape = shape_of(tree->document);
+	const bool same = g_strcmp0(shape, tree->shape) == 0;
+
 	tree->stale = true;
-	follow(tree);
+	if (same)
+		follow_later(tree);
+	else
+		follow(tree);
+	g_free(shape);
 }
 
 static void variable_changed(struct tree *tree)

