@@ -34,6 +34,8 @@ enum il_mark {
 	IL_MADE = 4,     /* made by the translation of a chart or a loop: it may write steps,
 			  * and a comparison that never changes is no news */
 	IL_BEGINS = 16,  /* a statement of Structured Text begins here        */
+	IL_INDEX = 32,   /* IL_CALL: a variable plus or minus a constant, which is only the index of
+			  * elements, before the variable changes; its type holds all their indices */
 	IL_WATCHING = 8, /* keeps power while it is watched; the other lines of that list are
 			  * those of the list that runs unwatched */
 };

@@ -438,6 +438,7 @@ static void store(struct list *list, const struct il_line *line)
 	const struct meaning *m = list_meaning(list, line->operand);
 	struct bits value;
 
+	list_unshift(list, m);
 	if (list->now.kind == RESULT_WHOLE) {
 		list_store_result(list, m);
 		return;
@@ -937,9 +938,11 @@ static void assemble_one(struct list *list)
 	case IL_TICK:
 		list_tick(list);
 		break;
+	case IL_ARG_OUT:
+		list_take_out(list);
+		break;
 	case IL_TARGET:
 	case IL_ARG_IN:
-	case IL_ARG_OUT:
 	case IL_COMMENT:
 		break;
 	}

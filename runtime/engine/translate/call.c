@@ -434,6 +434,85 @@ static bool move_element(struct list *list, const struct word_row *row, enum wor
 	return true;
 }
 
+/* ---- an index that differs from a variable by a constant ---- */
+
+const struct shift *list_shift(const struct list *list, const struct meaning *m)
+{
+	const struct shift *shift = list->shift && m->kind == MEANING_VARIABLE && m->pou == list->pou ?
+				    &list->shift[m->index] : NULL;
+
+	return shift && shift->of ? shift : NULL;
+}
+
+void list_unshift(struct list *list, const struct meaning *m)
+{
+	if (list_shift(list, m))
+		list->shift[m->index].of = NULL;
+}
+
+/* The simulation stands at lists as they are. */
+static bool is_index(const struct list *list, const struct il_line *call)
+{
+	return call->mark & IL_INDEX && !(list->as->listing && list->as->text == &list->as->watch);
+}
+
+/* Nothing runs here: the bounds of the elements take the constant. It cannot fail where they do not. */
+static void call_index(struct list *list)
+{
+	struct target eno = { .beside = true };
+	struct call call = { .en = TRUE_SLOT };
+
+	list->now.kind = RESULT_NONE;
+	read_en(list, &call);
+	eno.slot = call.en;
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+
+		if (strcasecmp(pin_text(list, arg), "ENO") != 0)
+			continue;
+		eno.m = list_meaning(list, arg->operand);
+		finish_at(list, &eno, i);
+	}
+}
+
+/* @call: the line of a sum. */
+static struct shift shift_of(struct list *list, const struct il_line *call)
+{
+	struct shift shift = { .of = NULL };
+
+	for (const struct il_line *arg = call + 1; arg->kind == IL_ARG_IN; arg++) {
+		const struct meaning *m = list_meaning(list, arg->operand);
+
+		if (strcasecmp(pin_text(list, arg), "EN") == 0)
+			continue;
+		if (m->kind != MEANING_LITERAL)
+			shift.of = m;
+		else
+			shift.by = (int32_t)(call->word == FN_SUB ? -m->literal.value.i : m->literal.value.i);
+	}
+	return shift;
+}
+
+void list_take_out(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at], *call = line;
+	const struct meaning *m = list_meaning(list, line->operand);
+	const size_t count = (size_t)(list->pou->vars.count + list->unit->temp_count);
+
+	while (call->kind == IL_ARG_IN || call->kind == IL_ARG_OUT)
+		call--;
+	if (!is_index(list, call) || strcasecmp(pin_text(list, line), "OUT") != 0) {
+		list_unshift(list, m);
+		return;
+	}
+	if (!list->shift)
+		list->shift = arena_alloc(list->as->arena, count * sizeof(*list->shift));
+	if (list->shift)
+		list->shift[m->index] = shift_of(list, call);
+	else
+		list->as->failed = true;
+}
+
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -445,6 +524,10 @@ void list_call(struct list *list)
 	struct target eno, out = { .m = NULL };
 	uint32_t to;
 
+	if (is_index(list, line)) {
+		call_index(list);
+		return;
+	}
 	if (word_is_own((enum word)line->word) || list_is_whole_move(list)) {
 		list_own_call(list);
 		return;

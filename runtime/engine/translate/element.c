@@ -13,9 +13,14 @@ static struct indices indices_of(struct list *list, const struct meaning *m)
 {
 	struct indices out = { .pointer = 0 };
 
-	for (int i = 0; i < m->opens; i++)
-		out.operand[i] = list_number(list, m->open[i].of,
-					     m->open[i].of->type);
+	for (int i = 0; i < m->opens; i++) {
+		const struct meaning *of = m->open[i].of;
+		const struct shift *shift = list_shift(list, of);
+
+		out.low[i] = (uint32_t)m->open[i].array.low - (shift ? (uint32_t)shift->by : 0);
+		of = shift ? shift->of : of;
+		out.operand[i] = list_number(list, of, of->type);
+	}
 	return out;
 }
 
@@ -35,7 +40,7 @@ static void emit_indices(struct list *list, const struct meaning *m,
 {
 	for (int i = 0; i < m->opens; i++) {
 		emit(list->as, indices->operand[i]);
-		emit(list->as, (uint32_t)m->open[i].array.low);
+		emit(list->as, indices->low[i]);
 		emit(list->as, m->open[i].array.count);
 		emit(list->as, packed ? 1 : m->open[i].stride);
 	}
@@ -363,7 +368,7 @@ void list_keep_power(struct list *list, const struct meaning *m, const struct in
 	emit(list->as, power->size);
 	for (int i = 0; i < m->opens; i++) {
 		emit(list->as, indices->operand[i]);
-		emit(list->as, (uint32_t)m->open[i].array.low);
+		emit(list->as, indices->low[i]);
 		emit(list->as, m->open[i].array.count);
 		emit(list->as, m->open[i].stride / power->unit * power->size);
 	}

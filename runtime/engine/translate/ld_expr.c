@@ -32,6 +32,7 @@ struct chain {
 	bool can_fail;
 	int calls;              /* calls of functions of the project still to come */
 	bool pointless;         /* constants with a point have no type        */
+	bool folds;             /* what an index is made of stays until the element is used */
 };
 
 static uint32_t chain_intern(struct chain *c, const char *text, size_t len)
@@ -726,6 +727,57 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	return operate(c, node->fn, left, right, type, target);
 }
 
+/* ---- elements ---- */
+
+#define INDEX_LINES 6 /* of a sum: the call, EN, its inputs, ENO, OUT */
+
+/* i + 1, 1 + i, i - 1. */
+static bool is_shifted(const struct chain *c, const struct expr_node *node)
+{
+	const struct expr_node *left = node->left < 0 ? NULL : &c->expr->node[node->left];
+	const struct expr_node *right = node->right < 0 ? NULL : &c->expr->node[node->right];
+
+	if (node->op != EXPR_FN || !left || !right)
+		return false;
+	if (node->fn == FN_ADD && left->op == EXPR_LITERAL)
+		return right->op == EXPR_NAME;
+	return (node->fn == FN_ADD || node->fn == FN_SUB) && left->op == EXPR_NAME &&
+	       right->op == EXPR_LITERAL;
+}
+
+/* Where the sum overflows there is no such element. */
+static bool holds_all(const struct var_array *array, enum iec_type type, int64_t by)
+{
+	const struct iec_type_row *row = iec_type_row(type);
+
+	return array->low >= row->low && (int64_t)array->low + array->count - 1 <= row->high &&
+	       by > -LIMIT_ELEMENTS && by < LIMIT_ELEMENTS && array->low - by >= INT32_MIN &&
+	       array->low - by <= INT32_MAX;
+}
+
+/* The index of @element was computed by the lines from @from on: if it is a variable and a constant,
+ * its bounds can take the constant. */
+static void fold_index(struct chain *c, const struct expr_node *node, int from, uint32_t element)
+{
+	const struct meaning *m = meaning(c, element), *of = NULL, *by = NULL, *in;
+	struct il *il = c->ld->il;
+	struct il_line *call = from < il->count ? &il->line[from] : NULL;
+
+	if (!c->folds || !is_shifted(c, node) || !m || !m->opens || m->through || !call ||
+	    call->kind != IL_CALL || il->count != from + INDEX_LINES)
+		return;
+	for (int i = from; i < il->count; i++) {
+		if (il->line[i].kind != IL_ARG_IN || il->line[i].pin == c->ld->en_id)
+			continue;
+		in = meaning(c, il->line[i].operand);
+		*(in && in->kind == MEANING_LITERAL ? &by : &of) = in;
+	}
+	if (of && by && of->kind == MEANING_VARIABLE && !meaning_is_indexed(of) &&
+	    (of->type == IEC_INT || of->type == IEC_DINT) && m->open[m->opens - 1].of->type == of->type &&
+	    holds_all(&m->open[m->opens - 1].array, of->type, by->literal.value.i))
+		call->mark |= IL_INDEX;
+}
+
 /* `Table[index].Member`, after the index has been computed. */
 static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 {
@@ -734,6 +786,7 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 			compute_element(c, &c->expr->node[node->right]);
 	const struct expr_tail tail = node->tail;
 	const bool bits = mixes(c, chain_infer(c, node->left), IEC_NONE);
+	const int from = c->ld->il->count;
 	struct value index = chain_compute(c, node->left, bits ? IEC_DWORD : IEC_NONE, 0);
 	struct value none = { .type = IEC_NONE };
 	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
@@ -750,7 +803,9 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 		c->ld->failed = true;
 		return 0;
 	}
-	return chain_intern(c, text, drop_blanks(text, (size_t)size));
+	base = chain_intern(c, text, drop_blanks(text, (size_t)size));
+	fold_index(c, &c->expr->node[node->left], from, base);
+	return base;
 }
 
 /* The operand of a variable or element, as it is. */
@@ -1149,7 +1204,11 @@ static struct value place_behind(struct chain *c, uint32_t place, const struct m
 /* ADR. */
 static struct value chain_place_of(struct chain *c, int index)
 {
+	const bool folds = c->folds;
+
+	c->folds = false; /* its index is a number */
 	const uint32_t place = chain_place(c, index).operand;
+	c->folds = folds;
 	const struct meaning *m = meaning(c, place);
 	const char *text = names_text(&c->ld->translation->project->names, place);
 
@@ -1360,6 +1419,15 @@ static int chain_count_calls(const struct ld *ld, const struct expr *expr)
 	return calls;
 }
 
+/* May an index be read when its element is used? Not if a function may change it before. */
+static bool chain_folds(const struct chain *c)
+{
+	for (int i = 0; i < c->expr->count; i++)
+		if (c->expr->node[i].output)
+			return false;
+	return c->calls == 0;
+}
+
 void ld_compare(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
@@ -1370,6 +1438,7 @@ void ld_compare(struct ld *ld, int element)
 	if (!parse(ld, element))
 		return;
 	c.calls = chain_count_calls(ld, ld->expr);
+	c.folds = chain_folds(&c);
 	ld_place(ld, at->row, at->col);
 	value = settle(&c, chain_compute(&c, ld->expr->root, IEC_NONE, 0));
 	state->leaf = value.operand;
@@ -1411,6 +1480,7 @@ void ld_assign(struct ld *ld, int element)
 	if (!parse(ld, element))
 		return;
 	c.calls = chain_count_calls(ld, ld->expr);
+	c.folds = chain_folds(&c);
 	ld_place(ld, at->row, at->col);
 	target = chain_target(&c);
 	ld_freeze(ld, target);
@@ -1425,8 +1495,11 @@ void ld_assign(struct ld *ld, int element)
 
 static struct chain statement(struct ld *ld)
 {
-	return (struct chain){ .ld = ld, .expr = ld->expr, .net = NET_RAIL,
-			       .calls = chain_count_calls(ld, ld->expr) };
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = NET_RAIL,
+			   .calls = chain_count_calls(ld, ld->expr) };
+
+	c.folds = chain_folds(&c);
+	return c;
 }
 
 /* May LD and ST copy it? LD of an element that does not exist gives 0, which must not be stored; ST does
@@ -1550,6 +1623,7 @@ uint32_t ld_target(struct ld *ld, uint32_t *good)
 	struct chain c = statement(ld);
 	struct value value;
 
+	c.folds = false; /* it is used later */
 	chain_at(&c, ld->expr->node[ld->expr->root].text);
 	value = chain_place(&c, ld->expr->root);
 	*good = c.can_fail ? c.en : 0;

@@ -57,6 +57,10 @@ struct list {
 	int depth;
 	bool straight;                /* no label or jump so far: every scan  */
 	uint8_t *fleeting;            /* by variable: never kept over a label */
+	struct shift {
+		const struct meaning *of; /* NULL: it is none                 */
+		int32_t by;
+	} *shift;                     /* by variable: it is `of` + `by`; NULL: none is so far */
 	int *reads;                   /* by line of a store: reads to come    */
 	struct pending pending[PENDING_MAX];
 	int pending_count;
@@ -151,7 +155,15 @@ uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t e
 			  uint32_t to);
 
 /* Operands of the computed indices of a path, and the place of the pointer that leads to it. */
-struct indices { uint32_t operand[LIMIT_INDICES], pointer; };
+struct indices { uint32_t operand[LIMIT_INDICES], low[LIMIT_INDICES], pointer; };
+/* ---- call.c: an index that differs from a variable by a constant (IL_INDEX) ---- */
+/** list_shift - what @m, a temporary, differs from; NULL: from nothing. */
+const struct shift *list_shift(const struct list *list, const struct meaning *m);
+/** list_take_out - an output of a call is written: in the current line. */
+void list_take_out(struct list *list);
+/** list_unshift - @m is written. */
+void list_unshift(struct list *list, const struct meaning *m);
+
 /** list_borrow - an instance behind such an index goes to @to, where it is called; @out gets the indices in places
  * that no body writes. Returns the BOOL that tells whether there is one. */
 uint32_t list_borrow(struct list *list, const struct meaning *m, uint32_t to, struct indices *out);

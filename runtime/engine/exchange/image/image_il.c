@@ -14,6 +14,7 @@
 #include "engine/base/name.h"
 #include "engine/scan/image.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -1168,8 +1169,19 @@ static const char *area_array(struct maker *m, uint32_t type, bool bits, uint32_
 	return o->name ? o->name : "";
 }
 
-/* The name of the array that AGET or APUT accesses as a whole; false: it has none. */
-static bool find_array(struct maker *m, const uint32_t *at, bool bits, char *text)
+/* Has the type of the index at @at all indices of an array, and what is added to it? */
+static bool holds_all(const uint32_t *at, const struct var_array *array, int64_t shift)
+{
+	const struct iec_type_row *row = iec_type_row((enum iec_type)CODE_TYPE(at[4]));
+
+	return row->class == CLASS_SIGNED && array->low >= row->low &&
+	       (int64_t)array->low + array->count - 1 <= row->high && shift >= row->low &&
+	       shift <= row->high;
+}
+
+/* The name of the array that AGET or APUT accesses as a whole; false: it has none. @shift: what is
+ * to be added to the index. */
+static bool find_array(struct maker *m, const uint32_t *at, bool bits, char *text, int64_t *shift)
 {
 	const uint32_t type = bits ? IEC_BOOL : CODE_TYPE(at[3]), base = CODE_OFFSET(at[3]);
 	const struct var_array array = { (int32_t)at[5], at[6] };
@@ -1183,7 +1195,10 @@ static bool find_array(struct maker *m, const uint32_t *at, bool bits, char *tex
 	}
 	o = object_at(m, real(m, base));
 	if (!o || o->offset != real(m, base) || o->type != type || !o->name || !is_seen(m, o) ||
-	    o->array.low != array.low || o->array.count != array.count)
+	    o->array.count != array.count)
+		return false;
+	*shift = (int64_t)o->array.low - array.low;
+	if (*shift && !holds_all(at, &o->array, *shift))
 		return false;
 	snprintf(text, NAME_SIZE, "%.*s", (int)strcspn(o->name, "["), o->name);
 	return array.count < 2 || o[1].offset - o->offset == at[7];
@@ -1230,8 +1245,9 @@ static bool put_indexed(struct maker *m, const struct chain *chain)
 	char *ok = room(m), *value = room(m);
 	char *array = room(m), *index = room(m), *text = room(m);
 	struct term en;
+	int64_t shift = 0;
 
-	if (!find_array(m, at, chain->bit, array) || !term_of(m, at[0], &en) ||
+	if (!find_array(m, at, chain->bit, array, &shift) || !term_of(m, at[0], &en) ||
 	    !operand(m, IEC_BOOL, at[1], ok) || !typed(m, at[2], value) ||
 	    !typed(m, at[4], text))
 		return false;
@@ -1241,6 +1257,13 @@ static bool put_indexed(struct maker *m, const struct chain *chain)
 		jump(m, "JMPCN", "F", label);
 	}
 	if (put_range(m, at, label, index)) {
+		if (shift) {
+			snprintf(text, ROOM, "%s#%" PRId64,
+				 iec_type_row((enum iec_type)CODE_TYPE(at[4]))->word, shift);
+			out(m, "LD", index);
+			out(m, "ADD", text);
+			out(m, "ST", index);
+		}
 		snprintf(text, ROOM, "%.300s[%.300s]", array, index);
 		out(m, "LD", chain->store ? value : text);
 		out(m, "ST", chain->store ? text : value);
