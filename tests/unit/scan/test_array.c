@@ -89,9 +89,10 @@ static const char shorts[] =
 	"END_VAR\n"
 	"PROGRAM Main ST\n"
 	"  x := T[h];\n  T[w] := x;\n  y := D[w];\n  z := R[h];\n"
-	"  x := T[s];\n  v := L[h];\n  y := T[h];\n  T[h + 1] := T[w];\n"
+	"  x := T[s];\n  v := L[h];\n  y := T[h];\n  T[h + x] := T[w];\n"
 	"  FOR h := 1 TO 4 DO T[h] := h; END_FOR;\n"
 	"  FOR w := 2 TO -1 BY -1 DO D[w] := w; END_FOR;\n"
+	"  x := T[h - 1];\n  y := D[2 + w];\n"
 	"END_PROGRAM\n";
 
 /* Pointers to values of several kinds. */
@@ -418,6 +419,12 @@ static void test_shorts(void)
 	CHECK_AS(refuses_marks(VM_APUT, 0, WIDE | CODE_KEEP), "only AGET keeps a value");
 	CHECK(refuses_marks(VM_AGET, 0, HALF | 512) && refuses_marks(VM_APUT, 1, 1u << 23));
 	CHECK_AS(refuses(VM_AGET, 0, 3, find(VM_AGET, 1)[3]), "both values have one type");
+	CHECK_AS(find(VM_AGET, 7)[5] == find(VM_AGET, 0)[5] && find(VM_AGET, 7)[6] == 2 &&
+		 find(VM_AGET, 8)[5] == find(VM_AGET, 1)[5] && (int32_t)find(VM_AGET, 8)[6] == -3,
+		 "a constant that is added to an index goes into its bounds");
+	CHECK_AS(marks_of(VM_AGET, 7) == (HALF | CODE_KEEP), "it has the shorter way");
+	CHECK(refuses(VM_AGET, 7, 7, 5000) && refuses(VM_AGET, 7, 4, find(VM_AGET, 7)[4] + 1));
+	CHECK_AS(!refuses(VM_AGET, 7, 6, 0x80000000), "any first index is as good");
 	test_steps();
 }
 
