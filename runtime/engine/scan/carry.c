@@ -90,6 +90,65 @@ static void execute(const struct carry_plan *plan, const struct carry_move *move
 	}
 }
 
+/* ---- pointers ---- */
+
+/* The first that ends behind @where; the number of all: none. */
+static uint32_t first_lead(const struct carry_plan *plan, uint32_t where)
+{
+	uint32_t low = 0, high = plan->lead_count;
+
+	while (low < high) {
+		const uint32_t middle = low + (high - low) / 2;
+
+		if (plan->lead[middle].from + plan->lead[middle].bytes > where)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return low;
+}
+
+#define GAP_MOST 8u /* bytes between two parts of a variable, less than the largest value has */
+
+/* Where all of these bytes went together; 0: they did not. */
+static uint32_t lead_place(const struct carry_plan *plan, uint32_t where, uint32_t bytes)
+{
+	uint32_t i = first_lead(plan, where), end = where;
+	uint32_t away;
+
+	if (i == plan->lead_count || plan->lead[i].from > where)
+		return 0;
+	away = plan->lead[i].to - plan->lead[i].from;
+	for (; i < plan->lead_count && plan->lead[i].from < where + bytes; i++) {
+		const struct carry_lead *lead = &plan->lead[i];
+
+		if (lead->to - lead->from != away || (lead->from > end && lead->from - end >= GAP_MOST))
+			return 0;
+		end = lead->from + lead->bytes;
+	}
+	return end + GAP_MOST > where + bytes ? where + away : 0;
+}
+
+/* A pointer with its old initial value has the new one already. */
+static void carry_pointers(const struct carry_plan *plan, uint8_t *to, const uint8_t *from)
+{
+	const uint64_t rest = (UINT64_C(1) << CODE_POINTER_PLACE) - 1;
+
+	for (uint32_t i = 0; i < plan->pointer_count; i++) {
+		const struct carry_pointer *pointer = &plan->pointer[i];
+		uint64_t value;
+		uint32_t place;
+
+		memcpy(&value, from + pointer->from, sizeof(value));
+		if (value == pointer->begun)
+			continue;
+		place = lead_place(plan, (uint32_t)(value >> CODE_POINTER_PLACE),
+				   (uint32_t)(value >> CODE_POINTER_BYTES & CODE_POINTER_MOST));
+		value = place ? (uint64_t)place << CODE_POINTER_PLACE | (value & rest) : 0;
+		memcpy(to + pointer->to, &value, sizeof(value));
+	}
+}
+
 /* ---- forces ---- */
 
 /* An address stays the same. */
@@ -178,6 +237,7 @@ static void carry_image(const struct carry_plan *plan, struct image *to,
 
 		execute(plan, move, to->memory, move->own ? to->memory : from->memory);
 	}
+	carry_pointers(plan, to->memory, from->memory);
 	carry_forces(plan, to, from);
 }
 

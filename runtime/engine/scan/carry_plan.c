@@ -32,6 +32,11 @@ struct work {
 	bool *done;              /* of the new program: a memory that has its value */
 	struct carry_force *force;
 	int force_count;
+	bool points;             /* the new program has a pointer              */
+	struct carry_lead *lead;
+	int lead_count;
+	struct carry_pointer *pointer;
+	int pointer_count;
 	struct carry_lost *lost;
 	int lost_count;
 	uint32_t values;         /* moved so far                               */
@@ -332,6 +337,84 @@ static bool order_forces(struct work *work, struct arena *arena)
 	return true;
 }
 
+/* ---- pointers ---- */
+
+static bool has_pointers(const struct program *program)
+{
+	for (uint32_t i = 0; i < program->run_count; i++)
+		if (code_is_pointer(program, program->run[i].offset))
+			return true;
+	return false;
+}
+
+/* No pointer leads to what has an address. */
+static bool is_led_to(const struct work *work, struct location to, struct location from)
+{
+	return work->points && to.area == AREA_NONE && from.area == AREA_NONE &&
+	       to.where >= work->plan->to->areas.size && from.where >= work->plan->from->areas.size;
+}
+
+static void add_lead(struct work *work, uint32_t to, uint32_t from, uint32_t bytes)
+{
+	struct carry_lead *lead = work->lead_count ? &work->lead[work->lead_count - 1] : NULL;
+
+	if (lead && lead->from + lead->bytes == from && lead->to + lead->bytes == to) {
+		lead->bytes += bytes;
+		return;
+	}
+	lead = arena_push(work->arena, &work->lead, &work->lead_count, sizeof(*lead));
+	if (lead)
+		*lead = (struct carry_lead){ .from = from, .to = to, .bytes = bytes };
+}
+
+/* One value; both places have the same type. */
+static void lead_value(struct work *work, struct location to, struct location from)
+{
+	const struct code_run *new, *old;
+	struct carry_pointer *pointer;
+
+	if (!is_led_to(work, to, from))
+		return;
+	new = code_run_at(work->plan->to, to.where);
+	old = code_run_at(work->plan->from, from.where);
+	if (to.type != IEC_STRING)
+		add_lead(work, to.where, from.where, iec_type_row(to.type)->size);
+	else if (new->kind == RUN_VALUES && old->kind == RUN_VALUES && new->word == old->word)
+		add_lead(work, to.where, from.where, code_run_size(new));
+	if (!code_is_pointer(work->plan->to, to.where))
+		return;
+	pointer = arena_push(work->arena, &work->pointer, &work->pointer_count, sizeof(*pointer));
+	if (!pointer)
+		return;
+	*pointer = (struct carry_pointer){ .from = from.where, .to = to.where };
+	memcpy(&pointer->begun, work->from.memory + from.where, sizeof(pointer->begun));
+}
+
+/* By their old place. */
+static bool order_leads(struct work *work, struct arena *arena)
+{
+	const size_t count = (size_t)work->lead_count, pointers = (size_t)work->pointer_count;
+	uint64_t *key = arena_alloc(work->arena, count * sizeof(*key));
+	struct carry_lead *lead = arena_alloc(arena, count * sizeof(*lead));
+	struct carry_pointer *pointer = arena_alloc(arena, pointers * sizeof(*pointer));
+
+	if (!key || !lead || !pointer)
+		return false;
+	for (size_t i = 0; i < count; i++)
+		key[i] = (uint64_t)work->lead[i].from << 32 | i;
+	moves_sort(key, count);
+	for (size_t i = 0; i < count; i++)
+		lead[i] = work->lead[(uint32_t)key[i]];
+	if (pointers)
+		memcpy(pointer, work->pointer, pointers * sizeof(*pointer));
+	work->plan->lead = lead;
+	work->plan->lead_count = (uint32_t)count;
+	work->plan->pointer = pointer;
+	work->plan->pointer_count = (uint32_t)pointers;
+	work->plan->cost.operations += (uint32_t)pointers;
+	return true;
+}
+
 /* ---- values ---- */
 
 static bool is_read_only(const struct program *program, struct location at)
@@ -351,6 +434,7 @@ static void carry_value(struct work *work, const struct declared_name *to,
 		return;
 	work->values++;
 	moves_value(&work->moves, to->at, from->at);
+	lead_value(work, to->at, from->at);
 	if (to->at.type == IEC_STRING)
 		lose_texts(work, to, from);
 }
@@ -375,9 +459,11 @@ static void carry_array(struct work *work, const struct declared_name *to,
 	if (is_read_only(work->plan->to, to->at))
 		return;
 	work->values += new.array.count;
-	for (uint32_t i = 0; i < new.array.count && work->values <= VALUES_MOST; i++)
+	for (uint32_t i = 0; i < new.array.count && work->values <= VALUES_MOST; i++) {
 		moves_value(&work->moves, declared_element(&new, i),
 			    declared_element(&was, i));
+		lead_value(work, declared_element(&new, i), declared_element(&was, i));
+	}
 	if (to->at.type == IEC_STRING)
 		lose_texts(work, &new, &was);
 }
@@ -390,6 +476,8 @@ static void carry_instance(struct work *work, const struct declared_name *to,
 	const struct word_row *row = word_row(word);
 
 	allow_pins(work, row, to->at.where, word_row(old), from->at.where);
+	if (word == old && is_led_to(work, to->at, from->at))
+		add_lead(work, to->at.where, from->at.where, row->size);
 	if (word == old)
 		moves_instance(&work->moves, row, to->at.where, from->at.where);
 	else
@@ -628,9 +716,10 @@ static bool make_moves(struct carry_plan *plan, struct arena *arena,
 		return false;
 	work->plan = plan;
 	work->arena = temporary;
+	work->points = has_pointers(plan->to);
 	plan->cost.operations = LIMIT_FORCES;
 	return match_names(work) && moves_finish(&work->moves, plan, arena) &&
-	       order_forces(work, arena) && copy_losses(work, arena);
+	       order_forces(work, arena) && order_leads(work, arena) && copy_losses(work, arena);
 }
 
 /* Only names, comments or drawings changed: all offsets are the same. */

@@ -52,6 +52,17 @@ struct carry_lost {
 
 #define CARRY_NO_TASK LIMIT_TASKS
 
+/* Bytes of the old program that a variable of the new one goes on with. */
+struct carry_lead {
+	uint32_t from, to, bytes;
+};
+
+/* A pointer that goes on: it leads to the same variable as before, or nowhere. */
+struct carry_pointer {
+	uint32_t from, to;
+	uint64_t begun;         /* its initial value in the old program       */
+};
+
 struct carry_plan {
 	const struct program *to, *from;
 	bool same;              /* the same code: all memory and all forces go on */
@@ -60,6 +71,10 @@ struct carry_plan {
 	const uint8_t *begun;
 	const struct carry_force *force; /* by `from`, without overlaps       */
 	uint32_t force_count;
+	const struct carry_lead *lead;   /* by `from`; none if there is no pointer */
+	uint32_t lead_count;
+	const struct carry_pointer *pointer;
+	uint32_t pointer_count;
 	const struct carry_lost *lost;
 	uint32_t lost_count;
 	const uint32_t *pou;    /* of each entry of the old program: 1 + offset of its name

@@ -182,7 +182,8 @@ static bool mark_run(struct verifier *v, const struct code_run *run,
 		       word_row((enum word)run->word)->kind != WORD_FB
 		     : !verify_is_type(run->type))
 		return verify_refuse(v, run);
-	if (!instance && (run->type == IEC_STRING) != (run->word != 0))
+	if (!instance && (run->type == IEC_STRING) != (run->word != 0) &&
+	    !(run->type == IEC_LWORD && run->word == RUN_POINTERS))
 		return verify_refuse(v, run);
 	size = code_run_size(run);
 	align = instance ? 8 : type_size(run->type);

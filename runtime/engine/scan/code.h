@@ -137,11 +137,13 @@ struct code_task {      /* ordered by priority, ties as in the file        */
 };
 
 enum code_run_kind { RUN_VALUES, RUN_CONSTANTS, RUN_INSTANCE };
+#define RUN_POINTERS 1
 struct code_run {       /* ordered by offset, no overlap                   */
 	uint32_t offset;
 	uint8_t kind;   /* enum code_run_kind                              */
 	uint8_t type;   /* enum iec_type of RUN_VALUES, RUN_CONSTANTS      */
-	uint16_t word;  /* enum word of RUN_INSTANCE; capacity of STRINGs  */
+	uint16_t word;  /* enum word of RUN_INSTANCE; capacity of STRINGs; RUN_POINTERS of
+			   LWORDs that are pointers                        */
 	uint32_t count; /* of values one after another, or of instances    */
 };
 
@@ -295,6 +297,13 @@ static inline uint32_t code_run_size(const struct code_run *run)
 }
 /** code_run_at - the run that holds this offset; NULL: none. Scan-safe: yes. */
 const struct code_run *code_run_at(const struct program *program, uint32_t offset);
+/** code_is_pointer - whether a pointer is there, which holds a place of this program. Scan-safe: yes. */
+static inline bool code_is_pointer(const struct program *program, uint32_t offset)
+{
+	const struct code_run *run = code_run_at(program, offset);
+
+	return run && run->kind == RUN_VALUES && run->type == IEC_LWORD && run->word == RUN_POINTERS;
+}
 /** code_bits_find - the offset of the byte that holds a bit of an area; 0: the bit is
  * packed.
  * @bits: ordered by area and first; @count of them.   Scan-safe: yes. */

@@ -50,6 +50,7 @@ static uint32_t elements_of(const struct symbol *symbol)
 
 #ifdef RUNGBOARD_SMALL
 #define is_byte(...) false
+#define is_pointer(...) false
 #else
 /* A BOOL of a union, where the byte may be another number: the other members keep it. */
 static bool is_byte(const struct program *program, const struct symbol *symbol)
@@ -59,6 +60,12 @@ static bool is_byte(const struct program *program, const struct symbol *symbol)
 
 	return run && run->type != IEC_BOOL && run->kind != RUN_INSTANCE;
 }
+
+/* After a restart with another program it would lead elsewhere. */
+static bool is_pointer(const struct program *program, const struct symbol *symbol)
+{
+	return symbol->at.area == AREA_NONE && code_is_pointer(program, symbol->at.where);
+}
 #endif
 
 /* Bytes of the value; 0: it cannot be retained. */
@@ -67,7 +74,7 @@ static uint32_t value_size(const struct program *program,
 {
 	uint32_t room;
 
-	if (is_byte(program, symbol))
+	if (is_byte(program, symbol) || is_pointer(program, symbol))
 		return 0;
 	if (symbol->at.type != IEC_STRING)
 		return iec_type_row(symbol->at.type)->size * elements_of(symbol);

@@ -83,6 +83,13 @@ uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 			       (as->data_size + align - 1) / align * align, size);
 }
 
+static uint32_t place_run(struct assembler *as, struct code_run run, uint32_t capacity)
+{
+	const enum iec_type type = (enum iec_type)run.type;
+
+	return layout_place(as, run, iec_type_size(type, capacity), iec_type_row(type)->size);
+}
+
 /* @capacity: of a STRING; all others have none. */
 static uint32_t place_values(struct assembler *as, enum code_run_kind kind,
 			     enum iec_type type, uint32_t capacity, uint32_t count)
@@ -92,8 +99,13 @@ static uint32_t place_values(struct assembler *as, enum code_run_kind kind,
 		.word = (uint16_t)(type == IEC_STRING ? capacity : 0),
 	};
 
-	return layout_place(as, run, iec_type_size(type, capacity),
-			    iec_type_row(type)->size);
+	return place_run(as, run, capacity);
+}
+
+static uint32_t place_pointers(struct assembler *as, uint32_t count)
+{
+	return place_run(as, (struct code_run){ .kind = RUN_VALUES, .type = IEC_LWORD,
+						.word = RUN_POINTERS, .count = count }, 0);
 }
 
 static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
@@ -190,6 +202,8 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 
 	if (pin->type == IEC_STRING)
 		run.word = pin->capacity;
+	else if (whole->vars && index < whole->vars->count && whole->vars->var[index].target)
+		run.word = RUN_POINTERS; /* behind the variables come temporaries */
 	if (pin->type == IEC_NONE)
 		place_blocks(as, pin, offset, extent, init);
 	else
@@ -555,6 +569,7 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 	enum code_run_kind kind = constant ? RUN_CONSTANTS : RUN_VALUES;
 	uint32_t *offset = &as->offset[table][index];
 	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
+	const uint32_t count = var->array.count ? var->array.count : 1;
 
 	if (is_framed(as, table, index) ||
 	    is_retained(as, table, index) != retain)
@@ -562,8 +577,8 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 	if (*offset || var->at.area != AREA_NONE)
 		return;
 	*offset = var->type == IEC_NONE ? place_whole(as, var, true) :
-		  place_values(as, kind, var->type, capacity,
-			       var->array.count ? var->array.count : 1);
+		  var->target && kind == RUN_VALUES ? place_pointers(as, count) :
+		  place_values(as, kind, var->type, capacity, count);
 	layout_init_var(as, *offset, var);
 }
 

@@ -75,6 +75,58 @@ static void test_edges(void)
 	rig_close(&new);
 }
 
+/* ---- pointers ---- */
+
+#define POINTED_TYPES \
+	"TYPE\n  Pair : STRUCT\n    A : INT;\n    B : DINT;\n    Name : STRING[7];\n  END_STRUCT;\nEND_TYPE\n"
+#define POINTERS \
+	"  Pt : REF_TO INT;\n  Lost : REF_TO INT;\n  Whole : REF_TO Pair;\n  Part : REF_TO DINT;\n" \
+	"  Element : POINTER TO INT;\n  Note : REF_TO STRING;\n  Many : ARRAY[1..3] OF REF_TO INT;\n"
+static const char pointing[] = POINTED_TYPES
+	"VAR_GLOBAL\n  First : INT := 1;\n  Second : INT := 2;\n  Gone : INT := 3;\n  One : Pair;\n"
+	"  List : ARRAY[1..4] OF INT;\n  Text : STRING[9];\n" POINTERS
+	"  Begun : REF_TO INT := REF(First);\n  Set : REF_TO INT := REF(First);\nEND_VAR\n"
+	"PROGRAM Main ST\n  Pt := REF(Second);\n  Lost := REF(Gone);\n  Whole := REF(One);\n  Part := REF(One.B);\n"
+	"  Element := REF(List[3]);\n  Note := REF(Text);\n  Many[2] := REF(First);\n  Many[3] := REF(Gone);\n"
+	"  Set := REF(List[2]);\nEND_PROGRAM\n";
+/* Other places, one variable fewer; the pointers are not set again. */
+static const char pointed[] = POINTED_TYPES
+	"VAR_GLOBAL\n  Text : STRING[9];\n  New : INT := 5;\n  Also : LINT;\n  Second : INT := 2;\n"
+	"  Fresh : REF_TO INT := REF(New);\n" POINTERS
+	"  Set : REF_TO INT := REF(First);\n  Begun : REF_TO INT := REF(First);\n"
+	"  List : ARRAY[1..4] OF INT;\n  More : ARRAY[1..9] OF INT;\n  One : Pair;\n  First : INT := 1;\nEND_VAR\n"
+	"PROGRAM Main ST\n  Pt^ := 70;\n  Lost^ := 71;\n  Whole^.A := 72;\n  Part^ := 73;\n  Element^ := 74;\n"
+	"  Note^ := 'seven';\n  Many[2]^ := 75;\n  Many[3]^ := 76;\n  Many[1]^ := 77;\n  Fresh^ := 78;\n"
+	"  Begun^ := Begun^ + 1;\n  Set^ := 79;\nEND_PROGRAM\n";
+
+/* After a change each pointer leads to its variable, wherever that is now, or nowhere. */
+static void test_pointers(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, pointing, true);
+	rig_open(&new, pointed, true);
+	rig_scan(&old);
+	change(&new, &old);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "Second") == 70);
+	CHECK(rig_get(&new, "One.A") == 72 && rig_get(&new, "One.B") == 73);
+	CHECK(rig_get(&new, "List[1]") == 0 && rig_get(&new, "List[2]") == 79 &&
+	      rig_get(&new, "List[3]") == 74 && rig_get(&new, "List[4]") == 0);
+	CHECK(rig_get(&new, "First") == 76 && rig_get(&new, "New") == 78);
+	CHECK(rig_get(&new, "Also") == 0);
+	for (int i = 1; i <= 9; i++) {
+		char name[16];
+
+		snprintf(name, sizeof(name), "More[%d]", i);
+		CHECK(rig_get(&new, name) == 0);
+	}
+	rig_scan(&new); /* counts those of the scan before */
+	CHECK_AS(rig_get(&new, "SYS_ERRORS") == 3, "three lead nowhere");
+	rig_close(&old);
+	rig_close(&new);
+}
+
 /* ---- values ---- */
 
 static const char before[] =
@@ -551,5 +603,6 @@ int main(void)
 	test_tasks();
 	test_fault();
 	test_edges();
+	test_pointers();
 	return tap_done();
 }

@@ -199,6 +199,12 @@ static void plans(void)
 		   "END_PROGRAM\n");
 	CHECK(b.retain.count == 0 && b.retain.payload_size == RETAIN_HEAD);
 	close_bench(&b);
+	open_bench(&b, "TYPE\n  Link : STRUCT\n    To : REF_TO INT;\n    Last : LWORD;\n  END_STRUCT;\nEND_TYPE\n"
+		   "VAR RETAIN\n  Count : INT;\n  Pt : REF_TO INT;\n  Many : ARRAY[1..4] OF REF_TO INT;\n"
+		   "  First : Link;\nEND_VAR\nPROGRAM Main ST\n  Pt := REF(Count);\n  Many[1] := First.To;\n"
+		   "END_PROGRAM\n");
+	CHECK_AS(names_are(&b, "Count:INT First.Last:LWORD "), "no pointer is retained");
+	close_bench(&b);
 }
 
 /* Values at their limits: the retained value is that of image_get(). */
