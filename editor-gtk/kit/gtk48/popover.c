@@ -201,7 +201,7 @@ void popover_form(GtkWidget *popover, GtkWidget *back)
 
 void popover_tell(GtkLabel *label, const char *text)
 {
-	GtkWidget *widget = GTK_WIDGET(label);
+	GtkWidget *widget = GTK_WIDGET(label), *popover;
 	int width, height;
 
 	gtk_widget_set_size_request(widget, -1, -1);
@@ -210,6 +210,9 @@ void popover_tell(GtkLabel *label, const char *text)
 	gtk_widget_measure(widget, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
 	gtk_widget_measure(widget, GTK_ORIENTATION_VERTICAL, width, NULL, &height, NULL, NULL);
 	gtk_widget_set_size_request(widget, width, height);
+	popover = gtk_widget_get_ancestor(widget, GTK_TYPE_POPOVER);
+	if (popover && gtk_widget_get_mapped(popover))
+		gtk_popover_present(GTK_POPOVER(popover));
 }
 
 /* ---- closed popovers give up their surface ---- */

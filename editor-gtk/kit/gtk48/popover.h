@@ -17,7 +17,8 @@
  *   was scrolled away, looks for a monitor there and finds none.
  * - Cut text, popover_tell(): a popover measures its height for more width than its child
  *   gets, so that the last line of a wrapped label is cut off. To see it: a refusal that
- *   needs just two lines at a line of quick entry.
+ *   needs just two lines at a line of quick entry. An open popover does not grow
+ *   with its child, such as the form of an array with a last index below the first.
  * - Covered menu, popover_is_above(): the tooltip of a button is drawn above the menu that the
  *   button opened. To see it: click an arrow of the palette and wait.
  * - Cut menu, popover_menu(): a popover below its place gets no more height than there is, above

@@ -128,6 +128,36 @@ static void test_whole(void)
 	goes(page, "the whole menu goes with its page");
 }
 
+/* Does the child of the popover have all the room it wants? */
+static bool has_room(GtkWidget *child)
+{
+	int width, height;
+
+	gtk_widget_measure(child, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
+	gtk_widget_measure(child, GTK_ORIENTATION_VERTICAL, -1, NULL, &height, NULL, NULL);
+	return gtk_widget_get_width(child) >= width && gtk_widget_get_height(child) >= height;
+}
+
+/* An open popover grows with the reason that is shown in it; its parent does not know of it. */
+static void test_told(void)
+{
+	GtkWidget *page = gtk_drawing_area_new(), *popover = gtk_popover_new();
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6), *label = gtk_label_new("");
+
+	gtk_widget_set_focusable(page, TRUE);
+	put(page);
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_box_append(GTK_BOX(box), gtk_button_new_with_label("Set the type"));
+	gtk_popover_set_child(GTK_POPOVER(popover), box);
+	popover_put(popover, page);
+	popover_tell(GTK_LABEL(label), "");
+	gtk_popover_popup(GTK_POPOVER(popover));
+	CHECK_SOON(is_open(page) && has_room(box));
+	popover_tell(GTK_LABEL(label), "The last index is below the first, which is wider than the button");
+	CHECK_SOON(has_room(box));
+	goes(page, "a popover with a reason goes with its page");
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 900, 600, &window);
@@ -138,6 +168,7 @@ int main(void)
 	test_any();
 	test_closed();
 	test_whole();
+	test_told();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
