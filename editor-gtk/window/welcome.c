@@ -363,7 +363,7 @@ GtkWidget *welcome_new(void)
 		"win.begin-chart", NULL);
 	add_row(begin, _("New project in Structured Text"), _("Statements and expressions as text."),
 		"win.begin-statements", NULL);
-	add_row(begin, _("Open a file…"), _("Rung files. A damaged file opens as text."),
+	add_row(begin, _("Open a file…"), _("Rung files; IEC text: .st, .iec, .il, .EXP, .TcPOU"),
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
 		"win.import-project", NULL);
