@@ -413,7 +413,7 @@ static void add_sets(GMenu *menu, const struct live_cell *cell)
 		GMenuItem *item;
 		char *label;
 
-		if (part->at.type == IEC_NONE)
+		if (part->at.type == IEC_NONE || part->at.constant)
 			continue;
 		label = g_strdup_printf(_("Set %s…"), part->text);
 		item = g_menu_item_new(label, NULL);

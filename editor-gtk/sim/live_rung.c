@@ -21,6 +21,12 @@ static bool is_name(char c)
 	return g_ascii_isalnum(c) || c == '_' || c == '.' || c == '#' || (c & 0x80);
 }
 
+/* `%B1` behind a dot: a part of a number. */
+static bool is_part(const char *text, size_t len)
+{
+	return text[len] == '%' && len > 0 && text[len - 1] == '.';
+}
+
 /* The length of a name with members and constant indices, of a number, or 1. */
 static size_t token_length(const char *text)
 {
@@ -28,7 +34,7 @@ static size_t token_length(const char *text)
 
 	if (!is_name(*text) && !len)
 		return 1;
-	while (is_name(text[len])) {
+	while (is_name(text[len]) || is_part(text, len)) {
 		const char *end;
 
 		len++;
@@ -71,7 +77,7 @@ GArray *live_parts(const struct live_map *map, const char *text)
 
 		if (*text == '%' || g_ascii_isalpha(*text) || *text == '_' || *text & 0x80)
 			part.at = live_map_find(map, text, len);
-		if (part.at.type != IEC_NONE && !part.at.constant) {
+		if (part.at.type != IEC_NONE && (!part.at.constant || part.at.number)) {
 			part.named = live_map_named(map, text, len);
 			part.text = g_strndup(text, len);
 			g_array_append_val(parts, part);
@@ -108,7 +114,7 @@ static void take_first(struct live_cell *cell)
 		const struct live_part *part =
 			&g_array_index(cell->parts, struct live_part, i);
 
-		if (part->at.type == IEC_NONE)
+		if (part->at.type == IEC_NONE || part->at.constant)
 			continue;
 		cell->at = part->at;
 		cell->named = part->named;

@@ -63,6 +63,8 @@ RUNG
   | NO W.3 | NO W.%X15 | COIL Motor |
 RUNG
   | NC In.9 | COIL Lamp | COIL W.1 |
+RUNG
+  | [ W.3 AND NOT In.%X9 AND W.%B0 > 2 ] | COIL %QX1.0 |
 END_PROGRAM
 '''
 PLANT = '''RUNGBOARD 1
@@ -128,6 +130,7 @@ def bits(screen):
     editor.click(editor.element('Rung 1, NO', 'W.3'))
     editor.element('Rung 1, NO', 'W.3, closed')
     editor.says('W = 11')
+    editor.element('Rung 3', 'W.3 AND', 'TRUE AND NOT FALSE AND 11 > 2')
     editor.keys('Right', 'space')
     editor.element('Rung 1, COIL', 'Motor', ', on')
     editor.says('W = -32757')
