@@ -509,6 +509,16 @@ static void do_negate(LadderGridView *view)
 			  _(verb_row(VERB_negate)->label));
 }
 
+bool ladder_grid_view_rename_box(LadderGridView *view)
+{
+	const struct cell *cell = cursor_cell(view, NULL, NULL);
+
+	if (!cell || cell->word != ELEM_EXECUTE || canvas_is_fixed(LADDER_CANVAS(view)))
+		return false;
+	entry_begin_edit(view);
+	return true;
+}
+
 static bool changes(enum verb verb)
 {
 	return verb != VERB_copy && verb != VERB_copy_picture && verb != VERB_select_all &&
@@ -731,7 +741,7 @@ static bool applies(LadderCanvas *canvas, enum verb verb)
 					   cell->word == ELEM_PIN);
 	case VERB_show_uses: case VERB_go_coil: case VERB_watch_add:
 		return cell && (cell->operand || cell->args);
-	case VERB_rename: return cell && cell->operand && !live;
+	case VERB_rename: return cell && (cell->operand || cell->word == ELEM_EXECUTE) && !live;
 	case VERB_expect: return live;
 	default: return true;
 	}

@@ -37,6 +37,9 @@ struct grid_cursor ladder_grid_view_cursor(LadderGridView *view);
 void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col);
 /** ladder_grid_view_move - moves the cursor to a display cell and scrolls to it. */
 void ladder_grid_view_move(LadderGridView *view, struct grid_cursor to);
+/** ladder_grid_view_rename_box - asks for another name of the EXECUTE box at the cursor. Fails: false: there
+ * is none. */
+bool ladder_grid_view_rename_box(LadderGridView *view);
 /** ladder_grid_view_cell - the cell of the element at the cursor, 0-based; false: there is
  * no element. */
 bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col);

@@ -255,6 +255,24 @@ static const enum verb *verbs_of(LadderGridView *view, const struct cell *cell)
 	return row->operand == OPND_BOOL_R ? contact : other;
 }
 
+static void tell_key(GString *text, enum verb verb, const char *does)
+{
+	char *keys = verb_keys_label(verb);
+
+	g_string_append_printf(text, _("%s%s: %s"), text->len ? " · " : "", keys, does);
+	g_free(keys);
+}
+
+/* An EXECUTE box has no operand. */
+static void tell_box(GString *text, bool live)
+{
+	tell_key(text, VERB_enter, _("Edit statements"));
+	if (!live)
+		tell_key(text, VERB_rename, _("Rename…"));
+	verb_tell(text, VERB_comment);
+	verb_tell(text, VERB_delete);
+}
+
 char *tell_keys(LadderCanvas *canvas)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
@@ -267,6 +285,10 @@ char *tell_keys(LadderCanvas *canvas)
 		return g_string_free(text, FALSE);
 	verb = verbs_of(view, cell);
 	live = act_keys(view, text);
+	if (cell && cell->word == ELEM_EXECUTE) {
+		tell_box(text, live);
+		return g_string_free(text, FALSE);
+	}
 	if (!cell)
 		g_string_append(text, _("type a name or a word"));
 	for (int i = 0; i < VERBS_TOLD; i++)

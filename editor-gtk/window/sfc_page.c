@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/sfc_page.h"
 
+#include "editor-gtk/document/boxed_line.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
@@ -21,6 +22,9 @@ struct _LadderSfcPage {
 	char *shown;                 /* heading of the body shown in @rungs */
 	GtkWidget *rungs, *text;     /* at most one of them                    */
 	bool below_active;           /* @rungs or @text has the focus, or had it last */
+	int back;                    /* first of the rungs that the text stands in place of; -1: none */
+	int wanted;                  /* line of an EXECUTE box in them              */
+	guint opening;               /* source that opens it; 0: none               */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, GTK_TYPE_BOX)
@@ -85,14 +89,22 @@ static void close_below(LadderSfcPage *page)
 
 	page->rungs = page->text = NULL;
 	page->below_active = false;
+	page->back = -1;
 	g_clear_pointer(&page->shown, g_free);
 	gtk_widget_set_visible(page->below, FALSE);
 	if (child)
 		gtk_box_remove(GTK_BOX(page->place), child);
 }
 
+static void show_rungs(LadderSfcPage *page, int first);
+
+/* From the statements of a box back to its rungs. */
 static void close_clicked(LadderSfcPage *page)
 {
+	if (page->back >= 0) {
+		show_rungs(page, page->back);
+		return;
+	}
 	close_below(page);
 	gtk_widget_grab_focus(page->chart);
 }
@@ -130,6 +142,32 @@ static void put_below(LadderSfcPage *page, GtkWidget *widget, const char *headin
 	gtk_widget_set_visible(page->below, TRUE);
 }
 
+static void show_text(LadderSfcPage *page, int line, int column);
+
+static gboolean open_statements(gpointer data)
+{
+	LadderSfcPage *page = data;
+	int count, back;
+
+	page->opening = 0;
+	back = page->rungs ? ladder_grid_view_range(LADDER_GRID_VIEW(page->rungs), &count) : -1;
+	show_text(page, page->wanted, 5);
+	page->back = back;
+	return G_SOURCE_REMOVE;
+}
+
+/* The sheet that asks goes. */
+static void statements_wanted(LadderSfcPage *page, int rung, int row, int col)
+{
+	const struct project *project = ladder_document_project(page->document);
+	char *text = ladder_document_list(page->document, page->pou);
+
+	page->wanted = text ? boxed_line(text, &project->pou[page->pou], rung, row, col) : 0;
+	g_free(text);
+	if (page->wanted > 0 && !page->opening)
+		page->opening = g_idle_add_full(G_PRIORITY_HIGH_IDLE, open_statements, page, NULL);
+}
+
 static void show_rungs(LadderSfcPage *page, int first)
 {
 	int count;
@@ -141,6 +179,7 @@ static void show_rungs(LadderSfcPage *page, int first)
 	page->rungs = ladder_grid_view_new(page->document, page->pou);
 	ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, count);
 	ladder_canvas_set_sim(LADDER_CANVAS(page->rungs), page->sim);
+	g_signal_connect_swapped(page->rungs, "statements-wanted", G_CALLBACK(statements_wanted), page);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
 	follow_focus(page, page->rungs, G_CALLBACK(below_entered));
@@ -294,6 +333,7 @@ static void ladder_sfc_page_dispose(GObject *object)
 {
 	LadderSfcPage *page = LADDER_SFC_PAGE(object);
 
+	g_clear_handle_id(&page->opening, g_source_remove);
 	if (page->document)
 		g_signal_handler_disconnect(page->document, page->handler);
 	g_clear_object(&page->document);
@@ -311,6 +351,7 @@ static void ladder_sfc_page_init(LadderSfcPage *page)
 {
 	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *close;
 
+	page->back = -1;
 	page->paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
 	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
 	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);

@@ -185,9 +185,13 @@ static void do_rename(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
 
-	if (!focus || (!gtk_widget_activate_action(focus, "tree.rename", NULL) &&
-		       !gtk_widget_activate_action(focus, "tasks.rename", NULL) &&
-		       !gtk_widget_activate_action(focus, "types.rename-type", NULL)))
+	LadderGridView *sheet = front_sheet(&window->front);
+
+	if (focus && (gtk_widget_activate_action(focus, "tree.rename", NULL) ||
+		      gtk_widget_activate_action(focus, "tasks.rename", NULL) ||
+		      gtk_widget_activate_action(focus, "types.rename-type", NULL)))
+		return;
+	if (!sheet || !ladder_grid_view_rename_box(sheet))
 		names_rename(&window->core);
 }
 

@@ -176,6 +176,53 @@ def stops(screen):
     until(lambda: 'breakpoint, if Runs = 2' in described(view), 'the condition')
 
 
+BOXED = MIXER.replace('    Valve(N);\n', '    Valve(N);\n    Count(N);\n').replace('END_PROGRAM', '''
+  ACTION Count:
+  RUNG
+    | NO Fill.X | EXECUTE Add | COIL %QX0.1 |
+    EXECUTE Add:
+      Runs := Runs + 1;
+    END_EXECUTE
+  END_ACTION
+END_PROGRAM''')
+
+
+def on_box(editor, name, *keys):
+    """The cursor of the rungs below the chart on the box of the first rung."""
+    until(lambda: [node for node in editor.all('EXECUTE') if name in node.name], 'the box')
+    editor.keys('Home', 'Right', *keys)
+
+
+def boxed(screen):
+    """Enter on a box in the rungs of an action shows its statements in their place; Close goes back; F2 renames the box; a breakpoint opens them"""
+    path = new_file(screen, BOXED)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.click(shape(editor, 'Fill does: N Count'), count=2)
+    on_box(editor, 'Add', 'Return')
+    view = until(lambda: [node for node in editor.all('Statements of Add', 'text') if node.has(12)], 'the statements')[0]
+    until(lambda: view.text().strip() == 'Runs := Runs + 1;', 'nothing but them')
+    editor.keys('ctrl+Home', 'End', 'Return')
+    editor.type('Valve := Runs > 2;')
+    editor.keys('F9')
+    until(lambda: 'breakpoint' in described(view), 'the breakpoint')
+    editor.click(max(editor.all('Close', 'push button'), key=lambda node: node.box()[1]))
+    on_box(editor, 'Add')
+    until(lambda: [n for n in editor.all('Edit statements', 'label') if 'F2: Rename' in n.name], 'the keys of the box')
+    editor.keys('F2')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.entry('Sum')
+    on_box(editor, 'Sum')
+    text = editor.save(path)
+    assert 'EXECUTE Sum:\n        Runs := Runs + 1;\n        Valve := Runs > 2;\n' in text, text
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    editor.click(editor.find('Go, %IX0.0', 'check box'))
+    until(lambda: editor.all('Stands before line 2 of Mixer.Sum', 'label') and editor.all('Statements of Sum', 'text'), 'the box')
+    editor.shot('chart-text-boxed')
+
+
 def rename(editor, text):
     line = until(editor.asked, 'the new name')[0]
     until(lambda: line.has(12), 'the focus in the line')
@@ -203,4 +250,4 @@ def renamed(screen):
 
 
 if __name__ == '__main__':
-    main([written, watched, stops, renamed])
+    main([written, watched, stops, boxed, renamed])

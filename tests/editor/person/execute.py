@@ -222,7 +222,7 @@ def copied(screen):
     assert text.count(BOX) == 2, text
     editor.keys('ctrl+z')
     assert editor.save(path) == COUNTED
-    editor.keys('Home', 'Right', 'shift+Return')
+    editor.keys('Home', 'Right', 'F2')
     editor.opened()
     editor.keys('ctrl+a')
     editor.entry('Add')
