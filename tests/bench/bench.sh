@@ -7,7 +7,7 @@
 set -eu
 
 build=${BUILD:-build}
-cc=${CC:-cc}
+cc=${CC:-cc} # may have words: ccache gcc
 ladder=$build/ladder
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
@@ -25,7 +25,7 @@ per() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { printf f, a / b }'; }
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo 'no commit')
 git diff --quiet HEAD 2>/dev/null || commit="$commit with changes"
 cpu=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
-echo "Commit $commit, $("$cc" --version | head -n 1), ${cpu:-$(uname -m)}."
+echo "Commit $commit, $($cc --version | head -n 1), ${cpu:-$(uname -m)}."
 echo 'Medians, in brackets the least. body: the program alone; scan: with the edges of the scan. Inputs: zero: all are FALSE;'
 echo 'fixed: random ones that stay; random: all change in each scan; 1 ms: the same, and the scans are a millisecond apart.'
 echo
@@ -76,7 +76,7 @@ for kind in $(perl "$(dirname "$0")/programs.pl" families); do
 	echo "| $kind | $(both zero 1000) | $(both fixed 1000) | $(both random 1000)" \
 		"| $(per "$(field "$tmp/p.json" code_bytes)" 1000 %.0f) |"
 done
-if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tmp/real" -lm; then
+if $cc -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tmp/real" -lm; then
 	c=$("$tmp/real")
 	vm=$(per "$(median "$tmp/real.json" body_fixed_ns)" 1000 %.2f)
 	echo
@@ -89,7 +89,7 @@ loop() {
 	c=$(per "$(awk -v name="$1" '$1 == name { print $2 }' "$tmp/loops.txt")" "$2" %.2f)
 	echo "| $3 | $st | $c | $(per "$st" "$c" %.1f) |"
 }
-if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/loops.c" -o "$tmp/loops"; then
+if $cc -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/loops.c" -o "$tmp/loops"; then
 	"$tmp/loops" >"$tmp/loops.txt"
 	echo
 	echo '| Structured Text | ns | C with -O2, without checks, ns | ratio |'
