@@ -79,18 +79,13 @@ static bool check_callee(struct operand_check *c, struct expr *expr, struct call
 /* The pin that an argument goes to; NULL: none, which check_il reports. */
 static const struct word_pin *pin_of(struct callee *callee, const struct st_part *part)
 {
-	int index = callee->pin;
+	int index;
 
 	if (!callee->row)
 		return NULL;
-	if (part->pin.len) {
-		index = word_pin_find(callee->row, part->pin.text, part->pin.len);
-	} else {
-		do
-			index++;
-		while (index < callee->row->pin_count && !pin_is_given(&callee->row->pin[index]));
-		callee->pin = index;
-	}
+	if (!part->pin.len)
+		return pin_next(callee->row, &callee->pin);
+	index = word_pin_find(callee->row, part->pin.text, part->pin.len);
 	return index >= 0 && index < callee->row->pin_count ? &callee->row->pin[index] : NULL;
 }
 
@@ -192,7 +187,7 @@ static void check_argument(struct operand_check *c, struct callee *callee, const
 	} else if (at < 256) {
 		callee->given[at / 64] |= UINT64_C(1) << at % 64;
 	}
-	if (part->role == ST_OUTPUT)
+	if (part->role == ST_OUTPUT || (pin && pin->dir == PIN_OUT && !part->pin.len))
 		check_part(c, expr, OPERAND_WRITTEN);
 	else if (pin && pin->dir == PIN_IN_OUT)
 		check_part(c, expr, OPERAND_CHANGED);

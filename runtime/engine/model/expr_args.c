@@ -145,17 +145,49 @@ static bool is_enable(const struct word_row *row, const struct expr_node *arg)
 	       word_pin_find(row, arg->text, arg->len) < 0;
 }
 
+/* More arguments without a name than inputs: they are all of the function, in their order. */
+static bool has_outputs(const struct expr *expr, const struct word_row *row, const struct expr_args *args)
+{
+	int inputs = 0, outputs = 0;
+
+	for (int i = 0; i < args->count; i++)
+		if (expr->node[args->arg[i].at].len)
+			return false;
+	for (int i = 0; i < row->pin_count && is_own(row); i++) {
+		inputs += takes(row, i);
+		outputs += row->pin[i].dir == PIN_OUT;
+	}
+	return is_own(row) && args->count > inputs && args->count <= inputs + outputs;
+}
+
+/* The next input or output behind @pin. */
+static int next_any(const struct word_row *row, int pin)
+{
+	do
+		pin++;
+	while (pin < row->pin_count && !takes(row, pin) && row->pin[pin].dir != PIN_OUT);
+	return pin;
+}
+
 /* Moves EN and outputs out of the list of inputs. */
 static enum diag_id find_others(const struct expr *expr, const struct word_row *row,
 				struct expr_args *out)
 {
 	const int count = out->count;
+	const bool places = has_outputs(expr, row, out);
+	int place = -1;
 
 	out->more = out->count = 0;
 	for (int i = 0; i < count; i++) {
 		const struct expr_node *arg = &expr->node[out->arg[i].at];
 		int pin = EXPR_EN;
 
+		place = places ? next_any(row, place) : -1;
+		if (place >= 0 && row->pin[place].dir == PIN_OUT) {
+			out->other[out->more].at = arg->left;
+			out->other[out->more++].pin = place;
+			continue;
+		}
 		if (!arg->output && !is_enable(row, arg)) {
 			out->arg[out->count++].at = out->arg[i].at;
 			continue;

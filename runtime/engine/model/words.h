@@ -70,4 +70,22 @@ static inline bool word_is_own(enum word word)
 {
 	return word > WORD_COUNT && word < WORD_FIRST_MADE;
 }
+
+/**
+ * pin_next - the pin of the next argument without a name of a call of an instance: the inputs in their order,
+ * then the outputs
+ * @last: of the argument before; -1: none; gets that of this one
+ *
+ * NULL: there is none. Scan-safe: yes.
+ */
+static inline const struct word_pin *pin_next(const struct word_row *row, int *last)
+{
+	for (++*last; *last < 2 * row->pin_count; ++*last) {
+		const struct word_pin *pin = &row->pin[*last % row->pin_count];
+
+		if (*last < row->pin_count ? pin_is_given(pin) : pin->dir == PIN_OUT)
+			return pin;
+	}
+	return NULL;
+}
 #endif

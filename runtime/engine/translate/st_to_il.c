@@ -850,15 +850,9 @@ static const struct word_pin *pin_at(const struct word_row *row, const struct st
 
 	if (!row)
 		return NULL;
-	if (part->pin.len) {
-		index = word_pin_find(row, part->pin.text, part->pin.len);
-	} else {
-		index = *last;
-		do
-			index++;
-		while (index < row->pin_count && !pin_is_given(&row->pin[index]));
-		*last = index;
-	}
+	if (!part->pin.len)
+		return pin_next(row, last);
+	index = word_pin_find(row, part->pin.text, part->pin.len);
 	return index >= 0 && index < row->pin_count ? &row->pin[index] : NULL;
 }
 
@@ -929,7 +923,11 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 			want_bool(s, ld_test(&s->ld));
 			jump(s, MOD_C | MOD_N, call->skip);
 		} else {
-			add_argument(s, &part, pin_at(row, &part, &last));
+			const struct word_pin *pin = pin_at(row, &part, &last);
+
+			if (pin && pin->dir == PIN_OUT && !part.pin.len)
+				part.role = ST_OUTPUT;
+			add_argument(s, &part, pin);
 		}
 	}
 	at_item(s);
