@@ -649,6 +649,17 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		 struct meaning *out, enum diag_id *why);
 
+/* The name behind a NAMESPACE. */
+static bool mean_in_space(struct scope *scope, uint32_t table, uint32_t id, struct meaning *out, enum diag_id *why)
+{
+	struct names *names = &scope->project->names;
+	const char *text = names_text(names, id);
+	size_t len = names_len(names, id);
+
+	return words_strip(&scope->project->words, &text, &len) &&
+	       mean(scope, table, names_intern(names, text, len), out, why);
+}
+
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why)
 {
@@ -664,7 +675,8 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 		answer = add_answer(scope, table, text);
 		if (!answer)
 			return NULL;
-		answer->known = mean(scope, table, text, &answer->meaning, why);
+		answer->known = mean(scope, table, text, &answer->meaning, why) ||
+				mean_in_space(scope, table, text, &answer->meaning, why);
 		answer->why = *why;
 	}
 	*why = answer->why;
@@ -1137,6 +1149,12 @@ struct var_array meaning_reach(const struct meaning *meaning)
 
 const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text)
 {
+	struct names *names = &scope->project->names;
+	const char *plain = names_text(names, text);
+	size_t len = names_len(names, text);
+
+	if (words_strip(&scope->project->words, &plain, &len))
+		text = names_intern(names, plain, len);
 	uint32_t fold = names_fold(&scope->project->names, text);
 	const struct declared *declared;
 

@@ -163,12 +163,14 @@ struct access_block {
 
 /* The order of the parts in the file, kept for writing. */
 enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE,
-		 PART_CONFIG, PART_USES, PART_TYPES, PART_ACCESS };
+		 PART_CONFIG, PART_USES, PART_TYPES, PART_ACCESS,
+		 PART_SPACE };
 struct part {
 	enum part_kind kind;
 	int index;              /* var block of globals, POU, first structure, access block */
 	int count;              /* structures                                  */
-	uint32_t text;          /* string id: text from VIEW to END_VIEW; file name */
+	uint32_t text;          /* string id: text from VIEW to END_VIEW; file name; NAMESPACE …,
+				 * END_NAMESPACE, USING …; as it is written      */
 	uint32_t comment;       /* above it                                    */
 	uint8_t included;       /* came from another file: not written         */
 	uint16_t source;        /* the file that it, or what includes it, stands in */

@@ -180,7 +180,41 @@ const char *words_number(const char *text, size_t len)
 	return NULL;
 }
 
-enum word words_find(struct word_table *table, const char *text, size_t len)
+static bool is_space(const struct word_table *table, const char *name, size_t len)
+{
+	for (int i = 0; i < table->space_count; i++)
+		if (table->space[i].len == len && name_is(table->space[i].name, name, len))
+			return true;
+	return false;
+}
+
+bool words_space(struct word_table *table, const char *name, size_t len)
+{
+	struct word_space *space;
+
+	if (is_space(table, name, len))
+		return true;
+	space = arena_push(table->arena, &table->space, &table->space_count, sizeof(*space));
+	if (space)
+		*space = (struct word_space){ name, len };
+	return space != NULL;
+}
+
+bool words_strip(const struct word_table *table, const char **text, size_t *len)
+{
+	const char *dot;
+	bool found = false;
+
+	while (table->space_count && (dot = memchr(*text, '.', *len)) && dot + 1 < *text + *len &&
+	       is_space(table, *text, (size_t)(dot - *text))) {
+		*len -= (size_t)(dot + 1 - *text);
+		*text = dot + 1;
+		found = true;
+	}
+	return found;
+}
+
+static enum word find(struct word_table *table, const char *text, size_t len)
 {
 	const char *number = table->as_numbers ? words_number(text, len) : NULL;
 	enum word word = word_find(text, len);
@@ -198,6 +232,12 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 	if (word == WORD_COUNT)
 		word = number ? find_made(table, number, strlen(number)) : find_made(table, text, len);
 	return word != WORD_COUNT ? word : find_long(text, len);
+}
+
+enum word words_find(struct word_table *table, const char *text, size_t len)
+{
+	words_strip(table, &text, &len);
+	return find(table, text, len);
 }
 
 const char *words_explain(const struct word_row *row)

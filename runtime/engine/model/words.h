@@ -24,6 +24,8 @@ struct word_table {
 	int made_count;
 	uint16_t *slot;        /* open hash of index + 1, by name, any case   */
 	uint32_t mask;
+	struct word_space { const char *name; size_t len; } *space; /* parts of the names of NAMESPACEs */
+	int space_count;
 	bool as_numbers;       /* DWORD_TO_REAL and REAL_TO_DWORD keep the number, not the bits */
 	bool own_first;        /* plain IEC text: its words hide those of the catalogue */
 };
@@ -39,6 +41,11 @@ void words_init(struct word_table *table, struct arena *arena);
  * Fails: WORD_COUNT when memory is out or there are too many.
  */
 enum word words_add(struct word_table *table, struct word_row row);
+/** words_space - a part of the name of a NAMESPACE, which may stand before names. Borrowed; must live as long
+ * as the table. Scan-safe: no. Fails: false: no memory. */
+bool words_space(struct word_table *table, const char *name, size_t len);
+/** words_strip - steps over namespaces before a name: Plant.Pumps.Start. Scan-safe: yes. False: there is none. */
+bool words_strip(const struct word_table *table, const char **text, size_t *len);
 /** words_own - the row of a word of the project, to fill in; NULL: none. */
 struct word_row *words_own(const struct word_table *table, enum word word);
 /** words_row - the row of any word; that of an empty cell if there is none. */

@@ -313,6 +313,70 @@ static void read_include(struct reader *r, bool library)
 		include_file(r, part.text, library, place);
 }
 
+/* The name at the cursor, of which a NAMESPACE may be named before other names. */
+static bool add_space(struct reader *r)
+{
+	const struct token name = r->lex.token;
+	const uint32_t id = reader_intern(r, name.text, name.len);
+	const char *at = names_text(&r->project->names, id), *end = at + name.len;
+
+	if (name.kind != TOKEN_NAME || name.len > 2 * LIMIT_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "name of a namespace");
+	while (at < end) {
+		const char *dot = memchr(at, '.', (size_t)(end - at));
+		const size_t len = (size_t)((dot ? dot : end) - at);
+
+		if (!words_space(&r->project->words, at, len))
+			return r->no_memory = true, false;
+		at += len + 1;
+	}
+	return true;
+}
+
+/* NAMESPACE Name, END_NAMESPACE, USING Name, Other; */
+static void read_space(struct reader *r)
+{
+	struct part part = { .kind = PART_SPACE };
+	const struct token first = r->lex.token;
+	const bool begins = lex_is(&r->lex, "NAMESPACE"), uses = lex_is(&r->lex, "USING");
+	struct token last;
+
+	if (!begins && !uses && r->spaces == 0)
+		reader_fail_word(r, DIAG_ST_NO_BEGIN, "END_NAMESPACE" DIAG_AND "NAMESPACE");
+	r->spaces += begins ? 1 : uses || r->spaces == 0 ? 0 : -1;
+	if (begins)
+		r->space = r->place, r->space.line = first.line, r->space.column = first.column;
+	do {
+		last = r->lex.token;
+		reader_step(r);
+		if (begins && lex_is(&r->lex, "INTERNAL"))
+			reader_step(r);
+		if ((begins || uses) && (last = r->lex.token, !add_space(r))) {
+			reader_skip_line(r);
+			return;
+		}
+		if (begins || uses)
+			reader_step(r);
+	} while (uses && reader_is(r, ','));
+	part.text = reader_intern(r, first.text, (size_t)(last.text + last.len - first.text));
+	if (reader_is(r, ';')) {
+		part.text = reader_intern(r, first.text, (size_t)(r->lex.token.text + 1 - first.text));
+		reader_step(r);
+	}
+	reader_end_head(r);
+	part.comment = buffer_take(r, &r->above);
+	reader_add_part(r, part);
+}
+
+static void end_spaces(struct reader *r)
+{
+	if (r->spaces == 0)
+		return;
+	r->space.id = DIAG_ST_OPEN;
+	diag_add(r->diags, r->space, "%s", "NAMESPACE" DIAG_AND "END_NAMESPACE");
+	r->spaces = 0;
+}
+
 /* ---- words that begin a part ---- */
 
 /* Does a part of a POU that is no chart begin or end here, as others have it: ACTION Name? */
@@ -338,7 +402,7 @@ bool read_ends_block(const struct reader *r)
 		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
 		"SUBROUTINE", "END_SUBROUTINE",
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
-		"VAR_ACCESS",
+		"VAR_ACCESS", "NAMESPACE", "END_NAMESPACE",
 	};
 	bool found = r->boxed && lex_is(&r->lex, "END_EXECUTE");
 
@@ -455,6 +519,8 @@ static void read_parts(struct reader *r)
 			read_configuration(r);
 		else if (lex_is(&r->lex, "INCLUDE"))
 			read_include(r, false);
+		else if (lex_is(&r->lex, "NAMESPACE") || lex_is(&r->lex, "END_NAMESPACE") || lex_is(&r->lex, "USING"))
+			read_space(r);
 		else if (!skip_actions(r) && !reader_skip_objects(r))
 			reader_skip_odd_line(r);
 	}
@@ -464,7 +530,7 @@ bool text_is_plain(const char *text, size_t len)
 {
 	static const char *const words[] = {
 		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "FUNCTIONBLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
-		"CLASS", "INTERFACE", /* told as what they are */
+		"NAMESPACE", "USING", "CLASS", "INTERFACE", /* told as what they are */
 	};
 	struct lex lex;
 
@@ -522,6 +588,7 @@ static void read_text(struct reader *r, const char *text, size_t len)
 		if (!r->plain)
 			read_head(r);
 		read_parts(r);
+		end_spaces(r);
 	}
 	free(copy);
 }

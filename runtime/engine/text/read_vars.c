@@ -234,11 +234,12 @@ bool reader_type(struct reader *r, struct var *var)
 /* The type at the cursor has a name of its own, and is no structure. */
 static bool is_named(struct reader *r, struct var *var)
 {
-	const struct token *token = &r->lex.token;
 	struct names *names = &r->project->names;
+	const char *text = r->lex.token.text;
+	size_t len = r->lex.token.len;
 
-	var->named = (uint16_t)(named_find(r->project, names_fold(names,
-				names_intern(names, token->text, token->len))) + 1);
+	words_strip(&r->project->words, &text, &len);
+	var->named = (uint16_t)(named_find(r->project, names_fold(names, names_intern(names, text, len))) + 1);
 	return var->named;
 }
 

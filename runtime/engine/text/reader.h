@@ -74,6 +74,8 @@ struct reader {
 	                               the POU above                          */
 	uint16_t var_flags;          /* of the current VAR block               */
 	bool paths;                 /* reading VAR_CONFIG: names are paths    */
+	int spaces;                 /* NAMESPACEs around the cursor           */
+	struct diag space;          /* place of the last one                  */
 	bool members;               /* reading the members of a structure     */
 	int inner;                  /* structures without a name that are open */
 	bool library;               /* the file was named by USES             */

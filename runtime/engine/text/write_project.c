@@ -604,6 +604,7 @@ static void write_part(const struct sink *sink, const struct project *project,
 	case PART_CONFIG:
 		write_config(sink, project);
 		break;
+	case PART_SPACE:
 	case PART_VIEW:
 		write_id(sink, project, part->text);
 		sink_text(sink, "\n");
