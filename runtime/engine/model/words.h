@@ -41,8 +41,8 @@ void words_init(struct word_table *table, struct arena *arena);
  * Fails: WORD_COUNT when memory is out or there are too many.
  */
 enum word words_add(struct word_table *table, struct word_row row);
-/** words_space - a part of the name of a NAMESPACE, which may stand before names. Borrowed; must live as long
- * as the table. Scan-safe: no. Fails: false: no memory. */
+/** words_space - a part of the name of a NAMESPACE, which may stand before names. @name ends with NUL and lives as
+ * long as the table. Scan-safe: no. Fails: false: no memory. */
 bool words_space(struct word_table *table, const char *name, size_t len);
 /** words_strip - steps over namespaces before a name: Plant.Pumps.Start. Scan-safe: yes. False: there is none. */
 bool words_strip(const struct word_table *table, const char **text, size_t *len);

@@ -317,8 +317,7 @@ static void read_include(struct reader *r, bool library)
 static bool add_space(struct reader *r)
 {
 	const struct token name = r->lex.token;
-	const uint32_t id = reader_intern(r, name.text, name.len);
-	const char *at = names_text(&r->project->names, id), *end = at + name.len;
+	const char *at = name.text, *end = at + name.len;
 
 	if (name.kind != TOKEN_NAME || name.len > 2 * LIMIT_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "name of a namespace");
@@ -326,7 +325,7 @@ static bool add_space(struct reader *r)
 		const char *dot = memchr(at, '.', (size_t)(end - at));
 		const size_t len = (size_t)((dot ? dot : end) - at);
 
-		if (!words_space(&r->project->words, at, len))
+		if (!words_space(&r->project->words, names_text(&r->project->names, reader_intern(r, at, len)), len))
 			return r->no_memory = true, false;
 		at += len + 1;
 	}
