@@ -190,6 +190,7 @@ struct word_row {
 	bool retain : 1;     /* of a project: a part of it is RETAIN           */
 	bool overlaps : 1;   /* of a project: its members share their bytes    */
 	bool texts : 1;      /* of a project: it holds a text or a block       */
+	bool unions : 1;     /* of a project: it is a union, or holds one      */
 	bool straight : 1;   /* of a project: its members lie as they are declared */
 	enum iec_type result : 8; /* of a function: a type, or RESULT_…            */
 	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */

@@ -625,7 +625,7 @@ static bool is_like(const struct meaning *m, const struct word_pin *pin)
 		       m->array.count == pin->elements &&
 		       (pin->type != IEC_NONE || m->word == pin->word) &&
 		       (pin->type != IEC_STRING || m->capacity == pin->capacity);
-	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) &&
+	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) && m->addr.area == AREA_NONE &&
 	       pin->type == IEC_NONE && m->word == pin->word;
 }
 
@@ -640,6 +640,10 @@ static bool il_check_shape(struct il_check *c, const struct il_line *arg,
 
 	if (is_like(m, pin))
 		return true;
+	if (!pin->elements && m->addr.area != AREA_NONE) {
+		snprintf(text, sizeof(text), "%.20s" DIAG_AND "%.40s", operand, word);
+		return il_report(&c->fn, arg, DIAG_AT_WHOLE, text);
+	}
 	if (!pin->elements)
 		return il_report_wrong(c, arg, operand, word);
 	if (pin->type == IEC_STRING)

@@ -16,6 +16,7 @@
 #include "engine/check/reserved.h"
 #include "engine/check/settle.h"
 #include "engine/model/named.h"
+#include "engine/model/shape.h"
 #include "engine/model/st.h"
 #include "engine/model/init.h"
 
@@ -328,8 +329,26 @@ static void check_points(struct names_check *c, const struct pou *pou, const str
 		report_var(c, why, pou, var, text_of(c, name));
 }
 
+/* A structure begins with a byte, and all of it is in the area. */
+static void check_address_of_whole(struct names_check *c, const struct var *var, struct diag place)
+{
+	const struct word_row *row = words_row(&c->project->words, var->fb);
+	const uint64_t size = shape_of_var(&c->project->words, var).size;
+	const uint32_t most = scope_areas(c->scope)->bytes[var->at.area];
+
+	place.id = row->kind != WORD_STRUCT || row->texts || row->unions ? DIAG_AT_HOLDS :
+		   var->at.bits == 1 && var->at.bit ? DIAG_AT_TYPE :
+		   size > most || var->at.byte > most - size ? DIAG_BAD_ADDRESS : DIAG_COUNT;
+	if (place.id != DIAG_COUNT)
+		c->good &= diag_add(c->diags, place, "%s", text_of(c, var->name));
+}
+
 static void check_address(struct names_check *c, const struct var *var, struct diag place)
 {
+	if (var->type == IEC_NONE) {
+		check_address_of_whole(c, var, place);
+		return;
+	}
 	place.id = DIAG_BAD_ADDRESS;
 	if (!is_inside(c, var))
 		c->good &= diag_add(c->diags, place, "%s", text_of(c, var->name));

@@ -504,6 +504,12 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 		     struct meaning *m)
 {
 	m->offset += pin->offset;
+	if (m->addr.area != AREA_NONE && !m->through) {
+		m->addr.byte += pin->offset;
+		m->addr.bit = 0;
+		m->addr.bits = pin->type == IEC_BOOL ? 1 : pin->type == IEC_NONE ? 8 :
+			       (uint8_t)(8 * iec_type_row(pin->type)->size);
+	}
 	m->type = pin->type;
 	m->array = pin_array(pin);
 	if (pin->elements) {
@@ -704,7 +710,9 @@ static void mean_element(struct path *path, uint32_t number)
 	struct meaning *m = &path->m;
 
 	number *= each(m);
-	if (m->addr.area != AREA_NONE)
+	if (m->addr.area != AREA_NONE && m->var && m->var->type == IEC_NONE)
+		m->addr.byte += number * m->stride; /* of a structure, where a BOOL has a byte */
+	else if (m->addr.area != AREA_NONE)
 		m->addr = vars_shift(m->addr, number);
 	if (m->var)
 		m->offset += number * m->stride;
@@ -833,6 +841,8 @@ static bool finish(struct path *path, struct meaning *out)
 	struct meaning *m = &path->m;
 
 	m->index_of = path->index_of;
+	if (path->opens > 1 && m->addr.area != AREA_NONE && m->type == IEC_BOOL)
+		return refuse(path, DIAG_AT_INDEX);
 	if (m->through && m->kind == MEANING_ARRAY && m->array.count == LIMIT_ELEMENTS)
 		m->array.count = path->count;
 	if (m->through)

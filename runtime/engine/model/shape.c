@@ -3,7 +3,7 @@
  * shape - rows of a project's own words, and the order of their parts in memory.
  *
  * Parts are ordered by type, so that few runs describe them; blocks and structures come
- * last. Those of a structure in a union lie as they are declared. A type that contains itself has no size and is an error.
+ * last. Those of a structure in a union, or at an address, lie as they are declared. A type that contains itself has no size and is an error.
  */
 #include "engine/model/shape.h"
 
@@ -203,7 +203,7 @@ static bool make_pins(struct shaper *s, int index)
 
 	row->size = BLOCK_ALIGN;
 	row->pin_count = row->ordered = 0;
-	row->retain = row->texts = row->straight = false;
+	row->retain = row->texts = row->straight = row->unions = false;
 	row->overlaps = is_union(s, row);
 	if (!table)
 		return true;
@@ -263,6 +263,7 @@ static bool place_union(struct shaper *s, int index)
 	*bytes = (struct word_pin){ .name = "", .dir = PIN_VAR, .type = IEC_LWORD,
 				    .elements = (uint32_t)(most + 7) / 8 };
 	*order = (uint16_t)(row->pin_count - 1);
+	row->unions = true;
 	row->order = order;
 	row->ordered = 1;
 	row->size = bytes->elements * 8;
@@ -274,11 +275,26 @@ static bool place_union(struct shaper *s, int index)
 	return true;
 }
 
-/* The structures in unions, at every depth. */
+static void mark_table(struct shaper *s, const struct var_table *table)
+{
+	for (int i = 0; i < table->count; i++) {
+		const struct var *var = &table->var[i];
+		struct word_row *row = var->at.area == AREA_NONE || var->type != IEC_NONE ? NULL :
+				       words_own(&s->project->words, var->fb);
+
+		if (row)
+			row->straight = true;
+	}
+}
+
+/* The structures in unions and at addresses, at every depth. */
 static void mark_straight(struct shaper *s)
 {
 	bool more = true;
 
+	mark_table(s, &s->project->globals);
+	for (int i = 0; i < s->project->pou_count; i++)
+		mark_table(s, &s->project->pou[i].vars);
 	while (more) {
 		more = false;
 		for (int i = 0; i < s->project->words.count; i++) {
@@ -331,6 +347,7 @@ static bool place_pins(struct shaper *s, int index)
 				depth = inner->depth > depth ? inner->depth : depth;
 				row->retain |= inner->retain;
 				row->texts |= inner->texts || inner->kind == WORD_FB;
+				row->unions |= inner->unions;
 			}
 		}
 	row->order = order;

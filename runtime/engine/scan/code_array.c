@@ -146,11 +146,11 @@ bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
 	return !grid.failed;
 }
 
-bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
+bool verify_bits(const struct verifier *v, uint32_t first, uint64_t count,
 		 bool write)
 {
 	const struct areas *areas = &v->program->areas;
-	uint64_t last = (uint64_t)first + count - 1;
+	uint64_t last = first + count - 1;
 	enum iec_area area = areas_find(areas, first / 8);
 
 	if (!count || area == AREA_NONE || last / 8 >= v->areas ||

@@ -320,8 +320,8 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 		return false;
 	if (more)
 		return verify_elements_of(v, at[3], at + 4, 1 + more, put);
-	return n ? type == IEC_BOOL && at[7] == 1 &&
-		   verify_bits(v, CODE_OFFSET(at[3]), at[6], put)
+	return n ? type == IEC_BOOL && at[6] &&
+		   verify_bits(v, CODE_OFFSET(at[3]), (uint64_t)(at[6] - 1) * at[7] + 1, put)
 		 : verify_elements(v, at[3], at[6], at[7], put);
 }
 

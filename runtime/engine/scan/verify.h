@@ -67,7 +67,7 @@ bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
 			uint32_t dims, bool write);
 /** verify_bits - the same for @count packed bits of an area; @first is counted from the
  * first area. Scan-safe: yes. */
-bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
+bool verify_bits(const struct verifier *v, uint32_t first, uint64_t count,
 		 bool write);
 /** verify_all - whether @n values of a type, one after another, may be read, or written.
  * Scan-safe: yes. */

@@ -218,8 +218,7 @@ static bool copy_text(struct vm *vm, const uint32_t *at, bool poke)
 	    (where - run->offset) % code_run_size(run))
 		return false;
 	where = CODE_OPERAND(IEC_STRING, where);
-	put_text(vm->memory, poke ? where : at[VALUE], text(vm->memory, poke ? at[VALUE] : where));
-	return true;
+	return put_text(vm->memory, poke ? where : at[VALUE], text(vm->memory, poke ? at[VALUE] : where));
 }
 
 static bool is_raw(const struct code_run *run)

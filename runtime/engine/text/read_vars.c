@@ -336,7 +336,7 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 			return reader_fail_token(r, DIAG_BAD_TYPE);
 		if (kind == WORD_FB && !may_hold_blocks(r))
 			return reader_fail_token(r, DIAG_MISPLACED);
-		if (var->at.area != AREA_NONE)
+		if (var->at.area != AREA_NONE && kind != WORD_STRUCT)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
 	if (var->array.count && var->at.area != AREA_NONE && leaves_area(var))

@@ -42,7 +42,8 @@ static void emit_indices(struct list *list, const struct meaning *m,
 		emit(list->as, indices->operand[i]);
 		emit(list->as, indices->low[i]);
 		emit(list->as, m->open[i].array.count);
-		emit(list->as, packed ? 1 : m->open[i].stride);
+		emit(list->as, !packed ? m->open[i].stride : m->var && m->var->type == IEC_NONE ?
+			       8 * m->open[i].stride : 1);
 	}
 }
 

@@ -192,7 +192,7 @@ static void place_blocks(struct assembler *as, const struct word_pin *pin,
 
 /* A part that is no structure, instance or array of the project. */
 static void place_part(struct assembler *as, const struct whole *whole, int index,
-		       bool init)
+		       bool place, bool init)
 {
 	const struct word_pin *pin = &whole->row->pin[index];
 	struct extent extent = shape_of(&as->translation->project->words, pin);
@@ -206,7 +206,7 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 		run.word = RUN_POINTERS; /* behind the variables come temporaries */
 	if (pin->type == IEC_NONE)
 		place_blocks(as, pin, offset, extent, init);
-	else
+	else if (place)
 		layout_place_at(as, run, offset, extent.unit);
 	if (init && pin->has_init)
 		layout_init_var(as, offset, &whole->vars->var[index]);
@@ -245,16 +245,12 @@ static int next_part(const struct assembler *as, struct whole *top, uint32_t *of
 	return index;
 }
 
-/* Reserves runs for its parts, in the order of model/shape.h. */
-static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
+/* All parts of what lies at @base, in the order of model/shape.h. @place: reserves runs for them. */
+static void walk_whole(struct assembler *as, enum word word, uint32_t base, bool place, bool init)
 {
 	struct whole level[LIMIT_NESTING + 1];
-	uint32_t base = (as->data_size + 7) / 8 * 8;
-	uint32_t size = layout_row(as, word)->size;
 	int depth = 0;
 
-	if (!layout_has_room(as, base, size))
-		return as->data_size - 1;
 	level[0] = whole_of(as, word, base);
 	while (depth >= 0 && !as->failed) {
 		struct whole *top = &level[depth];
@@ -273,8 +269,19 @@ static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
 			level[++depth] = whole_of(as, pin->word, offset);
 			continue;
 		}
-		place_part(as, top, index, init);
+		place_part(as, top, index, place, init);
 	}
+}
+
+/* Reserves runs for its parts. */
+static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
+{
+	uint32_t base = (as->data_size + 7) / 8 * 8;
+	uint32_t size = layout_row(as, word)->size;
+
+	if (!layout_has_room(as, base, size))
+		return as->data_size - 1;
+	walk_whole(as, word, base, true, init);
 	as->data_size = base + size;
 	return base;
 }
@@ -450,6 +457,11 @@ static void place_byte(struct assembler *as, int area, uint32_t byte,
 static void use_located(struct assembler *as, uint8_t *used,
 			const struct var *var)
 {
+	if (var->at.area != AREA_NONE && var->type == IEC_NONE) {
+		memset(as->byte_packed + areas_byte(as->areas, var->at), 1,
+		       shape_of_var(&as->translation->project->words, var).size);
+		return;
+	}
 	if (var->at.area == AREA_NONE || var->at.bits == 1)
 		return;
 	if (var->array.count)
@@ -649,6 +661,20 @@ static void init_var_in_area(struct assembler *as, uint8_t *area,
 				     var->type, var->init_list[i].value);
 }
 
+/* A structure: a BOOL is the lowest bit of its byte. */
+static void init_whole_in_area(struct assembler *as, const struct var *var)
+{
+	const uint32_t count = var->array.count ? var->array.count : 1;
+	uint32_t at;
+
+	if (var->at.area == AREA_NONE || var->type != IEC_NONE)
+		return;
+	at = areas_byte(as->areas, var->at);
+	for (uint32_t i = 0; i < count; i++)
+		walk_whole(as, var->fb, at + i * layout_row(as, var->fb)->size, false, true);
+	layout_init_var(as, at, var);
+}
+
 /* Variables with AT may lie over each other: the later one wins, bit by bit. */
 static bool init_located(struct assembler *as)
 {
@@ -660,13 +686,16 @@ static bool init_located(struct assembler *as)
 		for (int i = 0; i < layout_vars(as, table)->count; i++) {
 			const struct var *var = table_var(as, table, i);
 
-			if (var->has_init && var->at.area != AREA_NONE)
+			if (var->has_init && var->at.area != AREA_NONE && var->type != IEC_NONE)
 				init_var_in_area(as, area, var);
 		}
 	for (uint32_t i = 0; i < as->areas->size; i++)
 		if (area[i])
 			layout_init(as, i, IEC_BYTE,
 				    (union iec_value){ .i = area[i] });
+	for (int table = 0; table <= as->translation->unit_count; table++)
+		for (int i = 0; i < layout_vars(as, table)->count; i++)
+			init_whole_in_area(as, table_var(as, table, i));
 	return true;
 }
 

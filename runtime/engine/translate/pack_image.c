@@ -307,6 +307,21 @@ static const struct var *member_of(const struct assembler *as, const struct leve
 	return table && top->next < table->count ? &table->var[top->next] : NULL;
 }
 
+/* BOOLs of a structure at an address, each the lowest bit of its byte. @end: of @name so far. */
+static void add_bits(struct assembler *as, struct maps *maps, char *end, const char *name,
+		     const struct word_pin *pin, const struct var *var, uint32_t element, uint32_t at,
+		     uint32_t marks)
+{
+	const uint32_t count = pin->elements ? row_of(pin, var) : 1;
+	struct word_pin each = *pin;
+
+	each.type = IEC_NONE; /* one index for each name */
+	for (uint32_t i = element; i < element + count && !as->failed; i++) {
+		join_indices(end, &each, var, i);
+		add_part(as, maps, name, pin, (at + i) * 8, marks | SYMBOL_BIT);
+	}
+}
+
 /* All parts of one instance or structure of the project, at every depth; @name holds its own
  * name. */
 static void add_parts(struct assembler *as, struct maps *maps, char *name,
@@ -341,6 +356,10 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 		name[len++] = '.';
 		memcpy(name + len, part, strlen(part) + 1);
 		len += strlen(part);
+		if (pin->type == IEC_BOOL && top->base < as->areas->size) {
+			add_bits(as, maps, name + len, name, pin, var, element, top->base + pin->offset, marks);
+			continue;
+		}
 		len += join_indices(name + len, pin, var, element);
 		at = top->base + pin->offset + element * shape_of(words, pin).unit;
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
@@ -384,7 +403,7 @@ static void add_var(struct assembler *as, struct maps *maps,
 		    const struct pou *pou, const struct var *var, int index)
 {
 	struct meaning m = { .kind = MEANING_INSTANCE, .pou = pou, .var = var,
-			     .index = index };
+			     .index = index, .addr = var->at };
 
 	if (var->type == IEC_NONE && (word_is_own(var->fb) || var->array.count))
 		add_whole(as, maps, var, layout_spot(as, &m).offset);
