@@ -640,7 +640,7 @@ static bool il_check_shape(struct il_check *c, const struct il_line *arg,
 
 	if (is_like(m, pin))
 		return true;
-	if (!pin->elements && m->addr.area != AREA_NONE) {
+	if (!pin->elements && m->kind == MEANING_STRUCT && m->word == pin->word && m->addr.area != AREA_NONE) {
 		snprintf(text, sizeof(text), "%.20s" DIAG_AND "%.40s", operand, word);
 		return il_report(&c->fn, arg, DIAG_AT_WHOLE, text);
 	}

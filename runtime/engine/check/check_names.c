@@ -435,6 +435,19 @@ static void print_type(const struct project *project, const struct var *var, cha
 	sink_memory_free(&memory);
 }
 
+/* ARRAY[1..N] is ARRAY[1..3] if N is 3. */
+static bool is_same_array(const struct var *a, const struct var *b)
+{
+	bool same = a->array.count && a->array.count == b->array.count && a->array.low == b->array.low &&
+		    a->dims == b->dims && a->type == b->type && a->fb == b->fb && a->capacity == b->capacity &&
+		    a->named == b->named && !a->target && !b->target && a->enumeration == b->enumeration &&
+		    !a->range && !b->range;
+
+	for (int i = 0; same && a->dims > 1 && i < a->dims; i++)
+		same = a->dim[i].low == b->dim[i].low && a->dim[i].count == b->dim[i].count;
+	return same;
+}
+
 /* VAR_EXTERNAL: a global of this name and type. */
 static void check_external(struct names_check *c, const struct pou *pou)
 {
@@ -449,7 +462,7 @@ static void check_external(struct names_check *c, const struct pou *pou)
 		}
 		print_type(c->project, var, wanted, sizeof(wanted));
 		print_type(c->project, &c->project->globals.var[global], is, sizeof(is));
-		if (strcmp(wanted, is) != 0)
+		if (strcmp(wanted, is) != 0 && !is_same_array(var, &c->project->globals.var[global]))
 			c->good &= diag_add(c->diags, place_of_var(c, DIAG_OTHER_GLOBAL, pou, var),
 					    "%s" DIAG_AND "%s" DIAG_AND "%s", text_of(c, var->name),
 					    is, wanted);

@@ -726,6 +726,10 @@ static bool use_measured(struct operand_check *c, struct operand_spot at, struct
 		 of->len < LIMIT_NAME ? of->len : LIMIT_NAME, of->text);
 	m = of->op == EXPR_NAME ? scope_find(c->scope, c->pou, operand_intern(c, text, strlen(text)), &why) :
 				  NULL;
+	if (of->op == EXPR_NAME && !m && what == MEASURE_SIZE && scope_type_bytes(c->scope, of->text, of->len)) {
+		of->written = true; /* it is no variable that is read */
+		return true;
+	}
 	if (of->op != EXPR_NAME || (m && what == MEASURE_VALID && !(m->like && m->like->target)))
 		operand_report(c, what == MEASURE_VALID ? DIAG_NO_REFERENCE : DIAG_ADR_OF, at,
 			       of->len ? text + (*text == '@') : "+");

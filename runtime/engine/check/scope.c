@@ -1222,6 +1222,22 @@ uint32_t scope_bytes(const struct scope *scope, const struct meaning *m)
 	return like && m->type == IEC_STRING ? like->capacity + 1u : scope_size(scope, m);
 }
 
+uint32_t scope_type_bytes(struct scope *scope, const char *text, size_t len)
+{
+	struct names *names = &scope->project->names;
+	const enum iec_type type = iec_type_find(text, len);
+	const int named = named_find(scope->project, names_fold(names, names_intern(names, text, len)));
+	const struct var *like = named < 0 ? NULL : scope->project->named[named].like.var;
+	const enum word word = words_find(&scope->project->words, text, len);
+
+	if (type != IEC_NONE)
+		return type == IEC_STRING ? IEC_STRING_DEFAULT + 1 : iec_type_row(type)->size;
+	if (like)
+		return like->type == IEC_STRING && !like->array.count ? like->capacity + 1u :
+		       (uint32_t)shape_of_var(&scope->project->words, like).size;
+	return word_is_own(word) && scope_row(scope, word)->kind != WORD_FN ? scope_row(scope, word)->size : 0;
+}
+
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)
 {
 	uint32_t span = scope_size(scope, meaning);

@@ -186,6 +186,8 @@ const struct areas *scope_areas(const struct scope *scope);
 const struct word_row *scope_row(const struct scope *scope, enum word word);
 /** scope_bytes - what SIZEOF gives: of a STRING its bytes and one more, of a pointer 4. Scan-safe: yes. */
 uint32_t scope_bytes(const struct scope *scope, const struct meaning *m);
+/** scope_type_bytes - what SIZEOF gives of the type with this name; 0: there is none. Scan-safe: no. */
+uint32_t scope_type_bytes(struct scope *scope, const char *text, size_t len);
 /** scope_tell - the arguments of a message about a name without a meaning, as named_tell(); of
  * DIAG_NO_SUCH_PART the part and the type of what should have it. Scan-safe: no. */
 void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,

@@ -216,13 +216,6 @@ static bool leaves_area(const struct var *var)
 	return bits > iec_area_row(var->at.area)->most * (uint64_t)8;
 }
 
-/* May an instance be declared here? A function keeps nothing. */
-static bool may_hold_blocks(const struct reader *r)
-{
-	return r->members || r->var_flags & (VAR_IN_OUT | VAR_EXTERNAL | VAR_TEMP | VAR_INPUT) ||
-	       !(r->pou && r->pou->kind == POU_FUNCTION);
-}
-
 bool reader_type(struct reader *r, struct var *var)
 {
 	if (!reader_is(r, ':'))
@@ -334,8 +327,6 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
-		if (kind == WORD_FB && !may_hold_blocks(r))
-			return reader_fail_token(r, DIAG_MISPLACED);
 		if (var->at.area != AREA_NONE && kind != WORD_STRUCT)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}

@@ -1241,7 +1241,8 @@ static struct value chain_measure(struct chain *c, const struct expr_node *of, e
 		return chain_valid(c, of);
 	m = meaning(c, intern_name(c, of->text, of->len));
 	len = snprintf(text, sizeof(text), "%lu",
-		       m ? (unsigned long)scope_bytes(c->ld->translation->scope, m) : 0ul);
+		       (unsigned long)(m ? scope_bytes(c->ld->translation->scope, m) :
+				       scope_type_bytes(c->ld->translation->scope, of->text, of->len)));
 	return constant(c, text, (size_t)len, false, hint);
 }
 
