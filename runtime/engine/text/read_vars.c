@@ -327,6 +327,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
+		if (kind == WORD_FB && r->pou && r->pou->kind == POU_FUNCTION && !r->pou->vars.block_count)
+			return reader_fail_token(r, DIAG_MISPLACED); /* the result is a value */
 		if (var->at.area != AREA_NONE && kind != WORD_STRUCT)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
