@@ -26,6 +26,7 @@ static void line_free(gpointer pointer)
 	g_free(line->name);
 	g_free(line->task);
 	g_free(line->pou);
+	g_free(line->values);
 	g_free(line->single);
 	g_free(line->interval);
 	g_free(line->priority);
@@ -42,6 +43,7 @@ struct task_line *task_line_new(enum task_line_kind kind, char *text)
 	line->name = g_strdup("");
 	line->task = g_strdup("");
 	line->pou = g_strdup("");
+	line->values = g_strdup("");
 	line->single = g_strdup("");
 	line->interval = g_strdup("");
 	line->priority = g_strdup("");
@@ -81,7 +83,7 @@ char *task_line_text(const struct task_line *line)
 		g_string_append_printf(out, "PROGRAM %s", line->name);
 		if (*line->task)
 			g_string_append_printf(out, " WITH %s", line->task);
-		g_string_append_printf(out, " : %s;", line->pou);
+		g_string_append_printf(out, " : %s%s;", line->pou, line->values);
 	}
 	if (*line->text)
 		g_string_append_printf(out, " %s", line->text);
@@ -124,6 +126,21 @@ static void add_fixed(struct task_text *t, gsize from, gsize to, bool closes)
 	g_ptr_array_add(t->line, line);
 }
 
+/* Caller frees. */
+static char *values_of(const struct project *project, const struct config_entry *entry)
+{
+	struct sink_memory memory;
+	struct sink sink;
+	char *out;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	project_write_values(project, entry, &sink);
+	out = g_strdup(sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return out;
+}
+
 static void add_entry(struct task_text *t, const struct text_span *span)
 {
 	const struct project *project = t->project;
@@ -135,6 +152,8 @@ static void add_entry(struct task_text *t, const struct text_span *span)
 	task_line_set(&line->name, project_text(project, entry->name));
 	task_line_set(&line->task, project_text(project, entry->task));
 	task_line_set(&line->pou, project_text(project, entry->pou));
+	g_free(line->values);
+	line->values = values_of(project, entry);
 	task_line_set(&line->single, project_text(project, entry->single));
 	task_line_set(&line->interval, project_text(project, entry->interval));
 	task_line_set(&line->watchdog, project_text(project, entry->watchdog));

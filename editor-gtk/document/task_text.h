@@ -15,6 +15,7 @@ struct task_line {
 	char *text;          /* as it stands, with its newline; of a changed line: its comments */
 	char *name;
 	char *task, *pou;    /* of a program; task "": none                    */
+	char *values;        /* likewise, ` (In := 5)`; "": none               */
 	char *single, *interval, *priority, *watchdog; /* of a task; "": none  */
 	bool changed;        /* its text is made of its fields                 */
 	bool closes;         /* LINE_FIXED: END_RESOURCE or END_CONFIGURATION  */

@@ -935,6 +935,53 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 	}
 }
 
+/* Has @pou a variable that a value of the CONFIGURATION is for? Its name is told if there is none. */
+__attribute__((noinline))
+static bool has_value(struct names_check *c, const struct config_entry *entry, const struct pou *pou,
+		      const struct st_item *item)
+{
+	struct names *names = &c->project->names;
+	const char *text = text_of(c, item->text), *sign = strstr(text, " := ");
+	const char *name = item->behind && sign ? sign + 4 : text;
+	const size_t len = item->behind || !sign ? strlen(name) : (size_t)(sign - text);
+	int last = -1;
+	const int at = vars_argument(&pou->vars, names_fold(names, names_intern(names, name, len)),
+				     item->behind, &last);
+	char told[2 * LIMIT_NAME + 2];
+
+	snprintf(told, sizeof(told), "%s.%.*s", text_of(c, entry->pou), (int)len, name);
+	if (at < 0)
+		c->good &= diag_add(c->diags, (struct diag){ .id = DIAG_NO_PIN, .file = c->project->config->file,
+				    .line = item->line, .column = item->column }, "%s", told);
+	return at >= 0;
+}
+
+/* PROGRAM P1 : Pump (In := Level, Out => Motor). Not inlined: it needs much of the stack. */
+__attribute__((noinline))
+static void check_values(struct names_check *c)
+{
+	const struct config *config = c->project->config;
+
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+		const char *name = text_of(c, entry->pou);
+		const int at = entry->values ? project_find_pou(c->project, name, strlen(name)) : -1;
+		const struct pou *pou = at < 0 ? NULL : &c->project->pou[at];
+		struct operand_check operands = {
+			.scope = c->scope, .project = c->project, .uses = &c->uses, .expr = c->expr,
+			.diags = c->diags, .pou = pou, .statement = true,
+			.place = { .file = config->file, .pou = name },
+		};
+
+		if (pou && pou->language != LANGUAGE_ST)
+			c->good &= diag_add(c->diags, (struct diag){ .id = DIAG_VALUES_FOR_ST,
+					    .file = config->file, .line = entry->line }, "%s", name);
+		for (int k = 0; pou && pou->language == LANGUAGE_ST && k < entry->values; k++)
+			if (has_value(c, entry, pou, &entry->value[k]))
+				c->good &= check_st_item(&operands, &entry->value[k]);
+	}
+}
+
 bool check_names(struct scope *scope, uint8_t *const *bad,
 		 struct arena *scratch, struct diag_list *diags)
 {
@@ -956,6 +1003,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	check_located(&c);
 	check_bodies(&c, bad);
 	c.good &= check_config(scope, &c.uses, diags);
+	check_values(&c);
 	c.good &= check_access(scope, &c.uses, scratch, diags);
 	for (int i = 0; i <= c.project->pou_count; i++)
 		check_uses(&c, i);

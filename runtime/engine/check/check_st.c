@@ -397,6 +397,14 @@ static void check_labels(struct operand_check *c, int first, int count)
 	free(lists);
 }
 
+bool check_st_item(struct operand_check *c, const struct st_item *item)
+{
+	c->good = true;
+	c->item = item;
+	check_statement(c);
+	return c->good;
+}
+
 bool check_st(struct operand_check *c, int first, int count)
 {
 	bool jumps = false;

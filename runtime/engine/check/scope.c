@@ -259,8 +259,8 @@ static void mean_variable(const struct scope *scope,
 	out->type = var->type;
 	out->constant = slot->flags & VAR_CONSTANT;
 	out->writable = !out->constant && may_write(var->at) &&
-			(!(slot->flags & VAR_INPUT) ||
-			 (scope->project->words.own_first && !(slot->flags & VAR_FIXED)));
+			(!(slot->flags & VAR_INPUT) || (!(slot->flags & VAR_FIXED) &&
+			 (scope->project->words.own_first || (out->pou && out->pou->kind == POU_PROGRAM))));
 	mean_shape(scope, var, out);
 	if (slot->flags & VAR_SFC)
 		out->writable = scope_is_condition(out);

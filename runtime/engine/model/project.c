@@ -7,6 +7,7 @@
 #include "engine/model/project.h"
 #include "engine/base/literal.h"
 #include "engine/base/name.h"
+#include "engine/model/st.h"
 
 
 #include <stdlib.h>
@@ -354,6 +355,22 @@ void project_write_array(const struct project *project, const struct var *var, c
 		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
 			    (long long)var->array.low + var->array.count - 1);
 	}
+}
+
+void project_write_values(const struct project *project, const struct config_entry *entry,
+			  const struct sink *sink)
+{
+	for (int i = 0; i < entry->values; i++) {
+		const char *text = project_text(project, entry->value[i].text);
+		const char *sign = strstr(text, " := ");
+
+		sink_text(sink, i ? ", " : " (");
+		if (entry->value[i].behind && sign)
+			sink_printf(sink, "%s => %.*s", sign + 4, (int)(sign - text), text);
+		else
+			sink_text(sink, text);
+	}
+	sink_text(sink, entry->values ? ")" : "");
 }
 
 void project_write_init(const struct project *project, const struct var *var, const struct sink *sink)

@@ -22,12 +22,16 @@
 enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM, CONFIG_ACCESS,
 		   CONFIG_LOCATED };
 
+struct st_item;
+
 /* One line; members of other kinds are 0. */
 struct config_entry {
 	enum config_kind kind;
 	bool inside;          /* of the RESOURCE                              */
 	uint32_t name;        /* TASK, PROGRAM: string id                     */
 	uint32_t pou, task;   /* PROGRAM: string ids; task 0: none            */
+	struct st_item *value; /* PROGRAM: Input := value; or, `behind`, place := Output */
+	int values;
 	uint32_t single;      /* TASK: string id of an operand; 0: none       */
 	int64_t interval_ns, watchdog_ns; /* TASK; 0: none                    */
 	uint32_t interval, watchdog;      /* string ids, as written           */
@@ -289,6 +293,9 @@ const char *project_struct_end(const struct structure *structure);
  * Scan-safe: no. */
 void project_write_array(const struct project *project, const struct var *var, const struct sink *sink);
 
+/** project_write_values - ` (In := 5, Out => Level)` of a PROGRAM line; nothing if it has none. Scan-safe: no. */
+void project_write_values(const struct project *project, const struct config_entry *entry,
+			  const struct sink *sink);
 /** project_write_init - ` := ` and its initial value, if it has one of its own. Scan-safe: no. */
 void project_write_init(const struct project *project, const struct var *var, const struct sink *sink);
 

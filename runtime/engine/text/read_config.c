@@ -8,6 +8,8 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/model/st.h"
+
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
@@ -163,6 +165,61 @@ static bool read_task(struct reader *r, struct config_entry *entry)
 
 /* ---- PROGRAM, AREA ---- */
 
+static void add_text(struct reader *r, const char *text, size_t len)
+{
+	buffer_add(r, &r->text, text, len);
+}
+
+/* `Input := value` or `Output => place`, kept as assignments. */
+static bool read_value(struct reader *r, struct config_entry *entry)
+{
+	struct st_item item = { .kind = ST_ASSIGN, .line = r->lex.token.line,
+				.column = r->lex.token.column };
+	struct st_item *slot;
+	uint32_t name;
+
+	if (!reader_name(r, "name of an input or output", &name))
+		return false;
+	const char *text = names_text(&r->project->names, name);
+	const size_t len = names_len(&r->project->names, name);
+
+	reader_step(r);
+	item.behind = lex_is(&r->lex, "=>");
+	if (!item.behind && !lex_is(&r->lex, ":="))
+		return reader_fail_word(r, DIAG_EXPECTED, ":= or =>");
+	reader_step(r);
+	buffer_clear(&r->text);
+	if (!item.behind) {
+		add_text(r, text, len);
+		add_text(r, " := ", 4);
+	}
+	if (!reader_expression_text(r))
+		return false;
+	if (item.behind) {
+		add_text(r, " := ", 4);
+		add_text(r, text, len);
+	}
+	item.text = buffer_take(r, &r->text);
+	slot = arena_push(&r->project->arena, &entry->value, &entry->values, sizeof(*slot));
+	if (!slot)
+		return r->no_memory = true, false;
+	*slot = item;
+	return true;
+}
+
+/* `(In := 5, Out => Level)` behind the name of a program. */
+static bool read_values(struct reader *r, struct config_entry *entry)
+{
+	if (!reader_is(r, '('))
+		return true;
+	do {
+		reader_step(r);
+		if (!read_value(r, entry))
+			return false;
+	} while (reader_is(r, ','));
+	return step_past(r, ")");
+}
+
 static bool read_instance(struct reader *r, struct config_entry *entry)
 {
 	if (!reader_name(r, "name of the program", &entry->name))
@@ -178,7 +235,7 @@ static bool read_instance(struct reader *r, struct config_entry *entry)
 	    !reader_name(r, "name of the program", &entry->pou))
 		return false;
 	reader_step(r);
-	return true;
+	return read_values(r, entry);
 }
 
 static bool read_area_size(struct reader *r, const struct iec_area_row *row,

@@ -501,6 +501,7 @@ static void put_program(const struct config_writer *w,
 	if (entry->task)
 		put_id(w, " WITH ", entry->task);
 	put_id(w, " : ", entry->pou);
+	project_write_values(w->project, entry, w->sink);
 	sink_text(w->sink, ";");
 }
 

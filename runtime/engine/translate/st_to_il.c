@@ -6,6 +6,7 @@
  * keep what they compute once in temporaries until their end.
  */
 #include "engine/check/letters.h"
+#include "engine/base/name.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
 #include "engine/translate/ladder_unit.h"
@@ -1334,9 +1335,52 @@ void st_put_box(struct ld *ld, uint32_t en, int first, int count)
 	ld->failed |= s->ld.failed;
 }
 
+/* The line of the CONFIGURATION that connects inputs and outputs of this instance; NULL: there is none. */
+static const struct config_entry *entry_of(struct st_il *s)
+{
+	struct project *project = s->translation->project;
+	const struct config *config = s->pou->kind == POU_PROGRAM ? project->config : NULL;
+
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+		const char *runs = entry->kind != CONFIG_PROGRAM || !entry->values ? "" :
+			project_text(project, project_is_further(project, entry) ? entry->name : entry->pou);
+
+		if (*runs && name_equal(runs, project_text(project, s->pou->name)))
+			return entry;
+	}
+	return NULL;
+}
+
+/* What goes into the program before it runs, or, @output, comes out of it behind. */
+static void put_values(struct st_il *s, const struct config_entry *entry, bool output)
+{
+	const uint8_t mark = s->ld.mark;
+	struct st_walk walk;
+	struct st_part part;
+
+	s->ld.mark |= IL_MADE;
+	for (int i = 0; i < entry->values; i++) {
+		const struct level level = level_of(s);
+
+		s->ld.item = &entry->value[i];
+		at_item(s);
+		st_begin(&walk, &s->translation->project->names, s->ld.item);
+		if (entry->value[i].behind != output)
+			continue;
+		if (next_part(s, &walk, &part))
+			ld_store(&s->ld);
+		else
+			s->ld.failed = true;
+		level_back(s, &level);
+	}
+	s->ld.mark = mark;
+}
+
 bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch)
 {
 	struct st_il *s = arena_alloc(scratch, sizeof(*s));
+	const struct config_entry *entry;
 
 	if (!s)
 		return false;
@@ -1349,6 +1393,15 @@ bool st_to_il(struct translation *translation, struct unit *unit, struct arena *
 		return false;
 	temps_rung(s->ld.temps);
 	take_edges(s);
+	entry = entry_of(s);
+	if (entry) {
+		s->leave = new_label(s);
+		put_values(s, entry, false);
+	}
 	put_items(s, 0, unit->pou->st->count);
+	if (entry) {
+		here(s, s->leave);
+		put_values(s, entry, true);
+	}
 	return !s->ld.failed;
 }

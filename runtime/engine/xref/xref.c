@@ -129,7 +129,7 @@ static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target targ
 	if (!use)
 		return NULL;
 	*use = walk->place;
-	if (walk->item) { /* of a statement: its own line and column */
+	if (walk->item && walk->place.pou >= 0) { /* of a statement: its own line and column */
 		const char *text = project_text(walk->project, walk->item->text);
 
 		int column;
@@ -795,6 +795,24 @@ static bool config_included(const struct project *project)
 	return false;
 }
 
+static void walk_assignment(struct xref_walk *walk, uint32_t *slot);
+
+/* PROGRAM P1 : Pump (In := Level): the names are those of Pump. */
+static void walk_connected(struct xref_walk *walk, struct config_entry *entry)
+{
+	const char *name = project_text(walk->project, entry->pou);
+	const int pou = project_find_pou(walk->project, name, strlen(name));
+
+	for (int i = 0; i < entry->values && pou >= 0; i++) {
+		walk->pou = &walk->project->pou[pou];
+		walk->item = &entry->value[i];
+		walk->slot = &entry->value[i].text;
+		walk_assignment(walk, walk->slot);
+	}
+	walk->pou = NULL;
+	walk->item = NULL;
+}
+
 static void walk_config(struct xref_walk *walk)
 {
 	struct config *config = walk->project->config;
@@ -809,6 +827,7 @@ static void walk_config(struct xref_walk *walk)
 		if (entry->pou)
 			xref_whole(walk, &entry->pou, find_program(walk, entry->pou),
 				  XREF_RUN);
+		walk_connected(walk, entry);
 	}
 }
 
