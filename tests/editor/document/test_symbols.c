@@ -456,7 +456,7 @@ static void test_places(void)
 		",VAR_TEMP,A,BOOL,,,\n" ",VAR_INPUT,B,BOOL,,,\n" "Main,VAR_INPUT,C,BOOL,,,\n"
 		"Main,VAR_TEMP,D,BOOL,,,\n" "Seal,VAR_OUTPUT,E,BOOL,,,\n"
 		"Seal,VAR_IN_OUT,F,BOOL,,1,\n" "Recipe,VAR_INPUT,G,INT,,,\n"
-		"Recipe,STRUCT,H,TON,,,\n" "Recipe,,Weight,INT,,,\n" "Seal,VAR_INPUT,I,TON,,,\n"
+		"Recipe,STRUCT,H,Nowhere,,,\n" "Recipe,,Weight,INT,,,\n" "Seal,VAR_INPUT,I,Nowhere,,,\n"
 		",,Text,STRING,%MW4,,\n" "Seal,VAR,On,BOOL,,,\n"
 		"Main,,Delay,TON,,,\n" ",,Noted,INT,,,\"a (* b *) c\r\nd\"\n";
 	static const struct wanted want[] = {

@@ -268,7 +268,7 @@ static void test_refused(void)
 	/* Bits of areas: up to the end of the area, not one more. */
 	CHECK((find(VM_APUT, 0)[0] >> 8) == 1);
 	CHECK(refuses(VM_APUT, 0, 7, usual_areas()->bytes[AREA_Q] * 8));
-	CHECK(refuses(VM_APUT, 0, 7, 0) && refuses(VM_APUT, 0, 8, 2));
+	CHECK(refuses(VM_APUT, 0, 7, 0) && refuses(VM_APUT, 0, 8, usual_areas()->bytes[AREA_Q] * 8));
 	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, areas->size * 8)));
 	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, 0)));
 	/* Texts: a stride other than their room. */
