@@ -45,8 +45,8 @@ measure() {
 # 3 KB for labels and jumps of Structured Text, and for coils that write parts of one number.
 # 10 KB for blocks and structures in declarations, what pointers lead to, unions, and structures with an address.
 # 2 KB for indices that differ from a variable by a constant.
-# 4 KB for programs that a CONFIGURATION connects, and blocks in functions.
-measure 'ladderd' 464896 '' CFLAGS=-O2
+# 6 KB for programs that a CONFIGURATION connects, and blocks in functions.
+measure 'ladderd' 466944 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
