@@ -332,39 +332,56 @@ static bool add_space(struct reader *r)
 	return true;
 }
 
+/* Takes the token at the cursor into the text of the line; comments go above it. */
+static void take_token(struct reader *r, struct buffer *line)
+{
+	if (line->len && !reader_is(r, ',') && !reader_is(r, ';'))
+		buffer_add(r, line, " ", 1);
+	buffer_add(r, line, r->lex.token.text, r->lex.token.len);
+	reader_step(r);
+}
+
+/* False after a diagnostic. */
+static bool take_space(struct reader *r, struct buffer *line)
+{
+	const bool begins = lex_is(&r->lex, "NAMESPACE"), uses = lex_is(&r->lex, "USING");
+
+	do {
+		take_token(r, line);
+		if (begins && lex_is(&r->lex, "INTERNAL"))
+			take_token(r, line);
+		if ((begins || uses) && !add_space(r))
+			return false;
+		if (begins || uses)
+			take_token(r, line);
+	} while (uses && reader_is(r, ','));
+	if (reader_is(r, ';'))
+		take_token(r, line);
+	return true;
+}
+
 /* NAMESPACE Name, END_NAMESPACE, USING Name, Other; */
 static void read_space(struct reader *r)
 {
 	struct part part = { .kind = PART_SPACE };
 	const struct token first = r->lex.token;
 	const bool begins = lex_is(&r->lex, "NAMESPACE"), uses = lex_is(&r->lex, "USING");
-	struct token last;
+	struct buffer line = { .text = NULL };
 
 	if (!begins && !uses && r->spaces == 0)
 		reader_fail_word(r, DIAG_ST_NO_BEGIN, "END_NAMESPACE" DIAG_AND "NAMESPACE");
 	r->spaces += begins ? 1 : uses || r->spaces == 0 ? 0 : -1;
 	if (begins)
 		r->space = r->place, r->space.line = first.line, r->space.column = first.column;
-	do {
-		last = r->lex.token;
-		reader_step(r);
-		if (begins && lex_is(&r->lex, "INTERNAL"))
-			reader_step(r);
-		if ((begins || uses) && (last = r->lex.token, !add_space(r))) {
-			reader_skip_line(r);
-			return;
-		}
-		if (begins || uses)
-			reader_step(r);
-	} while (uses && reader_is(r, ','));
-	part.text = reader_intern(r, first.text, (size_t)(last.text + last.len - first.text));
-	if (reader_is(r, ';')) {
-		part.text = reader_intern(r, first.text, (size_t)(r->lex.token.text + 1 - first.text));
-		reader_step(r);
+	if (take_space(r, &line)) {
+		part.text = buffer_take(r, &line);
+		reader_end_head(r);
+		part.comment = buffer_take(r, &r->above);
+		reader_add_part(r, part);
+	} else {
+		reader_skip_line(r);
 	}
-	reader_end_head(r);
-	part.comment = buffer_take(r, &r->above);
-	reader_add_part(r, part);
+	free(line.text);
 }
 
 static void end_spaces(struct reader *r)
