@@ -116,7 +116,7 @@ static void test_pointers(void)
 	CHECK(rig_get(&new, "First") == 76 && rig_get(&new, "New") == 78);
 	CHECK(rig_get(&new, "Also") == 0);
 	for (int i = 1; i <= 9; i++) {
-		char name[16];
+		char name[24];
 
 		snprintf(name, sizeof(name), "More[%d]", i);
 		CHECK(rig_get(&new, name) == 0);
