@@ -149,7 +149,7 @@ def ended(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.type('Open')
-    editor.opened()
+    until(lambda: [node.text() for node in editor.asked()] == ['Open'], 'the whole text in the entry')
     os.kill(editor.pid, signal.SIGTERM)
     until(lambda: editor.process.poll() is not None, 'the end')
     assert open(path).read() == before
