@@ -29,14 +29,6 @@ static bool fits_text(const struct slot *slot, struct value value)
 	return value.type != IEC_STRING || value.len <= slot->value->room;
 }
 
-static bool is_through(const struct tree *place)
-{
-	for (const struct step *step = place->step; step; step = step->next)
-		if (step->through)
-			return true;
-	return false;
-}
-
 /* A pointer gets a place, which may be nowhere. */
 static void refer(struct frame_of *f, const struct stmt *stmt)
 {
@@ -91,7 +83,7 @@ static void assign(struct frame_of *f, const struct stmt *stmt)
 			slot_put(world, to, part_put(stmt->place, *to->value, value));
 		return;
 	}
-	if (!fits_text(to, value) && chain.on && !is_through(stmt->place)) /* a pointer cuts it */
+	if (!fits_text(to, value) && chain.on)
 		world->errors++;
 	slot_put(world, to, value);
 }
