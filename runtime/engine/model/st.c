@@ -4,6 +4,8 @@
  */
 #include "engine/model/st.h"
 
+#include "engine/base/ascii.h"
+
 #include <limits.h>
 #include <string.h>
 
@@ -81,15 +83,17 @@ bool st_is_choice(struct lex lex)
 
 bool st_begins(struct lex lex)
 {
-	int open = 0;
+	int open = 0, labels = 0;
 	struct lex ahead = lex;
 
 	lex_next(&ahead);
-	while (lex.token.kind == TOKEN_NAME && lex_is(&ahead, ":")) { /* labels: both languages have them */
+	for (; lex.token.kind == TOKEN_NAME && lex_is(&ahead, ":"); labels++) { /* both languages have them */
 		lex_next(&ahead);
 		lex = ahead;
 		lex_next(&ahead);
 	}
+	if (labels && lex.token.len > 4 && ascii_same(lex.token.text, "END_", 4))
+		return true; /* nothing but labels */
 	for (int i = 0; i < ST_KINDS; i++)
 		if (*forms[i].word && lex_is(&lex, forms[i].word) && i != ST_JUMP)
 			return true;
