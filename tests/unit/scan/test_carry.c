@@ -127,6 +127,37 @@ static void test_pointers(void)
 	rig_close(&new);
 }
 
+/* ---- blocks in structures ---- */
+
+#define HELD(first, last) \
+	"TYPE\n  Holder : STRUCT\n" first "    Delay : TON;\n    Steps : ARRAY[1..2] OF CTU;\n    n : INT;\n" last \
+	"  END_STRUCT;\nEND_TYPE\nVAR_GLOBAL\n" first "  One : Holder;\n  Many : ARRAY[1..2] OF Holder;\nEND_VAR\n" \
+	"PROGRAM Main ST\n  One.Delay(IN := TRUE, PT := T#1s);\n  Many[2].Delay(IN := TRUE, PT := T#2s);\n" \
+	"  Many[1].Steps[2](CU := One.n MOD 2 = 0, PV := 9);\n  One.n := One.n + 1;\nEND_PROGRAM\n"
+static const char held[] = HELD("", "");
+static const char held_elsewhere[] = HELD("    Extra : LREAL;\n", "    Last : TOF;\n");
+
+static void test_held_blocks(void)
+{
+	struct rig old, new;
+	int64_t one, two;
+
+	rig_open(&old, held, true);
+	rig_open(&new, held_elsewhere, true);
+	for (int i = 0; i < 6; i++)
+		rig_scan(&old);
+	one = rig_get(&old, "One.Delay.ET");
+	two = rig_get(&old, "Many[2].Delay.ET");
+	CHECK(one > 0 && two > 0 && rig_get(&old, "Many[1].Steps[2].CV") == 3);
+	change(&new, &old);
+	CHECK(rig_get(&new, "One.Delay.ET") == one && rig_get(&new, "Many[2].Delay.ET") == two);
+	CHECK(rig_get(&new, "Many[1].Steps[2].CV") == 3 && rig_get(&new, "One.n") == 6);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "One.Delay.ET") > one && rig_get(&new, "One.n") == 7);
+	rig_close(&old);
+	rig_close(&new);
+}
+
 /* ---- values ---- */
 
 static const char before[] =
@@ -604,5 +635,6 @@ int main(void)
 	test_fault();
 	test_edges();
 	test_pointers();
+	test_held_blocks();
 	return tap_done();
 }
