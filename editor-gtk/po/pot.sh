@@ -61,7 +61,7 @@ sed -n 's/^\t*\[FAULT_[A-Z]*\] = \(".*"\),$/N_(\1)/p' runtime/engine/scan/vm.c \
 	runtime/engine/trial/scenario.c runtime/engine/scan/vm.c)
 
 # What was expected, or too many: arguments of messages, those of them that are words.
-$take -L C -k -kreader_fail_word:3 -kreader_fail_many:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 -kread_quoted:2 \
+$take -L C -k -kreader_fail_word:3 -kreader_fail_many:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 -kread_quoted:2 -kst_fail:5 \
 	-kil_need_bool:4 -kreport:4 -kreport_line:5 -kreport_var:5 -o - \
 	runtime/engine/text/*.c runtime/engine/model/*.c runtime/engine/check/*.c 2>/dev/null |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -e ' or ' -o "$work/args.pot" -

@@ -143,7 +143,7 @@ watched.size = '1024x600x24'
 
 
 def stops(screen):
-    """F9 and the margin set a breakpoint in a box; the scan stands before its line, steps, and goes on; it moves with its line"""
+    """F9 sets a breakpoint in a box; the scan stands before its line, steps, and goes on; it moves with its line"""
     path = new_file(screen, COUNTED)
     editor = Editor(screen, path)
     editor.to_sheet()
