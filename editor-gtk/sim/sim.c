@@ -711,6 +711,7 @@ struct rebuild {
 	gsize len;
 	const char *file;
 	guint64 version;         /* of the document that has the text          */
+	guint64 life;            /* of the simulation that it is built for     */
 	bool foreseen;           /* the document does not have it yet          */
 	bool missed;             /* meanwhile it has got another one           */
 	struct sim_program *program; /* of `ahead`; NULL: it has errors        */
@@ -985,7 +986,8 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 		sim->ahead = rebuild;
 		return;
 	}
-	if (!rebuild->foreseen)
+	/* A simulation that began meanwhile has a newer text already. */
+	if (!rebuild->foreseen && rebuild->life == sim->life)
 		use(sim, rebuild);
 	else
 		build_edit(sim);
@@ -1032,6 +1034,7 @@ static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, b
 					ladder_document_path(sim->document) : "-");
 	rebuild->version = version;
 	rebuild->foreseen = foreseen;
+	rebuild->life = sim->life;
 	sim->building = rebuild;
 	task = g_task_new(sim, NULL, rebuilt, NULL);
 	g_task_set_task_data(task, rebuild, NULL);
@@ -1052,6 +1055,7 @@ static bool came_true(LadderSim *sim, struct rebuild *rebuild, const char *text)
 		rebuild->form = g_strdup(text);
 	}
 	rebuild->version++;
+	rebuild->life = sim->life;
 	rebuild->foreseen = false;
 	return true;
 }

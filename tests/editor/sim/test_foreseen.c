@@ -14,6 +14,9 @@ static const char SAMPLE[] =
 	"RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_PROGRAM\n\n"
 	"FUNCTION Twice : INT ST\nVAR_INPUT\n  X : INT;\nEND_VAR\n  Twice := X * 2;\nEND_FUNCTION\n";
 
+static const char OTHER[] =
+	"RUNGBOARD 1\n\nPROGRAM Other LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
+
 static LadderDocument *document;
 static LadderSim *sim;
 
@@ -190,6 +193,40 @@ static void test_random(void)
 	g_rand_free(random);
 }
 
+static int changes;
+
+static void program_changed(LadderSim *of, gpointer unused)
+{
+	(void)of, (void)unused;
+	changes++;
+}
+
+/* A build of the simulation before, which ends when another file is simulated already. */
+static void test_other_file(void)
+{
+	char *two = adds(2);
+	gint64 end;
+
+	foresee(two);
+	wait_built();
+	CHECK(becomes_whole_build());
+	g_free(two);
+	two = adds(7);
+	CHECK(ladder_document_put_list(document, 0, two));
+	CHECK(ladder_sim_is_building(sim));
+	ladder_document_open_text(document, NULL, OTHER, strlen(OTHER), true);
+	CHECK(ladder_sim_restart(sim, NULL) && ladder_sim_is_building(sim));
+	g_signal_connect(sim, "program-changed", G_CALLBACK(program_changed), NULL);
+	CHECK(becomes_whole_build());
+	ladder_sim_scan(sim, 3);
+	end = g_get_monotonic_time() + 60 * G_USEC_PER_SEC;
+	while (ladder_sim_twin(sim)->scan < 3 && g_get_monotonic_time() < end)
+		g_main_context_iteration(NULL, FALSE);
+	CHECK(becomes_whole_build() && ladder_sim_twin(sim)->scan == 3);
+	CHECK_AS(changes == 0, "the file before does not come back");
+	g_free(two);
+}
+
 int main(void)
 {
 	document = ladder_document_new();
@@ -206,6 +243,7 @@ int main(void)
 	CHECK_AS(!ladder_document_with_list(document, 2, "") && !ladder_document_with_list(document, -1, ""),
 		 "there is no such POU");
 	foresee("PROGRAM Main ST\nEND_PROGRAM\n");
+	test_other_file();
 	ladder_sim_end(sim);
 	wait_built();
 	CHECK(!ladder_sim_is_building(sim));
