@@ -122,7 +122,7 @@ GPIO_C_none  := hal/gpiod_none.c
 GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none))
 GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
-HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
+HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,hal/channel_rows.c)
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 # The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.

@@ -60,6 +60,8 @@ struct driver {
 	size_t state_size;     /* bytes of request->state                     */
 	bool needs_line;       /* a point must name a line or chip and offset */
 	bool same_flags;       /* a request has one bias and drive            */
+	bool by_channel;       /* its points have channels (hal/channel.h), and none of the
+				* functions below                             */
 
 	/**
 	 * open - requests the lines; outputs begin with `first`. NULL: not built in.

@@ -607,6 +607,8 @@ bool hal_list(const char *dev,
 		const struct driver *driver = driver_row((enum driver_id)id);
 		struct trouble why;
 
+		if (driver->by_channel)
+			continue;
 		if (!driver->open)
 			good = diag_add(diags, (struct diag){
 				.id = DIAG_IO_NO_DRIVER, .file = driver->word },

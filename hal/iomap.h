@@ -13,6 +13,8 @@
 #include "engine/base/diag.h"
 
 struct program;
+struct io_channel; /* hal/channel.h */
+struct io_net;
 
 enum driver_id {
 #define DRIVER(id) DRIVER_##id,
@@ -26,7 +28,7 @@ enum io_drive { DRIVE_AS_IS, DRIVE_PUSH_PULL, DRIVE_OPEN_DRAIN,
 
 /* One line of the map. The arena owns the strings. */
 struct io_point {
-	struct iec_addr addr;  /* one bit of AREA_I or AREA_Q                 */
+	struct iec_addr addr;  /* of an input or output; without channel: one bit of I or Q */
 	enum driver_id driver;
 	bool output;
 	const char *line;      /* name of the line in the kernel, or NULL     */
@@ -40,6 +42,7 @@ struct io_point {
 	bool has_safe;         /* the map says so                             */
 	int64_t debounce_ns;   /* of inputs                                   */
 	int text_line, text_column; /* 1-based, in the file                   */
+	const struct io_channel *channel; /* NULL: one level of a chip        */
 };
 
 struct iomap {
@@ -48,6 +51,7 @@ struct iomap {
 	const char *dev;       /* folder of device files: "/dev", except in tests */
 	struct io_point *point;
 	int count;
+	const struct io_net *net; /* buses and what others may ask of us; NULL: none */
 };
 
 #define IO_DEBOUNCE_MAX_NS 10000000000 /* 10 s */
