@@ -122,7 +122,7 @@ GPIO_C_none  := hal/gpiod_none.c
 GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none))
 GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
-HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,hal/channel_rows.c)
+HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,hal/channel_rows.c hal/iomap_channel.c hal/iomap_net.c)
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 # The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
@@ -199,6 +199,8 @@ $(HAL_TEST)/suite_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 $(HAL_TEST)/suite_uapi $(HAL_TEST)/ladderd_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(HAL_TEST)/channel_map: $(call obj,tests/hal/channel_map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir,--wrap=fdatasync -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
@@ -220,7 +222,7 @@ $(SICK_DISK): $(LADDERD) $(DRIVERS) $(call obj,tests/hal/disk_fake.c) $(BUILD)/l
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 HAL_KINDS := v1 v2 uapi
-HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
+HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/channel_map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES) $(SICK_DISK)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/guard.t tests/hal/retain.t

@@ -73,9 +73,10 @@ struct io_channel {
 	uint8_t unit_id;       /* 0 … 247                                      */
 	enum io_table table;
 	uint16_t reg;          /* number of the coil or register, from 0 on      */
+	int8_t reg_bit;        /* only this bit of the register; -1: all of it  */
 	bool word_swapped;     /* the register of lower number is the lower half */
 	bool byte_swapped;     /* … and within a register the first byte          */
-	int module;            /* number of the line of the map that has the module; -1: none */
+	int module;            /* place of the module, 0 … 15; -1: no module   */
 };
 
 /* ---- what others may ask of us ---- */

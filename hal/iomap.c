@@ -4,34 +4,13 @@
  * by blanks. Reading goes on after an error. An address, a line or an option that occurs
  * twice is an error.
  */
-#include "hal/drivers.h"
+#include "hal/iomap_read.h"
 
 #include "engine/base/ascii.h"
-#include "engine/base/lex.h"
 #include "engine/base/literal.h"
 
 #include <stdio.h>
 #include <string.h>
-
-/* Bits of an area that have a line; it grows. */
-struct taken { uint8_t *byte; uint32_t size; };
-
-struct reader {
-	struct lex lex;
-	struct iomap map;
-	struct arena *arena;
-	struct diag_list *diags;
-	int errors;
-	struct taken taken[2];   /* of inputs, outputs                        */
-};
-
-/* Tokens without a blank between them: `chip=pinctrl-bcm2711` is one word. */
-struct word {
-	const char *text;
-	size_t len;
-	int line, column;
-	bool bad;
-};
 
 enum option_for { FOR_BOTH, FOR_INPUT, FOR_OUTPUT };
 
@@ -53,7 +32,7 @@ static bool at_line_end(const struct reader *reader)
 	       lex_is(&reader->lex, "#");
 }
 
-static bool next_word(struct reader *reader, struct word *out)
+bool next_word(struct reader *reader, struct map_word *out)
 {
 	const struct token *token = &reader->lex.token;
 	const char *end;
@@ -74,8 +53,7 @@ static bool next_word(struct reader *reader, struct word *out)
 	return true;
 }
 
-static bool complain(struct reader *reader, enum diag_id id,
-		     const struct word *word)
+bool complain(struct reader *reader, enum diag_id id, const struct map_word *word)
 {
 	struct diag place = {
 		.id = id, .file = reader->map.file,
@@ -98,8 +76,8 @@ enum driver_id driver_find(const char *word, size_t len)
 	return (enum driver_id)id;
 }
 
-/* A name with or without quotes (inside: $" and $$). NULL: it is not valid. */
-static char *read_name(struct reader *reader, const char *value, size_t len)
+/* Inside of quotes: $" and $$. */
+char *read_name(struct reader *reader, const char *value, size_t len)
 {
 	char *name;
 	size_t out = 0;
@@ -228,21 +206,25 @@ static unsigned against(int i)
 	return 1u << i;
 }
 
-/* The value of the option @word is bad: how it is written. */
-static bool complain_form(struct reader *reader, const struct word *word, const char *form)
+bool complain_about(struct reader *reader, enum diag_id id, const struct map_word *word, const char *second)
 {
 	struct diag place = {
-		.id = DIAG_IO_VALUE, .file = reader->map.file,
+		.id = id, .file = reader->map.file,
 		.line = word->line, .column = word->column,
 	};
 
 	reader->errors++;
 	return diag_add(reader->diags, place, "%.*s" DIAG_AND "%s",
-			(int)(word->len < 40 ? word->len : 40), word->text, form);
+			(int)(word->len < 40 ? word->len : 40), word->text, second);
+}
+
+bool complain_form(struct reader *reader, const struct map_word *word, const char *form)
+{
+	return complain_about(reader, DIAG_IO_VALUE, word, form);
 }
 
 static bool read_option(struct reader *reader, struct io_point *point,
-			const struct word *word, unsigned *seen)
+			const struct map_word *word, unsigned *seen)
 {
 	const char *equal = memchr(word->text, '=', word->len);
 	size_t name = equal ? (size_t)(equal - word->text) : word->len;
@@ -286,25 +268,32 @@ static bool has_room(struct reader *reader, struct taken *taken, uint32_t bytes)
 	return true;
 }
 
-static bool read_address(struct reader *reader, struct io_point *point,
-			 const struct word *word)
+bool take_address(struct reader *reader, struct iec_addr addr, const struct map_word *word)
 {
-	struct taken *taken;
-	uint8_t mask;
+	struct taken *taken = &reader->taken[addr.area];
+	const uint32_t first = 8 * addr.byte + addr.bit;
 
+	if (!has_room(reader, taken, (first + addr.bits + 7) / 8))
+		return false;
+	for (uint32_t i = first; i < first + addr.bits; i++) {
+		const uint8_t mask = (uint8_t)(1u << i % 8);
+
+		if (taken->byte[i / 8] & mask)
+			return complain(reader, DIAG_IO_TWICE, word);
+		taken->byte[i / 8] |= mask;
+	}
+	return true;
+}
+
+static bool read_address(struct reader *reader, struct io_point *point,
+			 const struct map_word *word)
+{
 	if (iec_addr_parse(word->text, word->len, &point->addr) != ADDR_OK ||
 	    point->addr.bits != 1 ||
 	    (point->addr.area != AREA_I && point->addr.area != AREA_Q))
 		return complain(reader, DIAG_IO_ADDRESS, word);
 	point->output = point->addr.area == AREA_Q;
-	taken = &reader->taken[point->output];
-	mask = (uint8_t)(1u << point->addr.bit);
-	if (!has_room(reader, taken, point->addr.byte + 1))
-		return false;
-	if (taken->byte[point->addr.byte] & mask)
-		return complain(reader, DIAG_IO_TWICE, word);
-	taken->byte[point->addr.byte] |= mask;
-	return true;
+	return take_address(reader, point->addr, word);
 }
 
 static bool same_text(const char *a, const char *b)
@@ -314,7 +303,7 @@ static bool same_text(const char *a, const char *b)
 
 /* Finds a line that is named twice in the same way; hal_open() finds the others. */
 static bool check_twice(struct reader *reader, const struct io_point *point,
-			const struct word *word)
+			const struct map_word *word)
 {
 	for (int i = 0; i < reader->map.count; i++) {
 		const struct io_point *other = &reader->map.point[i];
@@ -333,7 +322,7 @@ static bool check_twice(struct reader *reader, const struct io_point *point,
 }
 
 static bool check_line(struct reader *reader, const struct io_point *point,
-		       const struct word *word, unsigned seen)
+		       const struct map_word *word, unsigned seen)
 {
 	bool by_chip = seen & 1u << OPTION_CHIP;
 	bool by_offset = seen & 1u << OPTION_OFFSET;
@@ -345,56 +334,67 @@ static bool check_line(struct reader *reader, const struct io_point *point,
 	return check_twice(reader, point, word);
 }
 
-static void skip_words(struct reader *reader)
+void skip_words(struct reader *reader)
 {
-	struct word word;
+	struct map_word word;
 
 	while (next_word(reader, &word))
 		;
 }
 
-static void read_point(struct reader *reader, const struct word *address)
+bool add_point(struct reader *reader, const struct io_point *point, const struct map_word *word)
+{
+	struct io_point *kept;
+
+	if (reader->map.count == LIMIT_IO_POINTS)
+		return complain(reader, DIAG_IO_TOO_MANY, word);
+	kept = arena_push(reader->arena, &reader->map.point, &reader->map.count,
+			  sizeof(*kept));
+	if (kept)
+		*kept = *point;
+	return kept;
+}
+
+static void read_line(struct reader *reader, const struct map_word *address, enum driver_id driver)
 {
 	struct io_point point = {
-		.text_line = address->line, .text_column = address->column,
+		.driver = driver, .text_line = address->line, .text_column = address->column,
 	};
-	struct io_point *kept;
-	struct word driver, word;
+	struct map_word word;
 	unsigned seen = 0;
 	int before = reader->errors;
 
 	read_address(reader, &point, address);
-	if (!next_word(reader, &driver)) {
+	while (next_word(reader, &word))
+		read_option(reader, &point, &word, &seen);
+	if (reader->errors == before && check_line(reader, &point, address, seen))
+		add_point(reader, &point, address);
+}
+
+static void read_point(struct reader *reader, const struct map_word *address)
+{
+	struct map_word word;
+	enum driver_id driver;
+
+	if (!next_word(reader, &word)) {
 		complain(reader, DIAG_IO_SYNTAX, address);
 		return;
 	}
-	point.driver = driver_find(driver.text, driver.len);
-	if (point.driver == DRIVER_COUNT) {
-		complain(reader, DIAG_IO_DRIVER, &driver);
+	driver = driver_find(word.text, word.len);
+	if (driver == DRIVER_COUNT) {
+		complain(reader, DIAG_IO_DRIVER, &word);
 		skip_words(reader);
-		return;
+	} else if (!read_channel(reader, address, driver, &word)) {
+		read_line(reader, address, driver);
 	}
-	while (next_word(reader, &word))
-		read_option(reader, &point, &word, &seen);
-	if (reader->errors != before ||
-	    !check_line(reader, &point, address, seen))
-		return;
-	if (reader->map.count == LIMIT_IO_POINTS) {
-		complain(reader, DIAG_IO_TOO_MANY, address);
-		return;
-	}
-	kept = arena_push(reader->arena, &reader->map.point, &reader->map.count,
-			  sizeof(*kept));
-	if (kept)
-		*kept = point;
 }
 
 static void read_board(struct reader *reader)
 {
-	struct word word;
+	struct map_word word;
 
 	if (!lex_accept(&reader->lex, "BOARD")) {
-		word = (struct word){ "", 0, reader->lex.token.line,
+		word = (struct map_word){ "", 0, reader->lex.token.line,
 				      reader->lex.token.column, false };
 		complain(reader, DIAG_IO_NO_BOARD, &word);
 		if (*reader->lex.token.text != '%') /* not the line of an address either */
@@ -402,7 +402,7 @@ static void read_board(struct reader *reader)
 		return;
 	}
 	if (!next_word(reader, &word)) {
-		word = (struct word){ "BOARD", 5, reader->lex.token.line, 1,
+		word = (struct map_word){ "BOARD", 5, reader->lex.token.line, 1,
 				      false };
 		complain(reader, DIAG_IO_NO_BOARD, &word);
 		return;
@@ -432,7 +432,7 @@ static bool skip_empty(struct reader *reader)
 
 static void read_lines(struct reader *reader)
 {
-	struct word word;
+	struct map_word word;
 
 	if (skip_empty(reader))
 		read_board(reader);
@@ -441,10 +441,11 @@ static void read_lines(struct reader *reader)
 		if (word.bad) {
 			complain(reader, DIAG_IO_SYNTAX, &word);
 			skip_words(reader);
-		} else {
+		} else if (!read_statement(reader, &word)) {
 			read_point(reader, &word);
 		}
 	}
+	finish_net(reader);
 }
 
 /* Refuses a text that is empty, too large or not UTF-8. */
@@ -532,6 +533,8 @@ struct diag io_place(const struct iomap *map, const struct io_point *point,
 
 int io_line_print(const struct io_point *point, char *out, size_t size)
 {
+	if (has_channel(point))
+		return channel_line_print(point, out, size);
 	if (point->line)
 		return snprintf(out, size, "%s", point->line);
 	if (point->chip)

@@ -2,7 +2,7 @@
  *
  * iomap_program - compares an I/O map with the inputs and outputs that a program uses.
  */
-#include "hal/iomap.h"
+#include "hal/iomap_read.h"
 
 #include "engine/scan/code_access.h"
 #include "engine/scan/image.h"
@@ -160,7 +160,7 @@ bool iomap_check_program(const struct iomap *map, const struct program *program,
 	struct cover cover = { map, program, diags, arena_alloc(arena, areas->size),
 			       arena_alloc(arena, areas->size) };
 
-	if (!iomap_fits(map, areas, diags))
+	if (!iomap_fits(map, areas, diags) | !check_net(map, program, arena, diags))
 		return false;
 	if (!cover.mapped || !cover.named)
 		return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
@@ -168,7 +168,7 @@ bool iomap_check_program(const struct iomap *map, const struct program *program,
 	for (int i = 0; i < map->count; i++) {
 		const struct iec_addr at = map->point[i].addr;
 
-		set_bits(cover.mapped, 8 * (uint64_t)areas_byte(areas, at) + at.bit, 1);
+		set_bits(cover.mapped, 8 * (uint64_t)areas_byte(areas, at) + at.bit, at.bits);
 	}
 	check_safe(map, diags);
 	check_names(&cover);

@@ -455,6 +455,18 @@ my ($map_options) = slurp('hal/iomap.c') =~ /^static const struct option options
 my ($map_table) = $text{'docs/boards.md'} =~ /^\| option \| for \|.*?\n(.*?)\n\n/ms;
 my %map_option = map { $_ => 1 } map { s/=.*//r } map { split ' ' } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $map_table;
 list_is('docs/boards.md: the options of a line', [keys %map_option], [$map_options =~ /\{ "([a-z-]+)",/g]);
+my ($channel_options) = slurp('hal/iomap_channel.c') =~ /^static const struct channel_option channel_options\[.*?\{(.*?)^\};/ms;
+my ($bus_options) = slurp('hal/iomap_net.c') =~ /^static const struct bus_option bus_options\[.*?\{(.*?)^\};/ms;
+for (['value', $channel_options], ['bus', $bus_options]) {
+	my ($kind, $rows) = @$_;
+	my ($table) = $text{'docs/field.md'} =~ /^\| option of a $kind \| for \|.*?\n(.*?)\n\n/ms;
+	my %said = map { $_ => 1 } map { s/=.*//r } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $table;
+	my %row = map { $_ => 1 } $rows =~ /\{ "([a-z-]+)",/g;
+	list_is("docs/field.md: the options of a $kind", [keys %said], [keys %row]);
+}
+my ($modules) = $text{'docs/field.md'} =~ /^\| type \| digital inputs.*?\n(.*?)\n\n/ms;
+is(join(' ', $modules =~ /^\| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \|/mg),
+	join(' ', slurp('hal/modules.def') =~ /^MODULE\((\w+), (\d+), (\d+), (\d+), 0\)/mg), 'docs/field.md: the modules');
 my @drivers = slurp('hal/drivers.def') =~ /^DRIVER\((\w+)\)/mg;
 my ($driver_list) = $text{'docs/boards.md'} =~ /^Drivers: (.*?)\n\n/ms;
 is(join(' ', grep { $driver_list !~ /`\Q$_\E`/ } @drivers), '', 'docs/boards.md: the drivers');

@@ -46,7 +46,8 @@ measure() {
 # 10 KB for blocks and structures in declarations, what pointers lead to, unions, and structures with an address.
 # 2 KB for indices that differ from a variable by a constant.
 # 6 KB for programs that a CONFIGURATION connects, and blocks in functions.
-measure 'ladderd' 466944 '' CFLAGS=-O2
+# 14 KB for the lines of an I/O map that are values, buses, modules and windows.
+measure 'ladderd' 481280 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core

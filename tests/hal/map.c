@@ -67,7 +67,7 @@ static void test_refusals(void)
 	CHECK(bad("BOARD \"x\"\n\n ab\xff", "test.io:3:4: error LD104"));
 	BAD("%IX0.0\n", "test.io:2:1: error LD501");
 	BAD("%MX0.0 sim", "LD502");
-	BAD("%IW0 sim", "LD502");
+	BAD("%IW0 gpio line=A", "LD502");
 	BAD("%IX8192.0 sim", "LD502");
 	BAD("%IX0.8 sim", "LD502");
 	BAD("hello sim", "LD502");

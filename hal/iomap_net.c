@@ -1,0 +1,708 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iomap_net - reads the lines of an I/O map that are no points: buses, types of modules, and what others
+ * may ask of this board.
+ */
+#include "hal/iomap_net.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/literal.h"
+#include "engine/scan/image.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define BUSES       16       /* buses and servers of a map, each               */
+#define PEER_GROUP  "239.192.20.1"
+#define PEER_PORT   20020
+#define MODBUS_PORT 502
+
+/* ---- words of a line ---- */
+
+bool next_option(struct reader *reader, struct option_word *out)
+{
+	const char *equal;
+
+	if (!next_word(reader, &out->word))
+		return false;
+	equal = memchr(out->word.text, '=', out->word.len);
+	out->name = equal ? (size_t)(equal - out->word.text) : out->word.len;
+	out->value = equal ? equal + 1 : NULL;
+	out->len = equal ? out->word.len - out->name - 1 : 0;
+	return true;
+}
+
+bool option_is(const struct option_word *option, const char *name)
+{
+	return ascii_is(name, option->word.text, option->name);
+}
+
+bool read_count(const char *text, size_t len, uint32_t most, uint32_t *out)
+{
+	uint64_t number = 0;
+
+	for (size_t i = 0; i < len; i++) {
+		if (!ascii_digit(text[i]))
+			return false;
+		number = number * 10 + (uint64_t)(text[i] - '0');
+		if (number > most)
+			return false;
+	}
+	*out = (uint32_t)number;
+	return len > 0;
+}
+
+bool read_time(const char *text, size_t len, int64_t *ns)
+{
+	return literal_parse_duration(text, len, ns) && *ns > 0 && *ns <= TIME_MOST;
+}
+
+const char *find_dots(const char *text, size_t len)
+{
+	for (size_t i = 0; i + 1 < len; i++)
+		if (text[i] == '.' && text[i + 1] == '.')
+			return text + i;
+	return NULL;
+}
+
+/* "5..9" or "5". */
+static bool read_span(const char *text, size_t len, uint32_t most, uint32_t *first, uint32_t *last)
+{
+	const char *dots = find_dots(text, len);
+
+	if (!dots) {
+		const bool good = read_count(text, len, most, first);
+
+		*last = *first;
+		return good;
+	}
+	return read_count(text, (size_t)(dots - text), most, first) &&
+	       read_count(dots + 2, len - (size_t)(dots - text) - 2, most, last) && *first <= *last;
+}
+
+/* HOST:PORT, [HOST]:PORT, or HOST; the port stays as it is if it is not given. */
+static bool read_host(struct reader *reader, const char *text, size_t len, const char **host,
+		      uint16_t *port)
+{
+	const bool bracket = len > 0 && *text == '[';
+	const char *close = bracket ? memchr(text, ']', len) : NULL;
+	size_t end = len;
+	uint32_t number;
+
+	if (bracket && !close)
+		return false;
+	for (size_t i = bracket ? (size_t)(close - text) + 1 : 0; i < len; i++)
+		if (text[i] == ':') {
+			end = i;
+			break;
+		}
+	if (end < len) {
+		if (!read_count(text + end + 1, len - end - 1, UINT16_MAX, &number) || !number)
+			return false;
+		*port = (uint16_t)number;
+	}
+	if (bracket) {
+		if (end != (size_t)(close - text) + 1)
+			return false;
+		text++;
+		end -= 2;
+	}
+	*host = read_name(reader, text, end);
+	return *host != NULL;
+}
+
+struct net_reader *net_of(struct reader *reader)
+{
+	if (!reader->net)
+		reader->net = arena_alloc(reader->arena, sizeof(*reader->net));
+	return reader->net;
+}
+
+/* ---- BUS and SERVE ---- */
+
+static const struct {
+	const char *word;
+	enum io_bus_kind kind;
+} bus_kinds[] = {
+	{ "modbus-rtu", BUS_MODBUS_RTU }, { "modbus-tcp", BUS_MODBUS_TCP }, { "peer", BUS_PEER },
+};
+
+const char *bus_word(enum io_bus_kind kind)
+{
+	return bus_kinds[kind].word;
+}
+
+enum { OF_RTU = 1, OF_TCP = 2, OF_PEER = 4 };
+
+/* What is read: a bus, or a server with its bus. */
+struct bus_reader {
+	struct io_bus *bus;
+	struct io_serve *serve; /* NULL: BUS                                   */
+};
+
+struct bus_option {
+	const char *name, *form;
+	unsigned kinds;         /* OF_… of a bus                                */
+	unsigned serves;        /* … of a server                               */
+	bool (*set)(struct reader *reader, struct bus_reader *out, const char *value, size_t len);
+};
+
+static bool set_port(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	out->bus->port = read_name(reader, value, len);
+	return out->bus->port && out->bus->port[0] == '/';
+}
+
+static bool set_baud(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	static const uint32_t rates[] = { 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200,
+					  230400, 460800, 921600 };
+	uint32_t baud;
+
+	(void)reader;
+	if (!read_count(value, len, 1000000, &baud))
+		return false;
+	out->bus->baud = baud;
+	for (size_t i = 0; i < sizeof(rates) / sizeof(*rates); i++)
+		if (rates[i] == baud)
+			return true;
+	return false;
+}
+
+static bool set_parity(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	(void)reader;
+	out->bus->parity = ascii_is("even", value, len) ? 'E' : ascii_is("odd", value, len) ? 'O' :
+			   ascii_is("none", value, len) ? 'N' : '\0';
+	return out->bus->parity;
+}
+
+static bool set_stop_bits(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	(void)reader;
+	out->bus->stop_bits = len == 1 && *value == '1' ? 1 : len == 1 && *value == '2' ? 2 : 0;
+	return out->bus->stop_bits;
+}
+
+static bool set_timeout(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	(void)reader;
+	return read_time(value, len, &out->bus->timeout_ns);
+}
+
+static bool set_host(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	return read_host(reader, value, len, &out->bus->host, &out->bus->tcp_port);
+}
+
+static bool set_interface(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	out->bus->interface = read_name(reader, value, len);
+	return out->bus->interface != NULL;
+}
+
+static bool set_serve_unit(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	uint32_t unit;
+
+	(void)reader;
+	if (!read_count(value, len, 247, &unit) || !unit)
+		return false;
+	out->serve->unit_id = (uint8_t)unit;
+	return true;
+}
+
+static bool set_connections(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	uint32_t most;
+
+	(void)reader;
+	if (!read_count(value, len, 64, &most) || !most)
+		return false;
+	out->serve->connections = (uint16_t)most;
+	return true;
+}
+
+static bool set_rate(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	(void)reader;
+	return read_count(value, len, 100000, &out->serve->rate) && out->serve->rate;
+}
+
+static const struct bus_option bus_options[] = {
+	{ "port", "port=/dev/ttyS1", OF_RTU, OF_RTU, set_port },
+	{ "baud", "baud=19200", OF_RTU, OF_RTU, set_baud },
+	{ "parity", "parity=even, parity=odd or parity=none", OF_RTU, OF_RTU, set_parity },
+	{ "stop-bits", "stop-bits=1 or stop-bits=2", OF_RTU, OF_RTU, set_stop_bits },
+	{ "timeout", "timeout=100ms", OF_RTU | OF_TCP, 0, set_timeout },
+	{ "host", "host=10.0.0.20:502", OF_TCP, 0, set_host },
+	{ "interface", "interface=eth0", OF_PEER, 0, set_interface },
+	{ "group", "group=" PEER_GROUP ":20020", OF_PEER, 0, set_host },
+	{ "listen", "listen=127.0.0.1:502", 0, OF_TCP, set_host },
+	{ "unit", "unit=1", 0, OF_RTU | OF_TCP, set_serve_unit },
+	{ "connections", "connections=4", 0, OF_TCP, set_connections },
+	{ "rate", "rate=200", 0, OF_RTU | OF_TCP, set_rate },
+};
+enum { BUS_OPTIONS = sizeof(bus_options) / sizeof(*bus_options) };
+
+static void read_bus_option(struct reader *reader, struct bus_reader *out,
+			    const struct option_word *option, unsigned *seen)
+{
+	const unsigned kind = 1u << out->bus->kind;
+	int i = 0;
+
+	while (i < BUS_OPTIONS && !(option_is(option, bus_options[i].name) &&
+	       (out->serve ? bus_options[i].serves : bus_options[i].kinds) & kind))
+		i++;
+	if (i == BUS_OPTIONS)
+		complain_about(reader, DIAG_IO_BUS_OPTION, &option->word, bus_word(out->bus->kind));
+	else if (*seen & 1u << i)
+		complain(reader, DIAG_IO_OPTION_TWICE, &option->word);
+	else if (!option->value || !bus_options[i].set(reader, out, option->value, option->len))
+		complain_form(reader, &option->word, bus_options[i].form);
+	*seen |= i < BUS_OPTIONS ? 1u << i : 0;
+}
+
+/* What a bus cannot be without. */
+static const char *bus_lacks(const struct bus_reader *of, unsigned seen)
+{
+	const char *need = of->bus->kind == BUS_MODBUS_RTU ? "port" :
+			   of->bus->kind == BUS_PEER ? "interface" : of->serve ? "listen" : "host";
+
+	for (int i = 0; i < BUS_OPTIONS; i++)
+		if (strcmp(bus_options[i].name, need) == 0 && !(seen & 1u << i))
+			return bus_options[i].form;
+	return of->serve && of->bus->kind == BUS_MODBUS_RTU && !of->serve->unit_id ? "unit=1" : NULL;
+}
+
+/* Two that open the same serial line or listen at the same place; or have one name. */
+static bool check_bus(struct reader *reader, const struct io_bus *bus, const struct map_word *name)
+{
+	const struct io_net *net = &reader->net->net;
+
+	for (int i = 0; i < net->bus_count + net->serve_count; i++) {
+		const bool serves = i >= net->bus_count;
+		const struct io_bus *other = serves ? &net->serve[i - net->bus_count].at : &net->bus[i];
+
+		if (other == bus)
+			continue;
+		if (same_text(other->name, bus->name))
+			return complain(reader, DIAG_IO_BUS_TWICE, name);
+		if (same_text(other->port, bus->port))
+			return complain_about(reader, DIAG_IO_PORT_TWICE, name, other->name);
+	}
+	return true;
+}
+
+static bool read_bus_kind(struct reader *reader, struct bus_reader *out)
+{
+	struct map_word word = { "", 0, 0, 0, false };
+
+	if (!next_word(reader, &word))
+		return false;
+	for (size_t i = 0; i < sizeof(bus_kinds) / sizeof(*bus_kinds); i++)
+		if (ascii_is(bus_kinds[i].word, word.text, word.len) &&
+		    !(out->serve && bus_kinds[i].kind == BUS_PEER)) {
+			out->bus->kind = bus_kinds[i].kind;
+			return true;
+		}
+	return false;
+}
+
+/* BUS rs485 modbus-rtu port=…, or SERVE plc modbus-tcp listen=… */
+static void read_bus(struct reader *reader, const struct map_word *first, struct bus_reader *out)
+{
+	struct io_bus *bus = out->bus;
+	struct option_word option;
+	struct map_word name;
+	unsigned seen = 0;
+	const int before = reader->errors;
+	const char *lacks;
+
+	*bus = (struct io_bus){ .baud = 19200, .parity = 'E', .stop_bits = 1,
+				.text_line = first->line, .text_column = first->column };
+	if (next_word(reader, &name))
+		bus->name = read_name(reader, name.text, name.len);
+	if (!bus->name || !read_bus_kind(reader, out)) {
+		complain_form(reader, first, out->serve ? "SERVE plc modbus-tcp listen=127.0.0.1:502" :
+			      "BUS rs485 modbus-rtu port=/dev/ttyS1 baud=19200");
+		skip_words(reader);
+		return;
+	}
+	bus->timeout_ns = (bus->kind == BUS_MODBUS_RTU ? 1 : 3) * SECOND / 10;
+	bus->tcp_port = bus->kind == BUS_PEER ? PEER_PORT : MODBUS_PORT;
+	if (bus->kind == BUS_PEER)
+		bus->host = PEER_GROUP;
+	while (next_option(reader, &option))
+		read_bus_option(reader, out, &option, &seen);
+	if (reader->errors != before)
+		return;
+	lacks = bus_lacks(out, seen);
+	if (lacks)
+		complain_about(reader, DIAG_IO_BUS_NEEDS, &name, lacks);
+	else
+		check_bus(reader, bus, &name);
+}
+
+static void read_bus_line(struct reader *reader, const struct map_word *first)
+{
+	struct io_net *net = &reader->net->net;
+	struct io_bus *bus;
+
+	if (net->bus_count == BUSES) {
+		complain(reader, DIAG_IO_TOO_MANY, first);
+		skip_words(reader);
+		return;
+	}
+	bus = arena_push(reader->arena, &net->bus, &net->bus_count, sizeof(*bus));
+	if (bus)
+		read_bus(reader, first, &(struct bus_reader){ bus, NULL });
+}
+
+static void read_serve_line(struct reader *reader, const struct map_word *first)
+{
+	struct io_net *net = &reader->net->net;
+	struct io_serve *serve;
+
+	if (net->serve_count == BUSES) {
+		complain(reader, DIAG_IO_TOO_MANY, first);
+		skip_words(reader);
+		return;
+	}
+	serve = arena_push(reader->arena, &net->serve, &net->serve_count, sizeof(*serve));
+	if (!serve)
+		return;
+	*serve = (struct io_serve){ .connections = 4, .rate = 1000 };
+	read_bus(reader, first, &(struct bus_reader){ &serve->at, serve });
+}
+
+/* ---- WINDOW ---- */
+
+const char *table_word(enum io_table table)
+{
+	static const char *const words[] = { "", "coil", "discrete-input", "input-register",
+					     "holding-register" };
+
+	return words[table];
+}
+
+bool is_of_bits(enum io_table table)
+{
+	return table == TABLE_COIL || table == TABLE_DISCRETE_INPUT;
+}
+
+enum io_table table_of(const struct option_word *option)
+{
+	for (int i = TABLE_COIL; i <= TABLE_HOLDING_REGISTER; i++)
+		if (option_is(option, table_word((enum io_table)i)))
+			return (enum io_table)i;
+	return TABLE_NONE;
+}
+
+static int find_serve(const struct io_net *net, const struct map_word *word)
+{
+	for (int i = 0; i < net->serve_count; i++)
+		if (net->serve[i].at.name && strlen(net->serve[i].at.name) == word->len &&
+		    memcmp(net->serve[i].at.name, word->text, word->len) == 0)
+			return i;
+	return -1;
+}
+
+static bool windows_overlap(const struct io_window *a, const struct io_window *b)
+{
+	return a->serve == b->serve && a->table == b->table && a->first < b->first + b->count &&
+	       b->first < a->first + a->count;
+}
+
+/* The words behind the name of the server. Returns an example if they make no sense. */
+static bool read_window_words(struct reader *reader, struct io_window *window)
+{
+	struct option_word option;
+	struct map_word word;
+	uint32_t first = 0, last = 0;
+	bool only;
+
+	if (!next_option(reader, &option) || !option.value)
+		return false;
+	window->table = table_of(&option);
+	if (window->table == TABLE_NONE || !read_span(option.value, option.len, UINT16_MAX, &first, &last) ||
+	    !next_word(reader, &word) ||
+	    iec_addr_parse(word.text, word.len, &window->addr) != ADDR_OK ||
+	    window->addr.bits != (is_of_bits(window->table) ? 1 : 16) || !next_word(reader, &word))
+		return false;
+	window->first = (uint16_t)first;
+	window->count = last - first + 1;
+	only = ascii_is("read-only", word.text, word.len);
+	window->writable = ascii_is("read-write", word.text, word.len);
+	return only || window->writable;
+}
+
+/* Discrete inputs and input registers cannot be written in Modbus, and SM not at all. */
+static bool may_write(const struct io_window *window)
+{
+	return window->table != TABLE_DISCRETE_INPUT && window->table != TABLE_INPUT_REGISTER &&
+	       iec_area_row(window->addr.area)->access == ACCESS_WRITE;
+}
+
+static void read_window_line(struct reader *reader, const struct map_word *first)
+{
+	struct io_net *net = &reader->net->net;
+	struct io_window window = { .text_line = first->line, .text_column = first->column }, *kept;
+	struct map_word name;
+
+	if (!next_word(reader, &name)) {
+		complain_form(reader, first, "WINDOW plc coil=0..15 %QX0.0 read-only");
+		return;
+	}
+	window.serve = find_serve(net, &name);
+	if (window.serve < 0)
+		complain_about(reader, DIAG_IO_NO_BUS, &name, "SERVE");
+	else if (!read_window_words(reader, &window))
+		complain_form(reader, first, "WINDOW plc holding-register=0..9 %MW0 read-write");
+	else if (window.writable && !may_write(&window))
+		complain(reader, DIAG_IO_WINDOW_WRITE, first);
+	else {
+		for (int i = 0; i < net->window_count; i++)
+			if (windows_overlap(&window, &net->window[i])) {
+				complain(reader, DIAG_IO_WINDOW_TWICE, first);
+				break;
+			}
+		kept = arena_push(reader->arena, &net->window, &net->window_count, sizeof(*kept));
+		if (kept)
+			*kept = window;
+	}
+	skip_words(reader);
+}
+
+/* ---- PUBLISH ---- */
+
+int find_bus(const struct io_net *net, const char *text, size_t len)
+{
+	for (int i = 0; i < net->bus_count; i++)
+		if (net->bus[i].name && strlen(net->bus[i].name) == len &&
+		    memcmp(net->bus[i].name, text, len) == 0)
+			return i;
+	return -1;
+}
+
+/* The only bus of peers, for lines that name none; -1: there are none or several. */
+int only_peer_bus(const struct io_net *net)
+{
+	int found = -1;
+
+	for (int i = 0; i < net->bus_count; i++) {
+		if (net->bus[i].kind != BUS_PEER)
+			continue;
+		if (found >= 0)
+			return -1;
+		found = i;
+	}
+	return found;
+}
+
+/* Names with commas between them, with or without blanks. */
+static bool read_names(struct reader *reader, struct io_publish *publish, const struct map_word *word)
+{
+	const char *at = word->text, *end = word->text + word->len;
+
+	while (at < end) {
+		const char *comma = memchr(at, ',', (size_t)(end - at));
+		const char *stop = comma ? comma : end;
+		const char **name;
+
+		if (stop > at) {
+			char *text = read_name(reader, at, (size_t)(stop - at));
+
+			if (!text)
+				return false;
+			name = arena_push(reader->arena, (void *)&publish->name, &publish->count,
+					  sizeof(*name));
+			if (name)
+				*name = text;
+		}
+		at = stop + 1;
+	}
+	return true;
+}
+
+static bool read_publish_word(struct reader *reader, struct io_publish *publish,
+			      const struct option_word *option)
+{
+	if (!option->value)
+		return read_names(reader, publish, &option->word) ||
+		       complain(reader, DIAG_IO_SYNTAX, &option->word);
+	if (option_is(option, "every"))
+		return read_time(option->value, option->len, &publish->every_ns) ||
+		       complain_form(reader, &option->word, "every=100ms");
+	if (!option_is(option, "bus"))
+		return complain_form(reader, &option->word, "every=100ms or bus=yard");
+	publish->bus = find_bus(&reader->net->net, option->value, option->len);
+	return publish->bus >= 0 || complain_about(reader, DIAG_IO_NO_BUS, &option->word, "BUS");
+}
+
+static void read_publish_line(struct reader *reader, const struct map_word *first)
+{
+	struct io_net *net = &reader->net->net;
+	struct io_publish publish = { .bus = only_peer_bus(net), .every_ns = SECOND / 10,
+				      .text_line = first->line, .text_column = first->column }, *kept;
+	struct option_word option;
+	struct map_word as;
+	const int before = reader->errors;
+
+	if (next_word(reader, &as))
+		publish.as = read_name(reader, as.text, as.len);
+	while (next_option(reader, &option))
+		read_publish_word(reader, &publish, &option);
+	if (reader->errors != before)
+		return;
+	if (!publish.as || !publish.count) {
+		complain_form(reader, first, "PUBLISH pump-house Level, Running every=100ms");
+	} else if (publish.bus < 0 || net->bus[publish.bus].kind != BUS_PEER) {
+		complain_about(reader, DIAG_IO_BUS_NEEDS, first, "bus=yard");
+	} else {
+		kept = arena_push(reader->arena, &net->publish, &net->publish_count, sizeof(*kept));
+		if (kept)
+			*kept = publish;
+	}
+}
+
+/* ---- MODULE ---- */
+
+static const struct module_type known_modules[] = {
+#define MODULE(name, di, dq, ai, aq) { #name, { dq, di, ai, aq }, { 0, 0, 0, 0 } },
+#include "hal/modules.def"
+};
+enum { KNOWN_MODULES = sizeof(known_modules) / sizeof(*known_modules) };
+
+/* The most that a module has of each kind, as its window has room for. */
+static const uint16_t module_most[4] = { 8 * DQ_BYTES, 8 * DI_BYTES, ANALOG_BYTES / 2, ANALOG_BYTES / 2 };
+
+const struct module_type *find_module(const struct net_reader *net, const char *text, size_t len)
+{
+	for (int i = 0; i < net->module_count; i++)
+		if (net->module[i].name && ascii_is(net->module[i].name, text, len))
+			return &net->module[i];
+	for (int i = 0; i < KNOWN_MODULES; i++)
+		if (ascii_is(known_modules[i].name, text, len))
+			return &known_modules[i];
+	return NULL;
+}
+
+static bool read_module_word(struct module_type *type, const struct option_word *option)
+{
+	static const char *const counts[4] = { "dq", "di", "ai", "aq" };
+	uint32_t number;
+
+	for (int i = 0; i < 4 && option->value; i++) {
+		const bool counted = option_is(option, counts[i]);
+
+		if (!counted && !option_is(option, table_word((enum io_table)(i + 1))))
+			continue;
+		if (!read_count(option->value, option->len, counted ? module_most[i] : 65000, &number))
+			return false;
+		*(counted ? &type->count[i] : &type->first[i]) = (uint16_t)number;
+		return true;
+	}
+	return false;
+}
+
+static void read_module_line(struct reader *reader, const struct map_word *first)
+{
+	static const char form[] = "MODULE Card di=16 dq=8 discrete-input=0 coil=0";
+	struct net_reader *net = reader->net;
+	struct module_type type = { .name = NULL }, *kept;
+	struct option_word option;
+	struct map_word name;
+	bool good;
+
+	good = next_word(reader, &name);
+	if (good)
+		type.name = read_name(reader, name.text, name.len);
+	good = good && type.name;
+	while (good && next_option(reader, &option))
+		good = read_module_word(&type, &option);
+	if (!good) {
+		complain_form(reader, first, form);
+		skip_words(reader);
+	} else if (find_module(net, type.name, strlen(type.name))) {
+		complain(reader, DIAG_IO_BUS_TWICE, &name);
+	} else {
+		kept = arena_push(reader->arena, &net->module, &net->module_count, sizeof(*kept));
+		if (kept)
+			*kept = type;
+	}
+}
+
+bool read_statement(struct reader *reader, const struct map_word *word)
+{
+	static const struct {
+		const char *word;
+		void (*read)(struct reader *reader, const struct map_word *first);
+	} statements[] = {
+		{ "BUS", read_bus_line }, { "SERVE", read_serve_line }, { "WINDOW", read_window_line },
+		{ "PUBLISH", read_publish_line }, { "MODULE", read_module_line },
+	};
+
+	for (size_t i = 0; i < sizeof(statements) / sizeof(*statements); i++) {
+		if (!ascii_is(statements[i].word, word->text, word->len))
+			continue;
+		if (net_of(reader))
+			statements[i].read(reader, word);
+		return true;
+	}
+	return false;
+}
+
+void finish_net(struct reader *reader)
+{
+	if (reader->net && (reader->net->net.bus_count || reader->net->net.serve_count))
+		reader->map.net = &reader->net->net;
+}
+
+/* ---- against a program ---- */
+
+static bool check_window(const struct iomap *map, const struct io_window *window,
+			 const struct areas *areas, struct diag_list *diags)
+{
+	struct iec_addr last = window->addr;
+	const uint32_t bit = 8 * last.byte + last.bit + (window->count - 1) * last.bits;
+	char text[24];
+
+	last.byte = bit / 8;
+	last.bit = (uint8_t)(bit % 8);
+	if (areas_have(areas, last))
+		return true;
+	iec_addr_print(last, text, sizeof(text));
+	return diag_add(diags, (struct diag){ .id = DIAG_IO_OUTSIDE, .file = map->file,
+		.line = window->text_line, .column = window->text_column }, "%s", text);
+}
+
+static bool check_published(const struct iomap *map, const struct io_publish *publish,
+			    const struct image *image, struct diag_list *diags)
+{
+	bool good = true;
+
+	for (int i = 0; i < publish->count; i++)
+		if (image_find(image, publish->name[i], strlen(publish->name[i])).type == IEC_NONE)
+			good = diag_add(diags, (struct diag){ .id = DIAG_IO_NO_VARIABLE, .file = map->file,
+				.line = publish->text_line, .column = publish->text_column }, "%s",
+				publish->name[i]);
+	return good;
+}
+
+bool check_net(const struct iomap *map, const struct program *program, struct arena *arena,
+	       struct diag_list *diags)
+{
+	const struct io_net *net = map->net;
+	struct image *image = net ? arena_alloc(arena, sizeof(*image)) : NULL;
+	bool good = true;
+
+	if (!image)
+		return !net;
+	image->program = program;
+	for (int i = 0; i < net->window_count; i++)
+		good = check_window(map, &net->window[i], &program->areas, diags) && good;
+	for (int i = 0; i < net->publish_count; i++)
+		good = check_published(map, &net->publish[i], image, diags) && good;
+	return good;
+}
