@@ -76,6 +76,11 @@ struct io_channel {
 	int8_t reg_bit;        /* only this bit of the register; -1: all of it  */
 	bool word_swapped;     /* the register of lower number is the lower half */
 	bool byte_swapped;     /* … and within a register the first byte          */
+	/* quality of=%AIW0: the worst of the inputs with these bits. A bit is TRUE if all are good; else
+	 * the value is an enum hal_quality. */
+	struct iec_addr of;
+	uint32_t of_bits;
+
 	int module;            /* place of the module, 0 … 15; -1: no module   */
 };
 

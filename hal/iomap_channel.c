@@ -94,8 +94,78 @@ struct line_reader {
 	const struct module_type *module;
 };
 
+/* ---- addresses ---- */
+
+/* The bits from the start of the area, so that addresses of any width can be compared. */
+static uint32_t first_bit(struct iec_addr addr)
+{
+	return 8 * addr.byte + addr.bit;
+}
+
+/* What stands behind "..": a byte, or for bits also a bit of the same byte, or byte and bit. */
+static bool read_last(const char *text, size_t len, struct iec_addr first, uint32_t *last)
+{
+	const char *dot = memchr(text, '.', len);
+	uint32_t byte, bit;
+
+	if (first.bits != 1) {
+		if (!read_count(text, len, LIMIT_AREA, &byte))
+			return false;
+		*last = 8 * byte;
+		return true;
+	}
+	if (!dot) {
+		*last = 8 * first.byte;
+		return read_count(text, len, 7, &bit) && (*last += bit, true);
+	}
+	if (!read_count(text, (size_t)(dot - text), LIMIT_AREA, &byte) ||
+	    !read_count(dot + 1, len - (size_t)(dot - text) - 1, 7, &bit))
+		return false;
+	*last = 8 * byte + bit;
+	return true;
+}
+
+/* "%IW100" or "%IW100..106", without regard to what stands behind ".." if it is wrong: *@bits is 0 then. */
+static bool read_span_of(const char *text, size_t whole, struct iec_addr *addr, uint32_t *bits)
+{
+	const char *dots = find_dots(text, whole);
+	const size_t len = dots ? (size_t)(dots - text) : whole;
+	uint32_t last;
+
+	if (iec_addr_parse(text, len, addr) != ADDR_OK || !iec_area_is_io(addr->area))
+		return false;
+	last = first_bit(*addr);
+	if (dots && (!read_last(dots + 2, whole - len - 2, *addr, &last) || last < first_bit(*addr)))
+		*bits = 0;
+	else
+		*bits = ((last - first_bit(*addr)) / addr->bits + 1) * addr->bits;
+	return true;
+}
+
+static bool read_addresses(struct line_reader *line, const struct map_word *word)
+{
+	struct iec_addr *addr = &line->point.addr;
+	uint32_t bits;
+
+	if (!read_span_of(word->text, word->len, addr, &bits))
+		return complain(line->reader, DIAG_IO_ADDRESS, word);
+	line->point.output = iec_area_row(addr->area)->access == ACCESS_WRITE;
+	line->count = bits / addr->bits;
+	if (!bits)
+		return complain(line->reader, DIAG_IO_GROUP, word);
+	return line->count <= LIMIT_IO_POINTS || complain(line->reader, DIAG_IO_TOO_MANY, word);
+}
+
+static void step_address(struct iec_addr *addr)
+{
+	const uint32_t bit = first_bit(*addr) + addr->bits;
+
+	addr->byte = bit / 8;
+	addr->bit = (uint8_t)(bit % 8);
+}
+
 enum { ON_SIM = 1, ON_IIO = 2, ON_PWM = 4, ON_W1 = 8, ON_HWMON = 16, ON_MODBUS = 32, ON_MODULE = 64,
-       ON_PEER = 128, ON_DEVICE = ON_IIO | ON_W1 | ON_HWMON, ON_ALL = 255 };
+       ON_PEER = 128, ON_QUALITY = 256, ON_DEVICE = ON_IIO | ON_W1 | ON_HWMON, ON_ALL = 255 };
 
 struct channel_option {
 	const char *name, *form;
@@ -300,6 +370,14 @@ static bool set_on_change(struct line_reader *line, const struct option_word *op
 	return !option->value;
 }
 
+static bool set_of(struct line_reader *line, const struct option_word *option)
+{
+	struct io_channel *channel = &line->channel;
+
+	return read_span_of(option->value, option->len, &channel->of, &channel->of_bits) &&
+	       channel->of_bits && iec_area_row(channel->of.area)->access == ACCESS_READ;
+}
+
 static const struct channel_option channel_options[] = {
 	{ "device", "device=ads1115", ON_IIO | ON_HWMON, FOR_BOTH, set_device },
 	{ "channel", "channel=voltage0", ON_IIO | ON_HWMON, FOR_BOTH, set_name },
@@ -331,16 +409,17 @@ static const struct channel_option channel_options[] = {
 	{ "poll", "poll=100ms", ON_DEVICE | ON_MODBUS | ON_MODULE, FOR_INPUT, set_poll },
 	{ "refresh", "refresh=5s", ON_MODBUS | ON_MODULE | ON_PWM | ON_IIO, FOR_OUTPUT, set_refresh },
 	{ "on-change", "on-change", ON_MODBUS | ON_MODULE, FOR_OUTPUT, set_on_change },
+	{ "of", "of=%AIW0 or of=%AIW0..6", ON_QUALITY, FOR_INPUT, set_of },
 	{ "safe", "safe=0 or safe=hold", ON_ALL, FOR_OUTPUT, set_channel_safe },
 };
 enum { CHANNEL_OPTIONS = sizeof(channel_options) / sizeof(*channel_options) };
 
 static unsigned bit_of(enum driver_id driver)
 {
-	static const unsigned char bits[DRIVER_COUNT] = {
+	static const unsigned short bits[DRIVER_COUNT] = {
 		[DRIVER_sim] = ON_SIM, [DRIVER_iio] = ON_IIO, [DRIVER_pwm] = ON_PWM, [DRIVER_w1] = ON_W1,
 		[DRIVER_hwmon] = ON_HWMON, [DRIVER_modbus] = ON_MODBUS, [DRIVER_module] = ON_MODULE,
-		[DRIVER_peer] = ON_PEER,
+		[DRIVER_peer] = ON_PEER, [DRIVER_quality] = ON_QUALITY,
 	};
 
 	return bits[driver];
@@ -355,6 +434,7 @@ static const char *needs_of(enum driver_id driver)
 		[DRIVER_hwmon] = "device=, channel=",
 		[DRIVER_modbus] = "bus=, unit=, holding-register= (or coil= …)",
 		[DRIVER_module] = "bus=, unit=, type=", [DRIVER_peer] = "bus=, from=, name=",
+		[DRIVER_quality] = "of=",
 	};
 
 	return needs[driver] ? needs[driver] : "";
@@ -401,67 +481,6 @@ static bool is_given(const struct line_reader *line, const char *name)
 		if (line->seen >> i & 1 && strcmp(channel_options[i].name, name) == 0)
 			return true;
 	return false;
-}
-
-/* ---- addresses ---- */
-
-/* The bits from the start of the area, so that addresses of any width can be compared. */
-static uint32_t first_bit(struct iec_addr addr)
-{
-	return 8 * addr.byte + addr.bit;
-}
-
-/* What stands behind "..": a byte, or for bits also a bit of the same byte, or byte and bit. */
-static bool read_last(const char *text, size_t len, struct iec_addr first, uint32_t *last)
-{
-	const char *dot = memchr(text, '.', len);
-	uint32_t byte, bit;
-
-	if (first.bits != 1) {
-		if (!read_count(text, len, LIMIT_AREA, &byte))
-			return false;
-		*last = 8 * byte;
-		return true;
-	}
-	if (!dot) {
-		*last = 8 * first.byte;
-		return read_count(text, len, 7, &bit) && (*last += bit, true);
-	}
-	if (!read_count(text, (size_t)(dot - text), LIMIT_AREA, &byte) ||
-	    !read_count(dot + 1, len - (size_t)(dot - text) - 1, 7, &bit))
-		return false;
-	*last = 8 * byte + bit;
-	return true;
-}
-
-/* "%IW100" or "%IW100..106". */
-static bool read_addresses(struct line_reader *line, const struct map_word *word)
-{
-	struct iec_addr *addr = &line->point.addr;
-	const char *dots = find_dots(word->text, word->len);
-	const size_t len = dots ? (size_t)(dots - word->text) : word->len;
-	uint32_t last;
-
-	line->count = 1;
-	if (iec_addr_parse(word->text, len, addr) != ADDR_OK || !iec_area_is_io(addr->area))
-		return complain(line->reader, DIAG_IO_ADDRESS, word);
-	line->point.output = iec_area_row(addr->area)->access == ACCESS_WRITE;
-	if (!dots)
-		return true;
-	if (!read_last(dots + 2, word->len - len - 2, *addr, &last) || last < first_bit(*addr))
-		return complain(line->reader, DIAG_IO_GROUP, word);
-	line->count = (last - first_bit(*addr)) / addr->bits + 1;
-	if (line->count > LIMIT_IO_POINTS)
-		return complain(line->reader, DIAG_IO_TOO_MANY, word);
-	return true;
-}
-
-static void step_address(struct iec_addr *addr)
-{
-	const uint32_t bit = first_bit(*addr) + addr->bits;
-
-	addr->byte = bit / 8;
-	addr->bit = (uint8_t)(bit % 8);
 }
 
 /* ---- the end of a line ---- */
@@ -591,7 +610,7 @@ static bool settle_width(struct line_reader *line)
 				      iec_type_row(channel->type)->word);
 	if (!channel->type)
 		channel->type = type_of(addr);
-	if (line->point.driver == DRIVER_sim || line->point.driver == DRIVER_peer)
+	if (bit_of(line->point.driver) & (ON_SIM | ON_PEER | ON_QUALITY))
 		return true;
 	if (bits ? !bit : bit && !channel->switches && channel->reg_bit < 0)
 		return complain_about(line->reader, DIAG_IO_WIDTH, &line->address,
@@ -799,6 +818,7 @@ static bool has_needs(const struct line_reader *line)
 	case ON_MODBUS: return bus && is_given(line, "unit") && channel->table != TABLE_NONE;
 	case ON_MODULE: return bus && is_given(line, "unit") && line->module;
 	case ON_PEER: return bus && channel->device && channel->name;
+	case ON_QUALITY: return channel->of_bits;
 	default: return true;
 	}
 }
@@ -808,7 +828,7 @@ static bool check_direction(struct line_reader *line, const struct map_word *dri
 {
 	const enum driver_id id = line->point.driver;
 
-	if (line->point.output && (id == DRIVER_w1 || id == DRIVER_hwmon || id == DRIVER_peer))
+	if (line->point.output && (id == DRIVER_w1 || id == DRIVER_hwmon || id == DRIVER_peer || id == DRIVER_quality))
 		return complain(line->reader, DIAG_IO_FOR_INPUT, driver);
 	if (!line->point.output && id == DRIVER_pwm)
 		return complain(line->reader, DIAG_IO_FOR_OUTPUT, driver);
@@ -869,6 +889,38 @@ bool read_channel(struct reader *reader, const struct map_word *address, enum dr
 	return true;
 }
 
+/* ---- the quality of others ---- */
+
+static bool has_points(const struct iomap *map, const struct io_channel *quality)
+{
+	const uint32_t from = first_bit(quality->of);
+
+	for (int i = 0; i < map->count; i++) {
+		const struct iec_addr at = map->point[i].addr;
+
+		if (at.area == quality->of.area && first_bit(at) < from + quality->of_bits &&
+		    from < first_bit(at) + at.bits && map->point[i].driver != DRIVER_quality)
+			return true;
+	}
+	return false;
+}
+
+void check_qualities(struct reader *reader)
+{
+	for (int i = 0; i < reader->map.count; i++) {
+		const struct io_point *point = &reader->map.point[i];
+		struct map_word word = { .line = point->text_line, .column = point->text_column };
+		char text[24];
+
+		if (point->driver != DRIVER_quality || has_points(&reader->map, point->channel))
+			continue;
+		iec_addr_print(point->channel->of, text, sizeof(text));
+		word.text = text;
+		word.len = strlen(text);
+		complain(reader, DIAG_IO_QUALITY, &word);
+	}
+}
+
 /* ---- for others ---- */
 
 int channel_line_print(const struct io_point *point, char *out, size_t size)
@@ -880,6 +932,8 @@ int channel_line_print(const struct io_point *point, char *out, size_t size)
 		return snprintf(out, size, "%.40s %.20s", channel->device, channel->name);
 	case ON_PWM:
 		return snprintf(out, size, "%.40s %u", channel->device, (unsigned)channel->number);
+	case ON_QUALITY:
+		return iec_addr_print(channel->of, out, size);
 	case ON_W1:
 		return snprintf(out, size, "%.60s", channel->device);
 	case ON_MODBUS: case ON_MODULE:

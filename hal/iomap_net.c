@@ -655,6 +655,7 @@ bool read_statement(struct reader *reader, const struct map_word *word)
 
 void finish_net(struct reader *reader)
 {
+	check_qualities(reader);
 	if (reader->net && (reader->net->net.bus_count || reader->net->net.serve_count))
 		reader->map.net = &reader->net->net;
 }

@@ -57,6 +57,9 @@ int find_bus(const struct io_net *net, const char *text, size_t len);
 int only_peer_bus(const struct io_net *net);
 const struct module_type *find_module(const struct net_reader *net, const char *text, size_t len);
 
+/** check_qualities - an error for each quality of an input that the map does not have. */
+void check_qualities(struct reader *reader);
+
 /* Words of a map, and what they stand for. */
 const char *bus_word(enum io_bus_kind kind);
 const char *table_word(enum io_table table);

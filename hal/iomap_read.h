@@ -94,7 +94,7 @@ bool read_statement(struct reader *reader, const struct map_word *word);
  * of a chip. @word: the driver. */
 bool read_channel(struct reader *reader, const struct map_word *address, enum driver_id driver,
 		  const struct map_word *word);
-/** finish_net - gives the map its buses, when all lines have been read. */
+/** finish_net - when all lines have been read: checks what refers to others, gives the map its buses. */
 void finish_net(struct reader *reader);
 /** check_net - what others may ask of this board is there. False, and an error for each that is not. */
 bool check_net(const struct iomap *map, const struct program *program, struct arena *arena,

@@ -21,6 +21,10 @@ static void print_point(const struct io_point *point, char *out, size_t size)
 	size_t len;
 
 	iec_addr_print(point->addr, text, sizeof(text));
+	if (!c) {
+		snprintf(out, size, "%s %s level", text, driver_row(point->driver)->word);
+		return;
+	}
 	len = (size_t)snprintf(out, size, "%s %s %s", text, driver_row(point->driver)->word,
 			       iec_type_row(c->type)->word);
 #define SAY(condition, ...) \
@@ -37,6 +41,8 @@ static void print_point(const struct io_point *point, char *out, size_t size)
 	SAY(c->reg_bit >= 0, ".%d", c->reg_bit);
 	SAY(c->word_swapped, " words");
 	SAY(c->byte_swapped, " bytes");
+	iec_addr_print(c->of, text, sizeof(text));
+	SAY(c->of_bits, " %s+%u", text, (unsigned)c->of_bits);
 	SAY(c->module >= 0, " module%d", c->module);
 	SAY(c->scaled, " %g..%g@%g..%g", c->value_low, c->value_high, c->at_low, c->at_high);
 	SAY(c->unit, " in%d", c->unit);
@@ -155,6 +161,13 @@ static void test_modbus(void)
 	      "%ID120 peer DINT pump-house Level bus2 stale=2000");
 	READS("%IX120.0 peer bus=yard from=pump-house name=Running",
 	      "%IX120.0 peer BOOL pump-house Running bus2");
+}
+
+static void test_quality(void)
+{
+	READS("%IX200.0 quality of=%AIW0..6\n%AIW6 sim\n%IB201 quality of=%IX200.3\n%IX200.3 sim pull-up",
+	      "%IX200.0 quality BOOL %AIW0+64\n%AIW6 sim INT\n%IB201 quality USINT %IX200.3+1\n%IX200.3 sim level");
+	READS("%IW4 quality of=%XIX0.0..7\n%XIX0.7 sim", "%IW4 quality INT %XIX0.0+8\n%XIX0.7 sim BOOL");
 }
 
 static int count_of(const struct iomap *map, enum iec_area area)
@@ -323,6 +336,14 @@ static void test_bad_points(void)
 	BAD("%IX0.0 modbus bus=a unit=1 holding-register=1 bit=16", "LD505");
 	BAD("%QX0.0 modbus bus=a unit=1 coil=1 on-change=1", "LD505");
 	BAD("%QX0.0 modbus bus=a unit=1 coil=1 word-order=middle", "LD505");
+	BAD("%IX0.0 quality", "LD529");
+	BAD("%IX0.0 quality of=", "LD505");
+	BAD("%IX0.0 quality of=%QX0.0", "LD505");
+	BAD("%IX0.0 quality of=%AIW6..2", "LD505");
+	BAD("%IX0.0 quality of=Level", "LD505");
+	BAD("%QX0.0 quality of=%AIW0", "LD527");
+	BAD("%IX0.0 quality of=%AIW0\n%AIW2 sim", "test.io:5:1: error LD546: \"%AIW0\": no line");
+	BAD("%IX0.0 quality of=%IX0.0", "LD546");
 }
 
 static void test_bad_groups(void)
@@ -438,7 +459,7 @@ static void test_pieces(void)
 		"MODULE M di=3 coil=7\n%XIB0..2 module bus=a unit=1 type=M substitute=hold\n"
 		"%AIW0 iio device=\"d e\" channel=voltage0 range=-5..5 at -10V..10mV limits=-11V..1V\n"
 		"%IX9.0..10.2 modbus bus=a unit=1 input-register=3 bit=15\n%IW0 peer bus=p from=x name=y\n"
-		"%IX8.0 modbus bus=a unit=1 input-register=3 threshold=5 hysteresis=2\n";
+		"%IX8.0 modbus bus=a unit=1 input-register=3 threshold=5 hysteresis=2\n%IB7 quality of=%IW0..2\n";
 	bool good = true;
 
 	for (size_t from = 0; from < sizeof(whole) - 1; from += 1 + from % 3)
@@ -460,6 +481,7 @@ int main(void)
 {
 	test_analog();
 	test_modbus();
+	test_quality();
 	test_modules();
 	test_net();
 	test_bad_points();
