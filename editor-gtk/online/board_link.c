@@ -348,7 +348,7 @@ static enum desk_end open_desk(struct session *session, struct come *ended)
 	session->desk.told = frame_told;
 	session->desk.context = session;
 	come = come_new(COME_OPENED);
-	come->role = session->desk.role;
+	come->role = session->desk.role == ROLE_IO ? ROLE_NONE : session->desk.role; /* of no person */
 	g_strlcpy(come->board, session->desk.board, sizeof(come->board));
 	g_strlcpy(come->software, session->desk.software, sizeof(come->software));
 	put_come(session, come);

@@ -325,6 +325,8 @@ static enum status act_status(struct remote *remote)
 		remote_print_status(remote, status);
 	if (result == STATUS_GOOD)
 		remote_print_alarms(remote);
+	if (result == STATUS_GOOD)
+		remote_print_gateways(remote);
 	if (result == STATUS_GOOD && remote->json)
 		sink_text(&remote->call->out, "}\n");
 	free(status);

@@ -426,7 +426,7 @@ static enum link_end open_link(const struct push *push, struct remote *remote)
 
 	if (end != DESK_GOOD)
 		return judge_no_session(push, remote, end, error);
-	if (remote->desk.role < ROLE_ENG)
+	if (remote->desk.role != ROLE_ENG)
 		return no_link(push, "you are not in the group ladder-eng there");
 	return LINK_OPEN;
 }

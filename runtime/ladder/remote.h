@@ -129,4 +129,6 @@ enum status remote_time(struct remote *remote);
 /** remote_print_alarms - a line of `status`, or a field: how many alarms are active; none, or null,
  * if the board keeps no list. */
 void remote_print_alarms(struct remote *remote);
+/** remote_print_gateways - lines of `status`, or a field, about the gateways of the board, if it has any. */
+void remote_print_gateways(struct remote *remote);
 #endif

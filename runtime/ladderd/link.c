@@ -781,7 +781,7 @@ static void begin_port_session(struct link *link)
 	int session;
 
 	end_port_session(link);
-	session = server_open(link->server, link->port.role, "serial", UINT32_MAX);
+	session = server_open(link->server, link->port.role, false, "serial", UINT32_MAX);
 	if (session < 0) {
 		serial_end(&link->port.serial);
 		return;
@@ -919,7 +919,7 @@ static void take_in(struct link *link)
 		close(fd);
 		return;
 	}
-	session = server_open(link->server, peer.role, peer.user, peer.uid);
+	session = server_open(link->server, peer.role, peer.may_io, peer.user, peer.uid);
 	if (session < 0) {
 		send_away(fd);
 		return;
@@ -1307,7 +1307,7 @@ static struct link *open_serial(struct link *link, const struct options *options
 	int error;
 
 	link->port.text = options->serial;
-	for (enum role role = ROLE_VIEW; role < ROLE_COUNT; role++)
+	for (enum role role = ROLE_VIEW; role < ROLE_PERSONS; role++)
 		if (strcmp(role_word(role), options->serial_role) == 0)
 			link->port.role = role;
 	if (link->port.role == ROLE_NONE)

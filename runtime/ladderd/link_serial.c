@@ -190,7 +190,7 @@ struct link *link_open(const struct options *options, struct cycle *cycle,
 	nameless->cycle = cycle;
 	nameless->slots = store->slots;
 	nameless->began_ns = clock_now();
-	for (enum role role = ROLE_VIEW; role < ROLE_COUNT; role++)
+	for (enum role role = ROLE_VIEW; role < ROLE_PERSONS; role++)
 		if (strcmp(role_word(role), options->serial_role) == 0)
 			nameless->role = role;
 	if (nameless->role == ROLE_NONE)

@@ -105,11 +105,12 @@ void peer_groups_read(struct peer_groups *groups, const char *path)
 	free(text);
 }
 
-static void take_group(const struct peer_groups *groups, gid_t gid, enum role *role)
+static void take_group(const struct peer_groups *groups, gid_t gid, struct peer *peer)
 {
-	for (enum role i = ROLE_VIEW; i < ROLE_COUNT; i++)
-		if (groups->known[i] && groups->gid[i] == gid && i > *role)
-			*role = i;
+	for (enum role i = ROLE_VIEW; i < ROLE_PERSONS; i++)
+		if (groups->known[i] && groups->gid[i] == gid && i > peer->role)
+			peer->role = i;
+	peer->may_io |= groups->known[ROLE_IO] && groups->gid[ROLE_IO] == gid;
 }
 
 int peer_ask(int fd, const struct peer_groups *groups, struct peer *out)
@@ -123,12 +124,16 @@ int peer_ask(int fd, const struct peer_groups *groups, struct peer *out)
 		return -errno;
 	out->uid = who.uid;
 	name_user(out);
-	take_group(groups, who.gid, &out->role);
+	take_group(groups, who.gid, out);
 	len = sizeof(gid);
 	if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, gid, &len) == 0)
 		for (size_t i = 0; i < len / sizeof(gid[0]); i++)
-			take_group(groups, gid[i], &out->role);
-	if (who.uid == geteuid() && who.uid != 0)
+			take_group(groups, gid[i], out);
+	if (who.uid == geteuid() && who.uid != 0) {
 		out->role = ROLE_ENG;
+		out->may_io = true;
+	}
+	if (out->role == ROLE_NONE && out->may_io)
+		out->role = ROLE_IO;
 	return 0;
 }

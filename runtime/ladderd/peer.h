@@ -13,12 +13,13 @@
 #include <sys/types.h>
 
 struct peer_groups {
-	gid_t gid[ROLE_COUNT]; /* of ladder-view, ladder-oper, ladder-eng     */
+	gid_t gid[ROLE_COUNT]; /* of ladder-view, ladder-oper, ladder-eng, ladder-io */
 	bool known[ROLE_COUNT];
 };
 
 struct peer {
-	enum role role;
+	enum role role;        /* of a person; ROLE_IO: of a gateway and nothing else */
+	bool may_io;           /* it may be a gateway, if it asks for that    */
 	uid_t uid;
 	char user[32];         /* "pi", "uid 1000"; for the log               */
 };

@@ -327,8 +327,8 @@ enum desk_end desk_open(struct desk *desk, const struct stream *stream, const ch
 	return desk_open_within(desk, stream, name, service_row(SERVICE_HELLO)->limit_ms);
 }
 
-enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, const char *name,
-			       int ms)
+static enum desk_end open_as(struct desk *desk, const struct stream *stream, const char *name,
+			     enum role role, int ms)
 {
 	struct wire_writer out;
 	struct wire_reader in;
@@ -346,6 +346,8 @@ enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, c
 	wire_put_u16(&out, ONLINE_LOWEST);
 	wire_put_u16(&out, ONLINE_HIGHEST);
 	wire_put_string(&out, name);
+	if (role != ROLE_NONE)
+		wire_put_u8(&out, (uint8_t)role);
 	end = call_within(desk, &out, &in, ms);
 	if (end != DESK_GOOD)
 		return end;
@@ -360,6 +362,18 @@ enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, c
 	    desk->version > ONLINE_HIGHEST)
 		return DESK_NONSENSE;
 	return DESK_GOOD;
+}
+
+enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, const char *name,
+			       int ms)
+{
+	return open_as(desk, stream, name, ROLE_NONE, ms);
+}
+
+enum desk_end desk_open_as(struct desk *desk, const struct stream *stream, const char *name,
+			   enum role role)
+{
+	return open_as(desk, stream, name, role, service_row(SERVICE_HELLO)->limit_ms);
 }
 
 void desk_close(struct desk *desk)

@@ -53,6 +53,10 @@ enum desk_end desk_open(struct desk *desk, const struct stream *stream, const ch
  * questions of the stream. @ms: waits so long. */
 enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, const char *name,
 			       int ms);
+/** desk_open_as - the same as desk_open() for a session that wants the role ROLE_IO; desk->role tells whether it
+ * has it. */
+enum desk_end desk_open_as(struct desk *desk, const struct stream *stream, const char *name,
+			   enum role role);
 void desk_close(struct desk *desk);
 
 /** desk_ask - begins a request; the caller writes its fields. */

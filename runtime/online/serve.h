@@ -4,7 +4,8 @@
  *
  * server.c has sessions and requests. The services are in serve_board.c (who is there, mode,
  * settings, password), serve_values.c (reading, watching, writing, forcing), serve_download.c
- * (programs), serve_files.c (retained values, log, record) and serve_alarms.c. Only these files include this one.
+ * (programs), serve_files.c (retained values, log, record), serve_alarms.c and serve_io.c (gateways). Only these
+ * files include this one.
  */
 #ifndef ONLINE_SERVE_H
 #define ONLINE_SERVE_H
@@ -24,6 +25,16 @@
 /* A download that was given to the scan thread, as long as its end is not known. */
 enum given { GIVEN_NOTHING, GIVEN_SWAP, GIVEN_RESTART };
 
+/* What a session has as a gateway; all zero: nothing. */
+struct gateway_session {
+	bool begun;
+	enum gateway_id id;
+	uint16_t outputs;      /* the request that asked for outputs; 0: none */
+	bool more;             /* a frame had no room for all outputs         */
+	bool told;             /* a frame of outputs was sent                 */
+	int state;             /* … with this mode                            */
+};
+
 /* An answer to a request that changed something. */
 struct kept {
 	uint16_t request;
@@ -38,7 +49,9 @@ struct session {
 	bool told_role;        /* the log says that it was refused for its role */
 	bool changed;          /* to be told: another program runs            */
 	bool unlocked;         /* the program password was given              */
+	bool may_io;           /* it gets the role io if it asks for it       */
 	enum role role;
+	struct gateway_session gateway;
 	char user[64];
 	uint32_t who;          /* number of the user                          */
 	uint64_t opened;       /* counts up: the least is the oldest session   */
@@ -65,6 +78,11 @@ struct server {
 	bool verified;
 	enum given given;
 	char why[STATUS_TEXT]; /* the board went back by itself; "": a desk did it */
+	uint32_t map;          /* rises with each program                     */
+	/* Of gateways. */
+	struct gateways_status gateways; /* what the status tells              */
+	struct gateway_report report[GATEWAY_COUNT]; /* the last ones          */
+	uint64_t io_session[GATEWAY_COUNT]; /* `opened` of the session that began last */
 	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
 	struct image mirror;
@@ -125,6 +143,8 @@ enum refusal asked_refuse_role(struct asked *asked, enum role needed);
 bool asked_is_locked(const struct asked *asked);
 /** asked_tell_mode - the detail of REFUSAL_NOT_NOW of server->order. */
 void asked_tell_mode(struct asked *asked);
+/** serve_look - serve_values.c: server->mirror gets the values of @count of server->place. */
+enum refusal serve_look(struct server *server, uint32_t count);
 /** asked_finish - serve_values.c: gives a change to the scan thread, and answers. */
 enum refusal asked_finish(struct asked *asked);
 
@@ -155,4 +175,22 @@ enum refusal serve_record(struct asked *asked);
 enum refusal serve_alarms(struct asked *asked);
 enum refusal serve_ack(struct asked *asked);
 enum refusal serve_time(struct asked *asked);
+enum refusal serve_io_begin(struct asked *asked);
+enum refusal serve_io_map(struct asked *asked);
+enum refusal serve_io_put(struct asked *asked);
+enum refusal serve_io_outputs(struct asked *asked);
+enum refusal serve_io_window(struct asked *asked);
+enum refusal serve_io_report(struct asked *asked);
+
+/* ---- serve_io.c, for the others ---- */
+
+/** io_check_publish - a gateway may watch what the map publishes. @in: the fields of `publish` behind
+ * its kind; not moved. */
+enum refusal io_check_publish(struct asked *asked, struct wire_reader in);
+/** io_give - the next frame of outputs for a session. Returns its bytes; 0: nothing has changed. */
+size_t io_give(struct server *server, struct session *session);
+/** io_end - a session serves no points any more. */
+void io_end(struct server *server, struct session *session);
+/** io_status - what the status tells of gateways. */
+const struct gateways_status *io_status(struct server *server);
 #endif

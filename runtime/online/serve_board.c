@@ -23,6 +23,9 @@ enum refusal serve_hello(struct asked *asked)
 		 (unsigned)lowest, (unsigned)highest, ONLINE_LOWEST, ONLINE_HIGHEST);
 	if (lowest > ONLINE_HIGHEST || highest < ONLINE_LOWEST)
 		return REFUSAL_VERSION;
+	/* A board may have more fields than a desk of before, and a desk more than a board. */
+	if (wire_left(in) && wire_u8(in) == ROLE_IO && asked->session->may_io)
+		asked->session->role = ROLE_IO;
 	asked->session->greeted = true;
 	asked_begin(asked, 0);
 	wire_put_u32(&asked->out, ONLINE_MAGIC);
@@ -49,6 +52,7 @@ enum refusal serve_status(struct asked *asked)
 	server->status.sessions = (uint32_t)server_sessions(server);
 	asked_begin(asked, 0);
 	status_put(&asked->out, &server->status);
+	gateways_put(&asked->out, io_status(server));
 	return REFUSAL_NONE;
 }
 

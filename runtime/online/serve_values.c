@@ -85,18 +85,13 @@ static enum refusal take_items(struct asked *asked, uint32_t count)
 	return wire_done(in) ? REFUSAL_NONE : REFUSAL_BAD_FRAME;
 }
 
-enum refusal serve_read(struct asked *asked)
+enum refusal serve_look(struct server *server, uint32_t count)
 {
-	struct server *server = asked->server;
 	const struct program *program = server->setup.program;
-	uint32_t count;
-	enum refusal refusal = server->no_memory ? REFUSAL_MEMORY :
-			       take_count(asked, REFS_MOST, &count);
+	enum refusal refusal;
 
-	if (refusal == REFUSAL_NONE)
-		refusal = take_places(asked, count);
-	if (refusal != REFUSAL_NONE)
-		return refusal;
+	if (server->no_memory)
+		return REFUSAL_MEMORY;
 	if (!server_can_order(server))
 		return REFUSAL_BUSY;
 	for (uint32_t i = 0; i < count; i++)
@@ -110,9 +105,23 @@ enum refusal serve_read(struct asked *asked)
 	server->order = (struct order){ .kind = ORDER_LOOK, .watch = &server->look_watch,
 					.view = &server->look };
 	refusal = server_give(server);
+	if (refusal == REFUSAL_NONE)
+		server->mirror.memory = server->look.memory;
+	return refusal;
+}
+
+enum refusal serve_read(struct asked *asked)
+{
+	struct server *server = asked->server;
+	uint32_t count;
+	enum refusal refusal = take_count(asked, REFS_MOST, &count);
+
+	if (refusal == REFUSAL_NONE)
+		refusal = take_places(asked, count);
+	if (refusal == REFUSAL_NONE)
+		refusal = serve_look(server, count);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	server->mirror.memory = server->look.memory;
 	asked_begin(asked, 0);
 	wire_put_u8(&asked->out, (uint8_t)server->look.state);
 	wire_put_u64(&asked->out, server->look.scan);
@@ -142,7 +151,10 @@ enum refusal serve_publish(struct asked *asked)
 
 	if (in->failed || (what != PUBLISH_VARIABLES && what != PUBLISH_CELLS))
 		return REFUSAL_BAD_FRAME;
-	if (what == PUBLISH_VARIABLES)
+	if (asked->session->role == ROLE_IO)
+		refusal = what == PUBLISH_VARIABLES ? io_check_publish(asked, *in) :
+						      asked_refuse_role(asked, ROLE_VIEW);
+	if (refusal == REFUSAL_NONE && what == PUBLISH_VARIABLES)
 		refusal = take_count(asked, PUBLISH_VALUES, &count);
 	if (refusal == REFUSAL_NONE && what == PUBLISH_VARIABLES)
 		refusal = take_places(asked, count);

@@ -193,6 +193,7 @@ static void end_publications(struct server *server)
 {
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		publish_init(&server->session[i].publications);
+		server->session[i].gateway = (struct gateway_session){ .begun = false };
 		begin_symbols(&server->session[i]);
 		server->session[i].changed = true;
 	}
@@ -204,6 +205,7 @@ void server_renew(struct server *server, const struct program *program)
 	uint8_t *memory = calloc(1, image_memory_size(program));
 
 	end_publications(server);
+	server->map++;
 	server->retained.copy = NULL; /* its plan is of the old program */
 	server->setup.program = program;
 	server->mirror.program = program;
@@ -302,6 +304,18 @@ static enum refusal serve(struct asked *asked)
 		return serve_ack(asked);
 	case SERVICE_TIME:
 		return serve_time(asked);
+	case SERVICE_IO_BEGIN:
+		return serve_io_begin(asked);
+	case SERVICE_IO_MAP:
+		return serve_io_map(asked);
+	case SERVICE_IO_PUT:
+		return serve_io_put(asked);
+	case SERVICE_IO_OUTPUTS:
+		return serve_io_outputs(asked);
+	case SERVICE_IO_WINDOW:
+		return serve_io_window(asked);
+	case SERVICE_IO_REPORT:
+		return serve_io_report(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -351,6 +365,17 @@ static void keep(struct asked *asked)
 	memcpy(oldest->bytes, session->out, session->out_len);
 }
 
+/* A gateway may do what it needs, and only a gateway. */
+static bool may(enum role role, const struct service_row *row)
+{
+	if (row->role == ROLE_NONE)
+		return true;
+	if (role != ROLE_IO)
+		return row->role != ROLE_IO && role >= row->role;
+	return row->role == ROLE_IO || row->number == SERVICE_STATUS ||
+	       row->number == SERVICE_PUBLISH || row->number == SERVICE_UNPUBLISH;
+}
+
 static enum refusal judge(struct asked *asked)
 {
 	struct session *session = asked->session;
@@ -359,7 +384,7 @@ static enum refusal judge(struct asked *asked)
 		return REFUSAL_NO_SERVICE;
 	if (!session->greeted && asked->row->number != SERVICE_HELLO)
 		return REFUSAL_NO_HELLO;
-	if (session->role < asked->row->role)
+	if (!may(session->role, asked->row))
 		return asked_refuse_role(asked, asked->row->role);
 	return serve(asked);
 }
@@ -447,7 +472,11 @@ static void publish_next(struct server *server, struct session *session, int64_t
 		tell_changed(server, session);
 		return;
 	}
-	if (session->over || publish_due(&session->publications) > now_ns)
+	if (session->over)
+		return;
+	if (session->gateway.outputs && !session->out_len)
+		session->out_len = io_give(server, session);
+	if (publish_due(&session->publications) > now_ns)
 		return;
 	if (session->out_len) {
 		publish_lose(&session->publications, now_ns);
@@ -487,8 +516,18 @@ int64_t server_due(const struct server *server)
 
 		if (session->used && publish_due(&session->publications) < due_ns)
 			due_ns = publish_due(&session->publications);
+		if (session->used && session->gateway.more && !session->out_len)
+			return 0;
 	}
 	return due_ns;
+}
+
+bool server_gives(const struct server *server)
+{
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		if (server->session[i].used && server->session[i].gateway.outputs)
+			return true;
+	return false;
 }
 
 /* ---- sessions ---- */
@@ -510,7 +549,7 @@ static int idle_session(const struct server *server)
 	return oldest;
 }
 
-int server_open(struct server *server, enum role role, const char *user, uint32_t who)
+int server_open(struct server *server, enum role role, bool may_io, const char *user, uint32_t who)
 {
 	const int gone = server_sessions(server) == SERVER_SESSIONS && role != ROLE_NONE ?
 				 idle_session(server) : -1;
@@ -525,7 +564,9 @@ int server_open(struct server *server, enum role role, const char *user, uint32_
 		session->used = true;
 		session->greeted = session->over = session->changed = session->told_role = false;
 		session->unlocked = false;
+		session->may_io = may_io;
 		session->role = role;
+		session->gateway = (struct gateway_session){ .begun = false };
 		session->who = who;
 		session->opened = ++server->opened;
 		session->requests = 0;
@@ -541,6 +582,7 @@ int server_open(struct server *server, enum role role, const char *user, uint32_
 
 void server_close(struct server *server, int session)
 {
+	io_end(server, &server->session[session]);
 	server->session[session].used = false;
 	memset(server->session[session].in, 0, server->session[session].in_len);
 	if (server->retained.owner == session)
@@ -607,6 +649,7 @@ struct server *server_new(const struct server_setup *setup)
 		return NULL;
 	server->setup = *setup;
 	server->downloading = -1;
+	server->map = 1;
 	retained_init(&server->retained);
 	server->mirror.program = setup->program;
 	server->look.memory = calloc(1, size);

@@ -16,6 +16,7 @@
 #include "online/event.h"
 #include "online/exchange.h"
 #include "online/publish.h"
+#include "online/report.h"
 #include "online/retained.h"
 #include "online/stored.h"
 
@@ -105,6 +106,45 @@ struct server_store {
 	const uint8_t *(*image)(void *context, const uint8_t identity[32], uint32_t *len);
 };
 
+/* A point of the map that a gateway serves. */
+struct server_point {
+	bool output;
+	enum iec_type raw;             /* of its values; no STRING            */
+};
+/* The value of an output. */
+struct server_output {
+	uint32_t point, serial;        /* the serial rises with each change   */
+	enum iec_type raw;
+	union iec_value value;
+};
+/* A WINDOW of the map: so many bits or words from an address on. */
+struct server_window {
+	struct iec_addr addr;
+	uint32_t count;
+	bool writable;
+};
+/* The points of gateways, of the map that runs; by the link thread. */
+struct server_io {
+	void *context;
+	/** How many points of the map it serves. */
+	uint32_t (*points)(void *context, enum gateway_id gateway);
+	/** Fails: false: it serves no point of this number. */
+	bool (*point)(void *context, enum gateway_id gateway, uint32_t point,
+		      struct server_point *out);
+	/** @value: of the raw type of an input, not used of an output; @good: false: it could not be read or
+	 * written. */
+	void (*put)(void *context, uint32_t point, union iec_value value, bool good);
+	/** The next output whose value has changed since it was given. Fails: false: none. */
+	bool (*output)(void *context, enum gateway_id gateway, struct server_output *out);
+	/** All outputs are given again. */
+	void (*again)(void *context, enum gateway_id gateway);
+	/** The gateway has gone. */
+	void (*alone)(void *context, enum gateway_id gateway);
+	bool (*window)(void *context, uint32_t number, struct server_window *out);
+	/** Whether a PUBLISH line names the variable. */
+	bool (*publishes)(void *context, const char *name, size_t len);
+};
+
 struct server_setup {
 	struct exchange *exchange;
 	const struct program *program;
@@ -116,6 +156,7 @@ struct server_setup {
 	const struct server_clock *clock; /* NULL: the board tells no time     */
 	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
+	const struct server_io *io; /* NULL: no gateways                       */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */
 	bool (*wait)(void *context);
@@ -132,10 +173,11 @@ void server_free(struct server *server);
 /** server_open - a session with the role that the kernel vouches for
  * @user: for the log; copied, cut
  * @who: number of the user; sessions of one user have the same
+ * @may_io: it gets the role io if its hello asks for that
  *
  * If all are in use, the oldest one without rights or without a hello ends: its stream, which
  * has the number that is returned, must be closed. Returns the number; -1: all are in use. */
-int server_open(struct server *server, enum role role, const char *user, uint32_t who);
+int server_open(struct server *server, enum role role, bool may_io, const char *user, uint32_t who);
 /** server_close - ends a session: nothing on the board changes but what it watched. */
 void server_close(struct server *server, int session);
 int server_sessions(const struct server *server);
@@ -164,4 +206,6 @@ const struct image *server_image(const struct server *server);
 bool server_step(struct server *server, int64_t now_ns);
 /** server_due - when a value is to be published next; INT64_MAX: never. */
 int64_t server_due(const struct server *server);
+/** server_gives - whether a gateway wants outputs: then server_step() is to be called after each scan. */
+bool server_gives(const struct server *server);
 #endif

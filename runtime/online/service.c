@@ -10,12 +10,17 @@
 
 const char *role_word(enum role role)
 {
-	static const char *const word[ROLE_COUNT] = {
+	static const char *const word[] = {
 		[ROLE_NONE] = "none", [ROLE_VIEW] = "view", [ROLE_OPER] = "oper",
-		[ROLE_ENG] = "eng",
+		[ROLE_ENG] = "eng", [ROLE_ENG + 1] = "io",
 	};
 
 	return word[role];
+}
+
+const char *gateway_word(enum gateway_id gateway)
+{
+	return gateway == GATEWAY_MODBUS ? "modbus" : "peer";
 }
 
 const struct service_row *service_row(uint8_t number)

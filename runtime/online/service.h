@@ -15,10 +15,22 @@
 #define ONLINE_LOWEST  1u          /* versions of the protocol that are spoken */
 #define ONLINE_HIGHEST 1u
 
-/* In this order: each may do what those before it may. GATEWAY is beside them. */
-enum role { ROLE_NONE, ROLE_VIEW, ROLE_OPER, ROLE_ENG, ROLE_COUNT };
+/* In this order: each may do what those before it may. IO, of gateways, is beside them. */
+enum role {
+	ROLE_NONE, ROLE_VIEW, ROLE_OPER, ROLE_ENG,
+#ifndef RUNGBOARD_SMALL
+	ROLE_IO,
+#endif
+	ROLE_COUNT
+};
+#define ROLE_PERSONS (ROLE_ENG + 1) /* those before it are of persons         */
 /** role_word - "view"; "none". Static. */
 const char *role_word(enum role role);
+
+/* The programs that serve points of an I/O map, each those of its drivers. */
+enum gateway_id { GATEWAY_MODBUS, GATEWAY_PEER, GATEWAY_COUNT };
+/** gateway_word - "modbus". Static. */
+const char *gateway_word(enum gateway_id gateway);
 
 enum service {
 #define SERVICE(id, number, word, role, limit_ms) SERVICE_##id = (number),

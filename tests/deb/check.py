@@ -178,7 +178,7 @@ def test_the_page_of_boards_begins_with_what_works(machine):
     shutil.copy(package('runtime'), machine.path('/root/'))
     machine.do('sh', '-c', 'cd /root && ' + install_it.replace('sudo apt', 'apt-get -y').replace('arm64', ARCH))
     machine.do('dpkg', '--audit')
-    for name in ('gpio', 'ladder-view', 'ladder-oper', 'ladder-eng'):
+    for name in ('gpio', 'ladder-view', 'ladder-oper', 'ladder-eng', 'ladder-io'):
         assert f'\n{name}:' in machine.read('/etc/group'), name
     machine.do('useradd', '-m', '-p', '*', 'pi')
     machine.do('useradd', '-m', '-p', '*', 'guest')

@@ -3,10 +3,12 @@
  * fuzz_link - gives any bytes to a session of a board as a desk would, and the same bytes to
  * the readers of a desk.
  *
- * The first byte says the role; the rest is the stream. A scan runs between the steps.
+ * The first byte says the role; the rest is the stream. A scan runs between the steps. A gateway serves eight
+ * points: those of even number are inputs, the last two are those of peer.
  */
 #include "engine/ladder.h"
 #include "online/desk.h"
+#include "online/gateway.h"
 #include "online/server.h"
 #include "online/sums.h"
 #include "tests/fuzz/fuzz.h"
@@ -31,6 +33,8 @@ struct rig {
 	struct server *server;
 	struct alarms alarms;
 	int64_t now_ns;
+	uint64_t given[8];     /* of outputs                                  */
+	struct server_io io;
 };
 
 static struct resource *its_resource(void *context)
@@ -141,6 +145,75 @@ static const struct stored *runs_any(void *context)
 	return &stored;
 }
 
+#define POINTS 8u
+static const enum iec_type raws[POINTS] = {
+	IEC_BOOL, IEC_BOOL, IEC_UINT, IEC_UINT, IEC_REAL, IEC_DINT, IEC_BOOL, IEC_BOOL,
+};
+
+static uint32_t count_points(void *context, enum gateway_id gateway)
+{
+	(void)context;
+	return gateway == GATEWAY_PEER ? 2 : POINTS - 2;
+}
+
+static bool find_point(void *context, enum gateway_id gateway, uint32_t point, struct server_point *out)
+{
+	(void)context;
+	if (point >= POINTS || (point >= POINTS - 2) != (gateway == GATEWAY_PEER))
+		return false;
+	*out = (struct server_point){ .output = point & 1, .raw = raws[point] };
+	return true;
+}
+
+static void put_point(void *context, uint32_t point, union iec_value value, bool good)
+{
+	(void)context, (void)good;
+	fuzz_expect(point < POINTS, "a point of the map is put");
+	fuzz_expect(raws[point] != IEC_BOOL || value.i == 0 || value.i == 1, "a BOOL is 0 or 1");
+	fuzz_expect(raws[point] != IEC_UINT || (value.i >= 0 && value.i <= UINT16_MAX), "its type holds the value");
+}
+
+static bool next_output(void *context, enum gateway_id gateway, struct server_output *out)
+{
+	struct rig *rig = context;
+	const uint32_t first = gateway == GATEWAY_PEER ? POINTS - 1 : 1, end = gateway == GATEWAY_PEER ? POINTS : POINTS - 2;
+
+	for (uint32_t i = first; i < end; i += 2) {
+		if (rig->given[i] == rig->exchange.view[0].scan + 1)
+			continue;
+		rig->given[i] = rig->exchange.view[0].scan + 1;
+		*out = (struct server_output){ .point = i, .serial = (uint32_t)rig->given[i], .raw = raws[i] };
+		return true;
+	}
+	return false;
+}
+
+static void give_again(void *context, enum gateway_id gateway)
+{
+	(void)gateway;
+	memset(((struct rig *)context)->given, 0, sizeof(((struct rig *)context)->given));
+}
+
+static void be_alone(void *context, enum gateway_id gateway)
+{
+	(void)context;
+	fuzz_expect(gateway < GATEWAY_COUNT, "a gateway");
+}
+
+static bool find_window(void *context, uint32_t number, struct server_window *out)
+{
+	(void)context;
+	*out = (struct server_window){ .addr = { .area = AREA_M, .bits = number & 1 ? 1 : 16 }, .count = number & 2 ? 5 : 1u << 30,
+				       .writable = number & 4 };
+	return number < 8;
+}
+
+static bool is_published(void *context, const char *name, size_t len)
+{
+	(void)context;
+	return len && (*name == 'A' || *name == 'N');
+}
+
 static int64_t no_clock(void)
 {
 	return 1;
@@ -227,13 +300,18 @@ static void rig_open(struct rig *rig)
 	};
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_clock clock = { read_clock, set_clock };
+	const struct server_io io = {
+		rig, count_points, find_point, put_point, next_output, give_again, be_alone, find_window, is_published,
+	};
 	static const struct server_conf conf = { get_setting, change_setting };
 	static const char *_Atomic board_name = "b";
 	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = &board_name, .wait = serve_now, .amend = amend,
-				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock };
+				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock, .io = &rig->io };
+
 	size_t size;
 
 	memset(rig, 0, sizeof(*rig));
+	rig->io = io;
 	rig->alarms.clock_ns = no_clock;
 	alarm_list_raise(&rig->alarms.list, ALARM_IO, true, 1);
 	setup.program = its_program();
@@ -286,7 +364,7 @@ static void scan(struct rig *rig)
 
 static void as_board(struct rig *rig, const uint8_t *bytes, size_t len)
 {
-	const int session = server_open(rig->server, (enum role)(bytes[0] % ROLE_COUNT), "fuzz", 0);
+	const int session = server_open(rig->server, (enum role)(bytes[0] % ROLE_COUNT), bytes[0] & 64, "fuzz", 0);
 	size_t at = 1;
 
 	while (at < len && !server_is_over(rig->server, session)) {
@@ -317,10 +395,39 @@ static void as_board(struct rig *rig, const uint8_t *bytes, size_t len)
 		    "a text is in its room");
 }
 
+static void take_output(void *context, uint32_t point, enum iec_type type, union iec_value value)
+{
+	(void)context, (void)point, (void)value;
+	fuzz_expect(type > IEC_NONE && type < IEC_TYPE_COUNT && type != IEC_STRING, "the type of an output");
+}
+
+static void take_published(void *context, uint32_t which, enum iec_type type, union iec_value value, bool good)
+{
+	(void)context, (void)good;
+	fuzz_expect(which < 2, "a variable that it asked for");
+	fuzz_expect(type != IEC_STRING || value.s->length <= IEC_STRING_MOST, "a text is in its room");
+}
+
+/* A gateway that has asked for two variables, and for outputs. */
+static void as_gateway(const struct frame *frame)
+{
+	static enum iec_type types[] = { IEC_INT, IEC_STRING };
+	static struct gateway gateway;
+
+	gateway.output = take_output;
+	gateway.published = take_published;
+	gateway.type = types;
+	gateway.published_count = 2;
+	gateway.outputs = gateway.publish = frame->request;
+	gateway.changed = false;
+	gateway_told(&gateway, frame);
+}
+
 /* A desk reads what a board says. */
 static void as_desk(const uint8_t *bytes, size_t len)
 {
 	static struct board_status status;
+	static struct gateways_status gateways;
 	struct wire_reader in;
 	struct slot slot;
 	struct frame frame;
@@ -336,6 +443,9 @@ static void as_desk(const uint8_t *bytes, size_t len)
 		uint32_t version;
 		bool empty;
 
+		as_gateway(&frame);
+		in = frame.body;
+		gateways_take(&in, &gateways);
 		in = frame.body;
 		status_take(&in, &status);
 		in = frame.body;
@@ -404,16 +514,64 @@ static void add_pieces(struct wire_writer *out)
 	wire_put_u8(out, 0);
 }
 
+static void add_hello(struct wire_writer *out)
+{
+	wire_put_u32(out, ONLINE_MAGIC);
+	wire_put_u16(out, 1);
+	wire_put_u16(out, 1);
+	wire_put_string(out, "fuzz");
+}
+
+static void add_setting(struct wire_writer *out, const struct expect *expect)
+{
+	wire_put_u8(out, 1);
+	wire_put_expect(out, expect);
+	wire_put_u8(out, 0);
+	wire_put_string(out, "period");
+	wire_put_string(out, "5ms");
+}
+
+/* Of a gateway that has begun with map 1. */
+static void put_io(struct wire_writer *out, enum service service)
+{
+	if (service == SERVICE_IO_BEGIN) {
+		wire_put_string(out, "modbus");
+		return;
+	}
+	if (service == SERVICE_IO_WINDOW)
+		wire_put_u8(out, 1);
+	wire_put_u32(out, 1);
+	if (service == SERVICE_IO_MAP)
+		wire_put_u32(out, 0);
+	if (service == SERVICE_IO_PUT) {
+		wire_put_u16(out, 1);
+		wire_put_u32(out, 2);
+		wire_put_u8(out, 1);
+		wire_put_u8(out, IEC_UINT);
+		wire_put_u16(out, 9);
+	}
+	if (service == SERVICE_IO_WINDOW) {
+		wire_put_u32(out, 4);
+		wire_put_u32(out, 2);
+		wire_put_u16(out, 1);
+		wire_put_u16(out, 5);
+	}
+	if (service == SERVICE_IO_REPORT) {
+		wire_put_string(out, "1 bus");
+		wire_put_u16(out, 1);
+		wire_put_string(out, "rs485/1");
+		for (int i = 0; i < 3; i++)
+			wire_put_u64(out, 1);
+	}
+}
+
 static void put_fields(struct wire_writer *out, enum service service)
 {
 	const struct expect expect = { .mode = EXPECT_ANY };
 
 	switch (service) {
 	case SERVICE_HELLO:
-		wire_put_u32(out, ONLINE_MAGIC);
-		wire_put_u16(out, 1);
-		wire_put_u16(out, 1);
-		wire_put_string(out, "fuzz");
+		add_hello(out);
 		break;
 	case SERVICE_SYMBOLS:
 		wire_put_u32(out, 0);
@@ -460,11 +618,7 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_u32(out, 0);
 		break;
 	case SERVICE_CONFIG:
-		wire_put_u8(out, 1);
-		wire_put_expect(out, &expect);
-		wire_put_u8(out, 0);
-		wire_put_string(out, "period");
-		wire_put_string(out, "5ms");
+		add_setting(out, &expect);
 		break;
 	case SERVICE_RETAIN:
 	case SERVICE_TIME:
@@ -484,25 +638,37 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_VERIFY:
 	case SERVICE_ABORT:
 		break;
+	case SERVICE_IO_BEGIN:
+	case SERVICE_IO_MAP:
+	case SERVICE_IO_OUTPUTS:
+	case SERVICE_IO_PUT:
+	case SERVICE_IO_WINDOW:
+	case SERVICE_IO_REPORT:
+		put_io(out, service);
+		break;
 	}
 }
 
-/* A session that asks for everything once. */
+/* A session that asks for everything once: a desk, or a gateway. */
 uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 {
-	static const uint8_t services[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
+	static const uint8_t of_gateway[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_IO_BEGIN, SERVICE_IO_MAP, SERVICE_IO_OUTPUTS,
+		SERVICE_IO_PUT, SERVICE_IO_WINDOW, SERVICE_PUBLISH, SERVICE_IO_REPORT, SERVICE_STATUS };
+	static const uint8_t of_desk[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
 		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_PASSWORD, SERVICE_RECORD, SERVICE_MODE };
+	const bool gateway = len && bytes[0] == 'g';
+	const uint8_t *services = gateway ? of_gateway : of_desk;
+	const size_t count = gateway ? sizeof(of_gateway) : sizeof(of_desk);
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
 
-	(void)bytes, (void)len;
 	if (!seed)
 		return NULL;
-	seed[0] = ROLE_ENG;
-	for (size_t i = 0; i < sizeof(services); i++) {
+	seed[0] = gateway ? ROLE_IO : ROLE_ENG;
+	for (size_t i = 0; i < count; i++) {
 		struct wire_writer out = wire_write(seed + at, 4096 - at);
 
 		frame_begin(&out, services[i], 0, (uint16_t)(i + 1));

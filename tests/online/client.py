@@ -13,6 +13,7 @@ import tty
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN, PASSWORD) = range(1, 22)
 ALARMS, ACK, CLOCK = 32, 33, 35
 RECORD, SUMS, PIECES = 22, 23, 24
+IO_BEGIN, IO_MAP, IO_PUT, IO_OUTPUTS, IO_WINDOW, IO_REPORT = range(36, 42)
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -255,8 +256,9 @@ class Client:
 
     # ---- services ----
 
-    def hello(self, lowest=1, highest=1):
-        it = self.call(HELLO, struct.pack('<IHH', 1196315986, lowest, highest) + text('client.py'))
+    def hello(self, lowest=1, highest=1, role=None):
+        it = self.call(HELLO, struct.pack('<IHH', 1196315986, lowest, highest) + text('client.py') +
+                       (b'' if role is None else bytes([role])))
         assert it.number('I') == 1196315986
         self.version, self.role, self.session = it.number('H'), it.number('B'), it.number('B')
         self.software, self.board = it.text(), it.text()
@@ -283,6 +285,12 @@ class Client:
             task['interrupted'], task['waited'] = it.number('Q'), it.number('q')
         found['speed'] = it.number('I')
         found['began'] = it.number('B'), it.number('H'), it.number('I')
+        found['gateways'] = {}
+        for _ in range(it.number('B')):
+            driver = it.text()
+            found['gateways'][driver] = {
+                'runs': it.number('B') == 1, 'points': it.number('I'), 'user': it.text(), 'text': it.text(),
+                'units': {it.text(): tuple(it.number('Q') for _ in range(3)) for _ in range(it.number('H'))}}
         assert not it.rest()
         return found
 

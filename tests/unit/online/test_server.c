@@ -207,7 +207,7 @@ static bool bench_open(struct bench *bench, enum trouble trouble)
 		.exchange = &bench->exchange, .program = program, .board = &board_name, .log = &events,
 		.store = &disk, .wait = wait_for_scan, .amend = amend, .context = bench,
 	});
-	return bench->server && server_open(bench->server, ROLE_ENG, "desk", 1) == 0;
+	return bench->server && server_open(bench->server, ROLE_ENG, false, "desk", 1) == 0;
 }
 
 static void bench_close(struct bench *bench)
@@ -298,7 +298,7 @@ static void test_symbols_begin_anew(void)
 		CHECK(symbols_from(&bench, 0) == 2 && symbols_from(&bench, 1) == 1);
 		symbols_from(&bench, 0);
 		server_close(bench.server, 0);
-		CHECK(server_open(bench.server, ROLE_ENG, "desk", 1) == 0);
+		CHECK(server_open(bench.server, ROLE_ENG, false, "desk", 1) == 0);
 		hello(&bench);
 		CHECK_AS(symbols_from(&bench, 1) == 1, "in another session");
 		symbols_from(&bench, 0);
