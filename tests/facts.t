@@ -436,11 +436,12 @@ for my $path (@documents) {
 
 # ---- lists ----
 my @samples = map { basename($_, '.rung') } glob('ladders/*.rung'), map { dirname($_) } glob('ladders/*/main.st');
-list_is('README.md: the samples', [$text{'README.md'} =~ /^\| \[([\w-]+)\]\(ladders\//mg], [grep { !/\.plant$/ } @samples]);
-my @plants = map { s/\.plant$//r } grep { /\.plant$/ } @samples;
-list_is('README.md: the samples with a plant', [$text{'README.md'} =~ /\(ladders\/([\w-]+)\.plant\.rung\)/g], \@plants);
+my @folders = grep { -e "ladders/$_/$_.rung" } map { basename($_) } glob('ladders/*');
+list_is('README.md: the samples', [$text{'README.md'} =~ /^\| \[([\w-]+)\]\(ladders\//mg], [@folders, grep { !/\.plant$/ } @samples]);
+my @plants = (@folders, map { s/\.plant$//r } grep { /\.plant$/ } @samples);
+list_is('README.md: the samples with a plant', [$text{'README.md'} =~ /\(ladders\/(?:[\w-]+\/)?([\w-]+)\.plant\.rung\)/g], \@plants);
 my ($with) = $text{'docs/scenarios.md'} =~ /^(`ladders\/garage-door\.rung`.*? come with one.*)$/m;
-list_is('docs/scenarios.md: the samples with a plant', [$with =~ /`(?:ladders\/)?([\w-]+)\.rung`/g], \@plants);
+list_is('docs/scenarios.md: the samples with a plant', [$with =~ /`(?:ladders\/)?(?:[\w-]+\/)?([\w-]+)\.rung`/g], \@plants);
 list_is('README.md: the documents', [$text{'README.md'} =~ /^\| \[(docs\/[\w-]+\.md)\]/mg],
 	[grep { m{^docs/} && !m{/from-classicladder-export} } @documents]);
 my $run = slurp('run');
