@@ -13,10 +13,14 @@ def samples(screen):
     folder = os.path.join(ROOT, 'ladders')
     paths = [os.path.join(where, name) for where in (folder, os.path.join(folder, 'boards'))
              for name in sorted(os.listdir(where)) if name != 'boards']
-    folders = [path for path in paths if os.path.isdir(path)]
-    assert folders, paths
-    # The scenarios of a folder of plain IEC text open that folder.
-    paths = [path for path in paths if path not in folders]
+    inside = [path for path in paths if os.path.isdir(path)]
+    paths = [path for path in paths if path not in inside]
+    # The scenarios of a folder of plain IEC text open that folder; a rung file in a folder has its name.
+    folders = [path for path in inside if os.path.exists(os.path.join(path, 'main.st'))]
+    assert folders and len(inside) > len(folders), inside
+    for path in inside:
+        name = os.path.basename(path)
+        paths += [os.path.join(path, file) for file in sorted(os.listdir(path)) if file.split('.')[0] == name]
     texts = [os.path.basename(path) for path in paths if not path.endswith('.rung')]
     maps = [path for path in paths if path.endswith('.io')]
     # A scenario opens in the window of its program.
