@@ -11,6 +11,7 @@
 #include "engine/base/ascii.h"
 #include "engine/check/attempt.h"
 #include "engine/check/generic.h"
+#include "engine/check/split.h"
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
@@ -787,6 +788,13 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 
 		snprintf(text, sizeof(text), "%.*s(" DIAG_AND "%.*s[", len, call->text, len, call->text);
 		operand_report(c, DIAG_ST_FOREIGN, at, text);
+		return;
+	}
+	if (word == WORD_COUNT && c->statement && split_find(c->scope, c->pou, call)) {
+		char text[LIMIT_NAME + 1];
+
+		snprintf(text, sizeof(text), "%.*s", call->len, call->text);
+		operand_report(c, DIAG_NO_RESULT, at, text);
 		return;
 	}
 	if (word == WORD_COUNT) {

@@ -5,6 +5,7 @@
 #include "engine/check/check_st.h"
 
 #include "engine/check/letters.h"
+#include "engine/check/split.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/st.h"
 
@@ -267,8 +268,49 @@ static bool is_callable(struct operand_check *c, bool open, const struct st_part
 	return said_call(c, m->kind == MEANING_INSTANCE ? DIAG_ST_NOT_CALLED : DIAG_ST_NOTHING, part);
 }
 
+/* The error of argument @pin of SPLIT_DATE and the like; DIAG_COUNT: none. @given: bit i of pin i. */
+static enum diag_id judge_split(int pin, const struct st_part *part, unsigned int given)
+{
+	if (pin < 0)
+		return part->pin.len ? DIAG_NO_PIN : DIAG_TOO_MANY_OPERANDS;
+	if (given >> pin & 1)
+		return DIAG_DUPLICATE_ARG;
+	if (pin == 0 && part->role == ST_OUTPUT)
+		return DIAG_INPUT_READ;
+	return pin > 0 && part->pin.len && part->role != ST_OUTPUT ? DIAG_PIN_DIRECTION : DIAG_COUNT;
+}
+
+/* SPLIT_DATE(IN := Day, YEAR => Year); the translation compares the types. */
+static void check_split(struct operand_check *c, const struct split *split, struct st_walk *walk)
+{
+	unsigned int given = 0;
+	struct st_part part;
+	char text[LIMIT_ARG];
+	int last = -1;
+
+	while (next_part(c, walk, &part) && part.role != ST_NO_PART) {
+		const int pin = split_pin(split, &part, &last);
+		const enum diag_id wrong = judge_split(pin, &part, part.role == ST_OPEN ? 0 : given);
+
+		if (wrong != DIAG_COUNT && (part.role != ST_OPEN || pin < 0)) {
+			snprintf(text, sizeof(text), "%.*s", part.pin.len ? (int)part.pin.len : 40,
+				 part.pin.len ? part.pin.text : split->word);
+			c->spot = part.pin.len ? part.pin.text : part.text;
+			check_said(c, wrong, text);
+		} else if (part.role != ST_OPEN) {
+			given |= 1u << pin;
+			check_part(c, c->expr, pin ? OPERAND_WRITTEN : OPERAND_READ);
+		}
+	}
+	if (c->good && !walk->missing && !(given & 1)) {
+		c->spot = project_text(c->project, c->item->text);
+		check_said(c, DIAG_MISSING_INPUT, "IN");
+	}
+}
+
 static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 {
+	const struct split *split;
 	struct callee callee;
 	struct st_part part;
 
@@ -278,6 +320,11 @@ static void check_call_parts(struct operand_check *c, struct st_walk *walk)
 	}
 	if (is_function(c, root_of(c->expr))) {
 		check_function(c);
+		return;
+	}
+	split = split_find(c->scope, c->pou, root_of(c->expr));
+	if (split) {
+		check_split(c, split, walk);
 		return;
 	}
 	if (!is_callable(c, lex_is(&walk->lex, "("), &part))

@@ -26,35 +26,44 @@
 #define AS_TEXT "its literal: TRUE, -7, 1.5, T#1h30m, D#2026-11-21"
 #define OF_TEXT "the value of a literal, its type may be missing; ENO FALSE if it is none"
 #define PART    "the same, or the part of it that the type holds"
+#define SAME    "the same text; ENO FALSE if it is cut"
+#define LETTER  "the letter with this Unicode number, or the first one of a text; ENO FALSE if there is none"
+#define NUMBER  "Unicode number of the letter, 0 without one; ENO FALSE if it does not fit"
 
 /* @infix stands between two types. A word without a type in front takes any type of
  * @from; a word without a type behind (if @open) has one of @to, the type at OUT. The
  *   first rule that matches is used. */
+enum { ANY_TEXT, TO_LETTER, OF_LETTER };
+
 static const struct rule {
 	const char *infix;
 	enum word runs;
 	uint16_t from, to;
 	bool open;
 	const char *doc;
+	uint8_t letters;   /* TO_LETTER, OF_LETTER: the text is written CHAR or WCHAR */
 } rules[] = {
-	{ "_BCD_TO_", FN_FROM_BCD, CLASS_BITS, ANY_INT, false, FROM_DIGITS },
-	{ "_TO_BCD_", FN_TO_BCD, ANY_INT, CLASS_BITS, false, TO_DIGITS },
-	{ "_TO_BCD", FN_TO_BCD, ANY_INT, CLASS_BITS, true, TO_DIGITS },
-	{ "_TRUNC_", FN_TRUNC, CLASS_REAL, ANY_INT, false, CUT },
-	{ "_TO_", FN_CONVERT, CLASS_REAL, ANY_INT, false, NEAREST },
-	{ "_TO_", FN_CONVERT, ANY_INT, ANY_INT, false, WHOLE },
-	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLASS_BOOL, false, TRUTH },
-	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, ANY_NUM | CLASS_BITS, false, OTHER },
-	{ "_TO_", FN_CONVERT, CLOCK, ANY_NUM | ANY_BIT, false, IN_MS },
-	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLOCK, false, IN_MS },
-	{ "_TO_", FN_CONVERT, DAY, ANY_NUM | ANY_BIT, false, IN_S },
-	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, DAY, false, IN_S },
-	{ "_TO_", FN_CONVERT, CLOCK, CLOCK, false, PART },
-	{ "_TO_", FN_CONVERT, DAY, DAY, false, PART },
-	{ "_TO_", FN_CONVERT, CLASS_DT, CLASS_TOD, false, PART },
-	{ "_TO_", FN_CONVERT, ANY_SIMPLE, CLASS_STRING, false, AS_TEXT },
-	{ "_TO_", FN_CONVERT, CLASS_STRING, ANY_SIMPLE, false, OF_TEXT },
-	{ "_TO_", FN_CONVERT, ANY_ELEMENTARY, ANY_ELEMENTARY, false, OTHER }, /* TO_INT */
+	{ "_BCD_TO_", FN_FROM_BCD, CLASS_BITS, ANY_INT, false, FROM_DIGITS, ANY_TEXT },
+	{ "_TO_BCD_", FN_TO_BCD, ANY_INT, CLASS_BITS, false, TO_DIGITS, ANY_TEXT },
+	{ "_TO_BCD", FN_TO_BCD, ANY_INT, CLASS_BITS, true, TO_DIGITS, ANY_TEXT },
+	{ "_TRUNC_", FN_TRUNC, CLASS_REAL, ANY_INT, false, CUT, ANY_TEXT },
+	{ "_TO_", FN_LETTER_OF, CLASS_BITS | CLASS_STRING, CLASS_STRING, false, LETTER, TO_LETTER },
+	{ "_TO_", FN_LETTER_NUMBER, CLASS_STRING, CLASS_BITS, false, NUMBER, OF_LETTER },
+	{ "_TO_", FN_CONVERT, CLASS_STRING, CLASS_STRING, false, SAME, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, CLASS_REAL, ANY_INT, false, NEAREST, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_INT, ANY_INT, false, WHOLE, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLASS_BOOL, false, TRUTH, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, ANY_NUM | CLASS_BITS, false, OTHER, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, CLOCK, ANY_NUM | ANY_BIT, false, IN_MS, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLOCK, false, IN_MS, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, DAY, ANY_NUM | ANY_BIT, false, IN_S, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, DAY, false, IN_S, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, CLOCK, CLOCK, false, PART, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, DAY, DAY, false, PART, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, CLASS_DT, CLASS_TOD, false, PART, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_SIMPLE, CLASS_STRING, false, AS_TEXT, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, CLASS_STRING, ANY_SIMPLE, false, OF_TEXT, ANY_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_ELEMENTARY, ANY_ELEMENTARY, false, OTHER, ANY_TEXT }, /* TO_INT */
 };
 
 /* LTIME and the like count nanoseconds; they are the same types as those without L. */
@@ -78,18 +87,29 @@ static const char *find(const char *text, const char *part)
 	return *text ? text : NULL;
 }
 
+/* Also WSTRING, CHAR and WCHAR, which are texts. */
+static enum iec_type type_named(const char *text, size_t len, bool *letter)
+{
+	*letter = ascii_is("CHAR", text, len) || ascii_is("WCHAR", text, len);
+	return *letter || ascii_is("WSTRING", text, len) ? IEC_STRING : iec_type_find(text, len);
+}
+
 /* @text is "_" and the word. */
 static bool take_apart(const char *text, const struct rule *rule, struct parts *out)
 {
 	const char *at = find(text, rule->infix);
 	const char *to = at ? at + strlen(rule->infix) : NULL;
 	const char *from = text + 1;
-	bool is_time;
+	bool is_time, of_letter = false, to_letter = false;
 
 	if (!at || rule->open != !*to)
 		return false;
-	out->from = at == text ? IEC_NONE : iec_type_find(from, (size_t)(at - from));
-	out->to = *to ? iec_type_find(to, strlen(to)) : IEC_NONE;
+	out->from = at == text ? IEC_NONE : type_named(from, (size_t)(at - from), &of_letter);
+	out->to = *to ? type_named(to, strlen(to), &to_letter) : IEC_NONE;
+	if ((rule->letters == TO_LETTER && !to_letter) || (rule->letters == OF_LETTER && !of_letter) ||
+	    (of_letter && !(iec_type_row(out->to)->class & (CLASS_STRING | CLASS_BITS))) ||
+	    (to_letter && rule->letters != TO_LETTER))
+		return false;
 	if ((at != text && !out->from) || (*to && !out->to))
 		return false;
 	is_time = iec_type_row(out->from)->class & TIMES &&

@@ -360,3 +360,56 @@ enum fn_status fn_TO_BCD(struct fn_args *args)
 	args->out.i = (int64_t)digits;
 	return number ? FN_FAILED : FN_OK;
 }
+
+/* ---- bytes the other way round ---- */
+
+static enum fn_status turn_bytes(struct fn_args *args)
+{
+	const unsigned int spare = value_spare_bits(args->type);
+
+	args->out.i = value_wrap(args->type, (int64_t)(__builtin_bswap64((uint64_t)args->in[0].i) >> spare));
+	return FN_OK;
+}
+
+static enum fn_status same_bytes(struct fn_args *args)
+{
+	args->out = args->in[0];
+	return FN_OK;
+}
+
+enum fn_status fn_TO_BIG_ENDIAN(struct fn_args *args)
+{
+	return turn_bytes(args);
+}
+
+enum fn_status fn_TO_LITTLE_ENDIAN(struct fn_args *args)
+{
+	return same_bytes(args);
+}
+
+enum fn_status fn_BIG_ENDIAN_TO(struct fn_args *args)
+{
+	return turn_bytes(args);
+}
+
+enum fn_status fn_LITTLE_ENDIAN_TO(struct fn_args *args)
+{
+	return same_bytes(args);
+}
+
+/* ---- is it one? ---- */
+
+enum fn_status fn_IS_VALID(struct fn_args *args)
+{
+	args->out.i = isfinite(args->in[0].r);
+	return FN_OK;
+}
+
+enum fn_status fn_IS_VALID_BCD(struct fn_args *args)
+{
+	args->out.i = 1;
+	for (uint64_t digits = (uint64_t)args->in[0].i; digits; digits >>= 4)
+		if ((digits & 15u) > 9)
+			args->out.i = 0;
+	return FN_OK;
+}

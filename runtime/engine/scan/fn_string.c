@@ -194,3 +194,59 @@ enum fn_status fn_FIND(struct fn_args *args)
 		}
 	return FN_OK;
 }
+
+/* ---- letters and their numbers: UTF-8; a byte that is none of it is a letter, too ---- */
+
+/* Bytes of the first letter. */
+static uint32_t letter_length(const struct iec_string *s)
+{
+	const uint8_t first = (uint8_t)s->text[0];
+	const uint32_t len = first < 0xc0 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+
+	return s->length < len ? s->length : len;
+}
+
+/* @number as UTF-8 in the room; @high are the marks of the first byte. */
+static void put_letter(struct fn_args *args, uint32_t number, uint32_t len, uint32_t high)
+{
+	args->room->length = (uint16_t)len;
+	for (uint32_t i = len - 1; i > 0; i--, number >>= 6)
+		args->room->text[i] = (char)(0x80 | (number & 0x3f));
+	args->room->text[0] = (char)(high | number);
+	args->out.s = args->room;
+}
+
+enum fn_status fn_LETTER_OF(struct fn_args *args)
+{
+	const uint64_t number = (uint64_t)args->in[0].i;
+
+	if (args->type == IEC_STRING)
+		return give_one(args, before(args->in[0].s, letter_length(args->in[0].s)));
+	if (number > 0x10ffff || (number >= 0xd800 && number < 0xe000))
+		return FN_FAILED;
+	if (number == 0)
+		return give_one(args, (struct piece){ "", 0 });
+	if (number < 0x80)
+		put_letter(args, (uint32_t)number, 1, 0);
+	else if (number < 0x800)
+		put_letter(args, (uint32_t)number, 2, 0xc0);
+	else if (number < 0x10000)
+		put_letter(args, (uint32_t)number, 3, 0xe0);
+	else
+		put_letter(args, (uint32_t)number, 4, 0xf0);
+	return FN_OK;
+}
+
+enum fn_status fn_LETTER_NUMBER(struct fn_args *args)
+{
+	const struct iec_string *s = args->in[0].s;
+	const uint32_t len = s->length ? letter_length(s) : 0;
+	uint32_t number = len ? (uint8_t)s->text[0] : 0;
+
+	if (len > 1)
+		number &= 0x7fu >> len;
+	for (uint32_t i = 1; i < len; i++)
+		number = number << 6 | ((uint8_t)s->text[i] & 0x3f);
+	args->out.i = number;
+	return number >> (8 * iec_type_row(args->result)->size - 1) > 1 ? FN_FAILED : FN_OK;
+}

@@ -33,6 +33,10 @@ struct st_reader {
 	bool comment;        /* the token is a comment or a pragma            */
 	bool empty;          /* a ; alone was read                            */
 	enum { JUMPS_UNKNOWN, JUMPS_NO, JUMPS_YES } jumps; /* JMP stands behind the first doubt */
+	struct lex body;     /* before its first token                        */
+	uint32_t *target;    /* of all JMP of the body: folded names; when they were looked for */
+	int targets;
+	bool looked;
 };
 
 /* The next token, newlines and comments too. */
@@ -246,6 +250,47 @@ static bool has_jumps(struct st_reader *s, struct lex lex)
 	return s->jumps == JUMPS_YES;
 }
 
+/* The labels to which JMP leads, from the whole body. They are looked for once. */
+static void find_targets(struct st_reader *s)
+{
+	struct names *names = &s->r->project->names;
+	struct lex lex = s->body;
+	uint32_t *target;
+
+	s->looked = true;
+	lex.newlines = lex.comments = false;
+	for (; lex.token.kind != TOKEN_END && !lex_is(&lex, "END_PROGRAM") && !lex_is(&lex, "END_FUNCTION") &&
+	       !lex_is(&lex, "END_FUNCTION_BLOCK") && !lex_is(&lex, "END_ACTION") &&
+	       !lex_is(&lex, "END_EXECUTE"); lex_next(&lex)) {
+		if (!lex_is(&lex, "JMP"))
+			continue;
+		lex_next(&lex);
+		target = arena_push(&s->r->project->arena, &s->target, &s->targets, sizeof(*target));
+		if (!target) {
+			s->r->no_memory = true;
+			return;
+		}
+		*target = names_fold(names, reader_intern(s->r, lex.token.text, lex.token.len));
+	}
+}
+
+/* `Name:` in a CASE: a label, not a value, as a JMP leads to it. */
+static bool is_case_label(struct st_reader *s, struct lex lex)
+{
+	const struct token name = lex.token;
+	uint32_t fold;
+
+	if (name.kind != TOKEN_NAME || lex_next(&lex) != TOKEN_SYMBOL || !lex_is(&lex, ":"))
+		return false;
+	if (!s->looked)
+		find_targets(s);
+	fold = s->targets ? names_fold(&s->r->project->names, reader_intern(s->r, name.text, name.len)) : 0;
+	for (int i = 0; i < s->targets; i++)
+		if (s->target[i] == fold)
+			return true;
+	return false;
+}
+
 /* `Label:` before a statement; `Name : value` is one with a wrong sign. */
 static bool is_label(struct st_reader *s, struct lex lex)
 {
@@ -271,6 +316,8 @@ static enum st_kind kind_at(struct st_reader *s, const struct lex *lex)
 			return (enum st_kind)i;
 	if (lex_is(lex, ";"))
 		return ST_EMPTY;
+	if (block && block->kind == ST_CASE && block->choice && !block->other && is_case_label(s, *lex))
+		return ST_LABEL;
 	if (block && block->kind == ST_CASE && !block->other &&
 	    (st_is_choice(*lex) || lex->token.kind == TOKEN_NUMBER))
 		return ST_CHOICE;
@@ -843,6 +890,7 @@ static void read_statements(struct st_reader *s)
 {
 	struct reader *r = s->r;
 
+	s->body = r->lex;
 	while (r->lex.token.kind != TOKEN_END && !r->no_memory && (skip_declarations(s) || !read_ends_block(r))) {
 		if (r->lex.token.kind == TOKEN_NEWLINE) {
 			s->lines++;

@@ -8,6 +8,7 @@
 #include "engine/check/letters.h"
 #include "engine/base/name.h"
 #include "engine/check/mixed.h"
+#include "engine/check/split.h"
 #include "engine/model/expr_args.h"
 #include "engine/translate/ladder_unit.h"
 
@@ -1035,10 +1036,72 @@ static bool is_function(struct st_il *s, const struct expr_node *callee)
 	return !m || m->kind != MEANING_INSTANCE;
 }
 
+/* The value of IN, computed once. */
+static uint32_t split_value(struct st_il *s, const struct split *split)
+{
+	enum iec_type type = IEC_NONE;
+	uint32_t good, operand = ld_value(&s->ld, &type, &good);
+	char text[LIMIT_ARG];
+
+	if (!(iec_type_row(type)->class & split->takes)) {
+		snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", split->word,
+			 type == IEC_NONE ? "this" : iec_type_row(type)->word, split->takes == CLASS_DATE ? "DATE" :
+			 split->takes == CLASS_TOD ? "TIME_OF_DAY" : "DATE_AND_TIME");
+		st_report(s, DIAG_TYPE_NOT_TAKEN, s->ld.expr->node[0].text, text);
+		return 0;
+	}
+	skip_unless(s, good);
+	return keep(s, operand, type);
+}
+
+/* Stores one part of @value in the place that was read. */
+static void split_store(struct st_il *s, enum word fn, uint32_t value)
+{
+	const uint32_t part = temps_number(s->ld.temps, IEC_INT);
+	uint32_t good, place = ld_target(&s->ld, &good);
+
+	want_integer(s, st_type_of(s, place));
+	ld_call(&s->ld, fn);
+	ld_arg(&s->ld, false, s->ld.in_id, value);
+	ld_arg(&s->ld, true, s->ld.out_id, part);
+	ld_call(&s->ld, FN_CONVERT);
+	if (good)
+		ld_arg(&s->ld, false, s->ld.en_id, good);
+	ld_arg(&s->ld, false, s->ld.in_id, part);
+	ld_arg(&s->ld, true, s->ld.out_id, place);
+}
+
+/* SPLIT_DATE(IN := Day, YEAR => Year): IN may stand behind the places. */
+__attribute__((noinline))
+static void split_statement(struct st_il *s, const struct split *split, const struct st_walk *walk)
+{
+	uint32_t value = 0;
+
+	s->call = (struct st_call){ .count = 0 };
+	for (int round = 0; round < 2; round++) {
+		struct st_walk parts = *walk;
+		struct st_part part;
+		int last = -1, pin;
+
+		while (next_part(s, &parts, &part) && part.role != ST_NO_PART) {
+			pin = split_pin(split, &part, &last);
+			if (part.role == ST_OPEN || (pin > 0) != (round == 1))
+				continue;
+			if (pin > 0 && value)
+				split_store(s, split->part[pin - 1].fn, value);
+			else if (pin == 0)
+				value = split_value(s, split);
+		}
+	}
+	if (s->call.skip)
+		here(s, s->call.skip);
+}
+
 /* Not inlined: its locals would be on the stack for every kind of statement. */
 __attribute__((noinline))
 static void call_statement(struct st_il *s, struct st_walk *walk)
 {
+	const struct split *split;
 	struct st_part part;
 	const struct expr_node *root;
 	const struct pou *pou;
@@ -1055,6 +1118,11 @@ static void call_statement(struct st_il *s, struct st_walk *walk)
 	      scope_pou(s->translation->scope, s->pou, st_intern(s, root->text, root->len));
 	if (pou && pou->kind == POU_PROGRAM) {
 		call_program(s, pou, walk);
+		return;
+	}
+	split = split_find(s->translation->scope, s->pou, root);
+	if (split) {
+		split_statement(s, split, walk);
 		return;
 	}
 	if ((pou && pou->kind == POU_ACTION) || !is_function(s, &s->ld.expr->node[s->ld.expr->root])) {

@@ -10,6 +10,7 @@
 #include "engine/base/literal.h"
 #include "engine/check/access.h"
 #include "engine/check/scope.h"
+#include "engine/check/split.h"
 #include "engine/model/st.h"
 #include "engine/model/args.h"
 #include "engine/model/expr.h"
@@ -1256,9 +1257,23 @@ static void walk_assignment(struct xref_walk *walk, uint32_t *slot)
 	xref_scan(walk, from, len - from, XREF_WRITTEN);
 }
 
+/* SPLIT_DATE(Day, Year): IN is read, the places are written. */
+static void walk_split(struct xref_walk *walk, const struct split *split, struct st_walk *parts,
+		       struct expr *expr, struct diag_list *ignored)
+{
+	struct st_part part;
+	int last = -1;
+
+	while (st_next(parts, &part, expr, ignored, (struct diag){ .id = DIAG_COUNT }) &&
+	       part.role != ST_NO_PART)
+		if (split_pin(split, &part, &last) >= 0 && part.role != ST_OPEN)
+			walk_part(walk, &part, parts, last > 0 || part.role == ST_OUTPUT ? XREF_WRITTEN : XREF_READ);
+}
+
 static void walk_statement(struct xref_walk *walk, struct expr *expr, struct diag_list *ignored)
 {
 	enum word word = WORD_COUNT;
+	const struct split *split;
 	struct st_part part;
 	struct st_walk parts;
 
@@ -1269,6 +1284,11 @@ static void walk_statement(struct xref_walk *walk, struct expr *expr, struct dia
 	}
 	while (st_next(&parts, &part, expr, ignored, (struct diag){ .id = DIAG_COUNT }) &&
 	       part.role != ST_NO_PART) {
+		split = part.role == ST_CALLED ? split_find(walk->scope, walk->pou, &expr->node[expr->root]) : NULL;
+		if (split) {
+			walk_split(walk, split, &parts, expr, ignored);
+			return;
+		}
 		if (part.role == ST_CALLED)
 			walk_callee(walk, &part, &parts, expr, &word);
 		else if (part.role == ST_INPUT || part.role == ST_OUTPUT || part.role == ST_OPEN)
