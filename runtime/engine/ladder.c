@@ -470,7 +470,8 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	if (pou_has_any_bounds(unit->pou)) {
 		il->arena = &ladder->arena;
 	} else if (unit->pou->language == LANGUAGE_IL) {
-		*il = unit->pou->il;
+		if (!il_to_il(t, unit, &ladder->scratch))
+			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
 	} else if (unit->pou->language == LANGUAGE_SFC) {
 		if (!bad[unit->pou->rung_count] &&

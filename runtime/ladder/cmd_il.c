@@ -63,6 +63,17 @@ static bool add_temporaries(struct project *project, struct pou *pou,
 	return true;
 }
 
+/* R_EDGE and F_EDGE say it already. */
+static void drop_edges(struct il *il)
+{
+	int kept = 0;
+
+	for (int i = 0; i < il->count; i++)
+		if (!(il->line[i].mark & IL_ENTERS))
+			il->line[kept++] = il->line[i];
+	il->count = kept;
+}
+
 /* Prints what an INCLUDE brought in, instead of its line. */
 static void join_includes(struct project *project)
 {
@@ -90,6 +101,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 		if (pou_has_any_bounds(pou)) /* its calls have one list for each set of bounds */
 			continue;
 		pou->il = *ladder_il(ladder, i);
+		drop_edges(&pou->il);
 		pou->language = LANGUAGE_IL;
 		pou->sfc = NULL;
 		pou->st = NULL;

@@ -36,6 +36,7 @@ enum il_mark {
 	IL_BEGINS = 16,  /* a statement of Structured Text begins here        */
 	IL_INDEX = 32,   /* IL_CALL: a variable plus or minus a constant, which is only the index of
 			  * elements, before the variable changes; its type holds all their indices */
+	IL_ENTERS = 64,  /* before the body: an input with R_EDGE or F_EDGE becomes its edge */
 	IL_WATCHING = 8, /* keeps power while it is watched; the other lines of that list are
 			  * those of the list that runs unwatched */
 };

@@ -492,8 +492,7 @@ static bool read_edge(struct reader *r, struct var *var)
 
 	if (!rising && !lex_is(&r->lex, "F_EDGE"))
 		return true;
-	if (!(r->var_flags & VAR_INPUT) || !r->pou || r->pou->kind != POU_BLOCK ||
-	    r->pou->language != LANGUAGE_ST || var->type != IEC_BOOL || var->array.count)
+	if (!(r->var_flags & VAR_INPUT) || !r->pou || r->pou->kind != POU_BLOCK || var->type != IEC_BOOL || var->array.count)
 		return reader_fail_token(r, DIAG_MISPLACED);
 	var->edge = rising ? 1 : 2;
 	reader_step(r);

@@ -73,6 +73,8 @@ struct ld {
 /** ld_begin - before the first rung of a POU: translation, unit, scratch, il and watch are
  * set.   Fails: false: no memory. */
 bool ld_begin(struct ld *ld);
+/** ld_edges - before the body: an input with R_EDGE or F_EDGE becomes its edge. */
+void ld_edges(struct ld *ld);
 /** ld_rungs - adds the instructions of @count rungs from @first on; @skip: as ld_to_il(). */
 bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip);
 

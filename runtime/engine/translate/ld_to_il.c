@@ -1154,6 +1154,52 @@ bool ld_begin(struct ld *ld)
 	return ld->expr && ld->ignored && ld->out_id && find_targets(ld);
 }
 
+/* Input.M, what the input was at the last call; Input.E, its edge. */
+static uint32_t edge_name(struct ld *ld, const struct var *input, char letter)
+{
+	const char *name = project_text(ld->translation->project, input->name);
+	const size_t size = strlen(name) + sizeof(".M");
+	const struct var like = { .type = IEC_BOOL };
+	char *text = arena_alloc(ld->scratch, size);
+	uint32_t id;
+
+	if (!text) {
+		ld->failed = true;
+		return 0;
+	}
+	snprintf(text, size, "%s.%c", name, letter);
+	id = names_intern(&ld->translation->project->names, text, size - 1);
+	if (!ld_meaning(ld, id)) /* a name that nobody can declare */
+		id = temps_named(ld->temps, text, &like);
+	ld->failed |= !id;
+	return id;
+}
+
+void ld_edges(struct ld *ld)
+{
+	const struct var_table *vars = &ld->unit->pou->vars;
+	const uint8_t mark = ld->mark;
+
+	ld->mark |= IL_MADE | IL_ENTERS;
+	for (int i = 0; i < vars->count && !ld->failed; i++) {
+		const bool rising = vars->var[i].edge == 1;
+		uint32_t before, edge;
+
+		if (!vars->var[i].edge)
+			continue;
+		before = edge_name(ld, &vars->var[i], 'M');
+		edge = edge_name(ld, &vars->var[i], 'E');
+		ld_emit(ld, OP_LD, rising ? 0 : MOD_N, vars->var[i].name);
+		ld_emit(ld, OP_AND, rising ? MOD_N : 0, before);
+		ld_emit(ld, OP_ST, 0, edge);
+		ld_emit(ld, OP_LD, 0, vars->var[i].name);
+		ld_emit(ld, OP_ST, 0, before);
+		ld_emit(ld, OP_LD, 0, edge);
+		ld_emit(ld, OP_ST, 0, vars->var[i].name);
+	}
+	ld->mark = mark;
+}
+
 bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip)
 {
 	for (int i = first; i < first + count && !ld->failed; i++) {
@@ -1180,7 +1226,27 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 		.il = watch ? &unit->watch : &unit->il, .watch = watch,
 	};
 
-	return ld_begin(&ld) && ld_rungs(&ld, 0, unit->pou->rung_count, skip);
+	if (!ld_begin(&ld))
+		return false;
+	ld_edges(&ld);
+	return ld_rungs(&ld, 0, unit->pou->rung_count, skip);
+}
+
+bool il_to_il(struct translation *translation, struct unit *unit, struct arena *scratch)
+{
+	const struct il *written = &unit->pou->il;
+	struct ld ld = { .translation = translation, .unit = unit, .scratch = scratch, .il = &unit->il };
+
+	if (!pou_has_edges(unit->pou)) {
+		unit->il = *written;
+		return true;
+	}
+	if (!ld_begin(&ld))
+		return false;
+	ld_edges(&ld);
+	for (int i = 0; i < written->count && !ld.failed; i++)
+		ld.failed |= !il_add(&unit->il, written->line[i]);
+	return !ld.failed;
 }
 
 /* @locals: those of the POU, too; those that translation made, such as _T1, nobody else writes. */

@@ -1256,36 +1256,6 @@ static void st_item_to_il(struct st_il *s, int at)
 	}
 }
 
-/* Before the body: an input with R_EDGE or F_EDGE becomes its edge. */
-static void take_edges(struct st_il *s)
-{
-	const struct var_table *vars = &s->pou->vars;
-	const uint8_t mark = s->ld.mark;
-
-	s->ld.mark |= IL_MADE;
-	for (int i = 0; i < vars->count; i++) {
-		const char *name = project_text(s->translation->project, vars->var[i].name);
-		const size_t size = strlen(name) + sizeof(".M");
-		uint32_t before, edge;
-		char *text;
-
-		if (!vars->var[i].edge)
-			continue;
-		text = arena_alloc(s->ld.scratch, size);
-		if (!text) {
-			s->ld.failed = true;
-			return;
-		}
-		before = st_intern(s, text, (size_t)snprintf(text, size, "%s.M", name));
-		ld_emit(&s->ld, OP_LD, vars->var[i].edge == 1 ? 0 : MOD_N, vars->var[i].name);
-		ld_emit(&s->ld, OP_AND, vars->var[i].edge == 1 ? MOD_N : 0, before);
-		edge = ld_store_new(&s->ld);
-		copy(s, vars->var[i].name, before);
-		copy(s, edge, vars->var[i].name);
-	}
-	s->ld.mark = mark;
-}
-
 static void put_items(struct st_il *s, int first, int count)
 {
 	s->first = first;
@@ -1460,7 +1430,7 @@ bool st_to_il(struct translation *translation, struct unit *unit, struct arena *
 	if (!ld_begin(&s->ld))
 		return false;
 	temps_rung(s->ld.temps);
-	take_edges(s);
+	ld_edges(&s->ld);
 	entry = entry_of(s);
 	if (entry) {
 		s->leave = new_label(s);

@@ -64,6 +64,9 @@ bool sfc_to_il(struct translation *translation, struct unit *unit,
  * wrong type. */
 bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch);
 
+/** il_to_il - the list that runs, of one that was written. */
+bool il_to_il(struct translation *translation, struct unit *unit, struct arena *scratch);
+
 /**
  * assemble - the code image of all units
  * @watch: with the instrumented section
