@@ -601,16 +601,21 @@ static void use_target(struct operand_check *c, struct operand_spot at, struct e
 
 	if (expr->target_points) {
 		struct expr_node *root = &expr->node[expr->root];
-		char text[2 * LIMIT_NAME + 4];
-		const int len = snprintf(text, sizeof(text), "@%.*s", (int)expr->target_len, expr->target);
+		const struct meaning *m;
+		char text[3 * LIMIT_NAME + 2];
 
-		id = operand_intern(c, text, (size_t)len);
-		operand_write(c, at, id, false);
+		if (expr->target_base >= 0)
+			id = use_indices(c, at, expr, expr->target_base);
+		if (expr->target_index >= 0 && id)
+			id = use_index(c, at, id, expr->target_tail);
+		if (!id)
+			return;
+		snprintf(text, sizeof(text), "@%.*s", (int)sizeof(text) - 2, project_text(c->project, id));
+		m = operand_write(c, at, operand_intern(c, text, strlen(text)), false);
+		if (m && !(m->like && m->like->target))
+			operand_report(c, DIAG_NO_REFERENCE, at, text + 1);
 		c->spot = root->text;
-		if (expr->target_index >= 0)
-			operand_report(c, DIAG_ADR_OF, at, text + 1);
-		else
-			check_place(c, at, expr, root);
+		check_place(c, at, expr, root);
 		return;
 	}
 	if (expr->target_index >= 0) {

@@ -1518,7 +1518,16 @@ static void store_reference(struct chain *c)
 {
 	const struct expr *expr = c->expr;
 	const struct value none = { .type = IEC_NONE };
-	const uint32_t target = signed_operand(c, '@', expr->target, expr->target_len);
+	const char *place = expr->target;
+	size_t len = expr->target_len;
+
+	if (expr->target_index >= 0) {
+		const uint32_t element = chain_target(c);
+
+		place = names_text(&c->ld->translation->project->names, element);
+		len = strlen(place);
+	}
+	const uint32_t target = signed_operand(c, '@', place, len);
 
 	operate(c, FN_MOVE, chain_place_of(c, expr->root), none, IEC_LWORD, target);
 }
