@@ -31,7 +31,7 @@ struct slot {
 };
 
 /* An expression. */
-enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_CALL, TREE_REF };
+enum tree_kind { TREE_CONSTANT, TREE_PLACE, TREE_NEG, TREE_NOT, TREE_TWO, TREE_CALL, TREE_REF, TREE_BOUND };
 struct tree {
 	enum tree_kind kind;
 	enum word fn;               /* of TREE_TWO, TREE_CALL                 */
@@ -49,6 +49,8 @@ struct tree {
 	bool out;                   /* an argument with =>                    */
 	const struct pou *pou;      /* of TREE_CALL: a function of the project */
 	enum iec_type to;           /* of TREE_CALL: what a conversion gives  */
+	bool letter;                /* of TREE_CALL: MID that `Name[3]` is     */
+	bool upper;                 /* of TREE_BOUND: of left, dimension right */
 };
 
 /* `[a]` or `.name` in a place. */
@@ -70,9 +72,12 @@ struct stmt {
 	struct tree *place, *value; /* target, callee, variable of FOR; condition */
 	struct tree *to, *by, *from;
 	struct tree *args;
-	const struct pou *called;   /* a subroutine                           */
+	const struct pou *called;   /* a subroutine, a program                */
+	bool tried;                 /* ?=                                     */
+	struct token label;         /* of ST_JUMP, ST_LABEL                   */
+	int parts;                  /* of SPLIT_DT: which functions it is; 0: another call */
 	struct choice *choice;
-	struct stmt *body;          /* of a branch, a loop, a choice          */
+	struct stmt *body;          /* of a branch, a loop, a choice; of `a := b := 1` b := 1 */
 	struct stmt *other;         /* the next branch; ELSE has no value     */
 	struct stmt *next;
 };
@@ -81,6 +86,7 @@ struct stmt {
 struct body {
 	const struct pou *pou;
 	struct slot frame;          /* of a program, function, subroutine     */
+	bool called;                /* a program that another one calls       */
 	struct stmt *first;
 };
 
@@ -104,12 +110,14 @@ struct st_world {
 };
 
 /* What a statement works on. */
-struct frame_of { struct st_world *world; struct slot *locals; };
+struct frame_of { struct st_world *world; struct slot *locals; const struct stmt *jump; };
 
 /* st_slot.c */
 bool slot_frame(struct st_world *world, struct slot *out, const struct var_table *table);
 /** slot_reset - initial values again; @temporary: only of VAR_TEMP. */
 void slot_reset(struct st_world *world, struct slot *slot, bool temporary);
+/** slot_clone - a slot with the same values; NULL: no memory. */
+struct slot *slot_clone(struct st_world *world, const struct slot *from);
 struct slot *slot_member(struct slot *slot, const char *name, int len);
 void slot_show(struct st_world *world, struct slot *slot, const char *before);
 

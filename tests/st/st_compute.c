@@ -278,6 +278,8 @@ enum iec_type tree_type(struct frame_of *f, const struct tree *tree, enum iec_ty
 		return tree->literal.type;
 	case TREE_REF:
 		return IEC_LWORD;
+	case TREE_BOUND:
+		return IEC_NONE;
 	case TREE_PLACE:
 		slot = tree_first(f, tree);
 		if (tree->bits)
@@ -317,6 +319,18 @@ static struct value constant(const struct tree *tree, enum iec_type type)
 		type = literal.real ? IEC_REAL : IEC_DINT;
 	placed.literal = literal;
 	return placed_read(&placed, type);
+}
+
+/* A constant, as it stands there. */
+static struct value bound(struct frame_of *f, const struct tree *tree, enum iec_type type)
+{
+	const struct slot *slot = tree_first(f, tree->left);
+	struct tree number = { .kind = TREE_CONSTANT };
+
+	for (int i = 1; i < (int)tree->right->literal.value.i; i++)
+		slot = &slot->part[0];
+	number.literal.value.i = slot->low + (tree->upper ? slot->count - 1 : 0);
+	return constant(&number, type);
 }
 
 static struct value tell(struct frame_of *f, const struct tree *tree, enum outcome outcome,
@@ -578,6 +592,7 @@ struct value tree_compute(struct frame_of *f, const struct tree *tree, enum iec_
 	switch (tree->kind) {
 	case TREE_CONSTANT: value = constant(tree, type); break;
 	case TREE_REF: break; /* an assignment stores it */
+	case TREE_BOUND: value = bound(f, tree, type); break;
 	case TREE_PLACE:
 		value = read_place(f, tree, chain);
 		value = tree->bits ? part_of(tree, value) : value;

@@ -14,6 +14,7 @@ struct parse {
 	struct st_world *world;
 	const struct pou *pou;
 	const struct st *st;
+	struct body *body;
 	int at;                     /* the next statement                     */
 	struct lex lex;
 };
@@ -149,21 +150,74 @@ static bool enum_constant(struct parse *p, struct tree *tree, const char *name, 
 	return false;
 }
 
+/* `Name[3]` of a text is MID(Name, 1, 3). */
+static void take_letter(struct parse *p, struct tree *tree)
+{
+	struct frame_of f = { .world = p->world, .locals = &p->body->frame };
+	struct step **last = &tree->step;
+	struct tree *index, *one, *base;
+	const struct slot *slot;
+
+	while (*last && (*last)->next)
+		last = &(*last)->next;
+	if (!*last || !(*last)->index || tree->bits || p->world->why)
+		return;
+	index = (*last)->index;
+	*last = NULL;
+	slot = tree_first(&f, tree);
+	if (!slot || slot->kind != SLOT_VALUE || slot->value->type != IEC_STRING) {
+		add_step(p, last, (struct step){ .index = index });
+		return;
+	}
+	base = give(p, sizeof(*base));
+	one = give(p, sizeof(*one));
+	if (!base || !one)
+		return;
+	*base = *tree;
+	*one = (struct tree){ .kind = TREE_CONSTANT, .literal.value.i = 1, .local = -1, .next = index };
+	base->next = one;
+	*tree = (struct tree){ .kind = TREE_CALL, .fn = FN_MID, .left = base, .local = -1, .letter = true };
+}
+
+/* `Other.Level`: a variable of a program. */
+static struct slot *of_program(struct parse *p, const char *text, int len, const char *dot, const char *stop,
+			       const char **rest)
+{
+	const struct project *project = p->world->project;
+	const char *end = dot ? memchr(dot + 1, '.', (size_t)(stop - dot - 1)) : NULL;
+
+	for (int i = 0; dot && i < project->pou_count; i++) {
+		const char *own = project_text(project, project->pou[i].name);
+
+		if (project->pou[i].kind != POU_PROGRAM || strncasecmp(own, text, (size_t)len) != 0 || own[len])
+			continue;
+		*rest = end ? end + 1 : stop;
+		return slot_member(&p->world->body[i].frame, dot + 1, (int)((end ? end : stop) - dot - 1));
+	}
+	return NULL;
+}
+
 /* The name at the lexer, which is stepped over. */
 static void name(struct parse *p, struct tree *tree)
 {
+	const char *rest;
+
 	const struct token token = p->lex.token;
 	const char *stop = token.text + token.len, *dot = memchr(token.text, '.', token.len);
 	const int len = (int)((dot ? dot : stop) - token.text);
 
 	lex_next(&p->lex);
+	rest = dot ? dot + 1 : stop;
 	tree->kind = TREE_PLACE;
 	tree->local = local_of(p, token.text, len);
 	if (tree->local < 0)
 		tree->global = slot_member(&p->world->globals, token.text, len);
-	if (tree->local >= 0 || tree->global)
-		path(p, tree, dot ? dot + 1 : stop, stop);
-	else if (!enum_constant(p, tree, token.text, len))
+	if (tree->local < 0 && !tree->global)
+		tree->global = of_program(p, token.text, len, dot, stop, &rest);
+	if (tree->local >= 0 || tree->global) {
+		path(p, tree, rest, stop);
+		take_letter(p, tree);
+	} else if (!enum_constant(p, tree, token.text, len))
 		refuse(p, "a name");
 }
 
@@ -225,6 +279,17 @@ static void call(struct parse *p, struct tree *tree)
 		lex_next(&p->lex);
 		tree->kind = TREE_REF;
 		tree->left = expression(p, 1);
+		must(p, ")");
+		return;
+	}
+	if (lex_is(&p->lex, "LOWER_BOUND") || lex_is(&p->lex, "UPPER_BOUND")) {
+		tree->upper = lex_is(&p->lex, "UPPER_BOUND");
+		lex_next(&p->lex);
+		lex_next(&p->lex);
+		tree->kind = TREE_BOUND;
+		tree->left = expression(p, 1);
+		must(p, ",");
+		tree->right = expression(p, 1);
 		must(p, ")");
 		return;
 	}
@@ -431,7 +496,18 @@ static void call_of(struct parse *p, struct stmt *stmt)
 	struct lex ahead = p->lex;
 
 	lex_next(&ahead);
-	if (pou && pou->kind == POU_SUBROUTINE) {
+	stmt->parts = lex_is(&p->lex, "SPLIT_DATE") ? 1 : lex_is(&p->lex, "SPLIT_TOD") ? 2 : lex_is(&p->lex, "SPLIT_DT") ? 3 : 0;
+	if (stmt->parts) {
+		lex_next(&p->lex);
+		must(p, "(");
+		stmt->args = arguments(p);
+	} else if (pou && pou->kind == POU_PROGRAM) {
+		stmt->called = pou;
+		p->world->body[pou - p->world->project->pou].called = true;
+		lex_next(&p->lex);
+		must(p, "(");
+		stmt->args = arguments(p);
+	} else if (pou && pou->kind == POU_SUBROUTINE) {
 		stmt->called = pou;
 	} else if (pou || (lex_is(&ahead, "(") && !memchr(p->lex.token.text, '.', p->lex.token.len) &&
 			   words_find(&p->world->project->words, p->lex.token.text,
@@ -468,20 +544,74 @@ static void loop_of(struct parse *p, struct stmt *stmt)
 	p->at++;
 }
 
+static struct tree *argument_of(struct parse *p, const struct tree *from, struct tree *next)
+{
+	struct tree *tree = from ? new_tree(p, *from) : NULL;
+
+	if (tree)
+		tree->next = next;
+	return tree;
+}
+
+/* `Name[i] := value` is Name := REPLACE(Name, LEFT(value, 1), 1, i). */
+static void store_letter(struct parse *p, struct stmt *stmt)
+{
+	struct tree *name = stmt->place->left, *one = name->next, *index = one->next, *left;
+
+	left = new_tree(p, (struct tree){ .kind = TREE_CALL, .fn = FN_LEFT, .local = -1,
+					  .left = argument_of(p, stmt->value, argument_of(p, one, NULL)) });
+	stmt->value = new_tree(p, (struct tree){ .kind = TREE_CALL, .fn = FN_REPLACE, .local = -1,
+		.left = argument_of(p, name, argument_of(p, left, argument_of(p, one, argument_of(p, index, NULL)))) });
+	stmt->place = argument_of(p, name, NULL);
+}
+
+/* place := value, place REF= other, place ?= reference, a := b := value */
+static void assigned(struct parse *p, struct stmt *stmt)
+{
+	stmt->place = expression(p, UNARY);
+	if (lex_accept(&p->lex, "REF")) {
+		must(p, "=");
+		stmt->value = new_tree(p, (struct tree){ .kind = TREE_REF, .local = -1,
+							 .left = expression(p, 1) });
+		return;
+	}
+	stmt->tried = lex_accept(&p->lex, "?=");
+	if (stmt->tried && lex_accept(&p->lex, "NULL")) {
+		stmt->value = new_tree(p, (struct tree){ .kind = TREE_REF, .local = -1 });
+		return;
+	}
+	if (!stmt->tried)
+		must(p, ":=");
+	const struct lex value = p->lex;
+
+	stmt->value = expression(p, 1);
+	if (lex_is(&p->lex, ":=")) { /* the value is what comes next, stored first */
+		stmt->body = give(p, sizeof(*stmt));
+		p->lex = value;
+		if (!stmt->body)
+			return;
+		stmt->body->kind = ST_ASSIGN;
+		assigned(p, stmt->body);
+	}
+	if (stmt->place && stmt->place->letter && stmt->value)
+		store_letter(p, stmt);
+}
+
 static void statement(struct parse *p, struct stmt *stmt)
 {
 	enter(p);
 	switch ((int)stmt->kind) {
 	case ST_ASSIGN:
-		stmt->place = expression(p, UNARY);
-		if (lex_accept(&p->lex, "REF")) {
-			must(p, "=");
-			stmt->value = new_tree(p, (struct tree){ .kind = TREE_REF, .local = -1,
-								 .left = expression(p, 1) });
-		} else {
-			must(p, ":=");
-			stmt->value = expression(p, 1);
-		}
+		assigned(p, stmt);
+		p->at++;
+		break;
+	case ST_JUMP:
+		must(p, "JMP");
+		stmt->label = p->lex.token;
+		p->at++;
+		break;
+	case ST_LABEL:
+		stmt->label = p->lex.token;
 		p->at++;
 		break;
 	case ST_CALL: call_of(p, stmt); break;
@@ -526,7 +656,7 @@ static struct stmt *block_of(struct parse *p, enum st_kind end)
 
 bool parse_body(struct st_world *world, struct body *body)
 {
-	struct parse p = { .world = world, .pou = body->pou, .st = body->pou->st };
+	struct parse p = { .world = world, .pou = body->pou, .st = body->pou->st, .body = body };
 
 	if (!p.st) {
 		world->why = "a POU that is not Structured Text";

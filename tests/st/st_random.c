@@ -22,6 +22,8 @@ struct maker {
 	enum room room;
 	int loops;              /* around the statement                       */
 	int whiles;             /* counters in use                            */
+	int labels;             /* so far                                     */
+	bool chart;             /* in an action, where no program is called   */
 	bool in_case;
 };
 
@@ -55,16 +57,19 @@ static const char globals[] =
 	"  lr1 : LREAL := 1.0E308;\n  lr2 : LREAL := 0.1;\n"
 	"  t1 : TIME := T#1s500ms;\n  t2 : TIME := T#7ms;\n"
 	"  st1 : STRING[8] := 'pump';\n  st2 : STRING[20] := 'valve 7';\n"
+	"  da1 : DATE := D#2024-02-28;\n  da2 : DATE;\n  td1 : TIME_OF_DAY := TOD#23:59:59;\n  td2 : TIME_OF_DAY;\n"
+	"  dt1 : DATE_AND_TIME := DT#2026-11-30-09:08:07.654;\n  dt2 : DATE_AND_TIME;\n"
 	"  c1 : Colour;\n  c2 : Colour := Blue;\n  m1 : Mode := Slow;\n"
 	"  p1 : Percent;\n  p2 : Percent := 99;\n  q1 : Trim;\n"
 	"  ai : ARRAY[1..5] OF INT := [10, 20, -30, 2(4)];\n  aj : ARRAY[1..5] OF INT;\n"
 	"  ad : ARRAY[0..2, -1..1] OF DINT := [9(6)];\n  ae : ARRAY[0..2, -1..1] OF DINT;\n"
 	"  ar : ARRAY[0..1, 1..2, 0..2] OF REAL;\n  ab : ARRAY[2..4] OF BOOL := [TRUE];\n"
-	"  ap : ARRAY[1..3] OF Percent;\n"
+	"  ap : ARRAY[1..3] OF Percent;\n  two : ARRAY[1..2, -1..0] OF INT := [4, 5, 6, 7];\n"
 	"  pt1 : Point;\n  pt2 : Point;\n  pts : ARRAY[1..3] OF Point;\n"
 	"  wait : TON;\n  late : TOF;\n  pulse : TP;\n  down : CTD;\n  latch : SR;\n  clear : RS;\n  fall : F_TRIG;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
 	"  mix1 : Mix;\n  mix2 : Mix;\n  mixes : ARRAY[0..1, 1..2] OF Mix;\n"
 	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
+	"  pq : REF_TO INT;\n  pr : POINTER TO REAL;\n"
 	"  pi : REF_TO INT;\n  pp : POINTER TO Point;\n  rd : REFERENCE TO DINT;\n"
 	"  g1 : INT;\n  g2 : INT;\n  g3 : INT;\n  g4 : INT;\n"
 	"END_VAR\n\n";
@@ -108,7 +113,7 @@ static bool chance(struct maker *m, uint32_t percent)
 /* ---- operands ---- */
 
 enum type { T_BOOL, T_SINT, T_INT, T_DINT, T_LINT, T_USINT, T_UINT, T_UDINT, T_ULINT, T_BYTE,
-	    T_WORD, T_DWORD, T_LWORD, T_REAL, T_LREAL, T_TIME, T_STRING, T_COLOUR, T_MODE, TYPES };
+	    T_WORD, T_DWORD, T_LWORD, T_REAL, T_LREAL, T_TIME, T_STRING, T_COLOUR, T_MODE, T_DATE, T_TOD, T_DT, TYPES };
 
 /* Variables that may be read; the first ones may be written. */
 static const struct {
@@ -137,6 +142,9 @@ static const struct {
 	[T_STRING] = { "STRING", { "st1", "st2", "pt1.tag" }, { "'abc'", "''", "'long text here'" }, T_STRING },
 	[T_COLOUR] = { "Colour", { "c1", "c2" }, { "Red", "Colour#Blue", "Green" }, T_COLOUR },
 	[T_MODE] = { "Mode", { "m1" }, { "Off", "Mode#Fast", "Slow" }, T_MODE },
+	[T_DATE] = { "DATE", { "da1", "da2" }, { "D#2000-02-29", "D#1969-12-31", "D#2262-04-11" }, T_DATE },
+	[T_TOD] = { "TIME_OF_DAY", { "td1", "td2" }, { "TOD#00:00:00", "TOD#23:59:59.999", "TOD#12:30:00" }, T_TOD },
+	[T_DT] = { "DATE_AND_TIME", { "dt1", "dt2" }, { "DT#1999-12-31-23:59:59", "DT#1900-03-01-00:00:01", "DT#2262-04-11-00:00:00" }, T_DT },
 };
 
 static void expr(struct maker *m, enum type type, int depth);
@@ -207,6 +215,13 @@ static bool element(struct maker *m, enum type type, int depth)
 	return true;
 }
 
+static void letter(struct maker *m)
+{
+	static const char *const texts[] = { "st1", "st2", "pt1.tag", "pts[2].tag", "pp^.tag" };
+
+	say(m, "%s[%s]", PICK(m, texts), one_of(m, (const char *const[]){ "1", "2", "k1", "us2", "i1 MOD 4 + 1", NULL }, 6));
+}
+
 static void variable(struct maker *m, enum type type)
 {
 	if (m->room == ROOM_FUNCTION && type == T_INT && chance(m, 40))
@@ -219,10 +234,14 @@ static void variable(struct maker *m, enum type type)
 		say(m, "%s", chance(m, 50) ? "rd" : "pp^.y");
 	else if (chance(m, 10) && type == T_STRING)
 		say(m, "pp^.tag");
+	else if (chance(m, 20) && type == T_STRING)
+		letter(m);
 	else if (chance(m, 10) && (type == T_BOOL || type == T_BYTE || type == T_WORD))
 		say(m, "%s", type == T_BOOL ? one_of(m, (const char *const[]){ "w1.15", "i2.%X15", "dw1.7", "lw1.63", "pi^.2", "dw2.%W1.%X9", "lw2.%D1.%B2.7", NULL }, 8) :
 		    type == T_BYTE ? one_of(m, (const char *const[]){ "dw1.%B3", "w2.%B0", "i3.%B1", "lw1.%D1.%W0.%B1", NULL }, 5) :
 		    one_of(m, (const char *const[]){ "dw1.%W1", "lw2.%W3", "d2.%W0", NULL }, 4));
+	else if (m->room >= ROOM_ROUTINE && (type == T_INT || type == T_DINT) && chance(m, 5))
+		say(m, "%s", type == T_INT ? chance(m, 50) ? "Side.All" : "Side.Add" : "Side.Half");
 	else if (m->room >= ROOM_ROUTINE && type == T_UINT && chance(m, 20))
 		say(m, "mix1.Total"); /* not while it runs */
 	else
@@ -273,7 +292,7 @@ static enum type any_number(struct maker *m)
 static void comparison(struct maker *m, int depth)
 {
 	static const char *const order[] = { "=", "<>", "<", ">", "<=", ">=" };
-	static const enum type types_of[] = { T_INT, T_INT, T_DINT, T_REAL, T_LREAL, T_TIME, T_STRING, T_ULINT, T_SINT, T_WORD, T_USINT };
+	static const enum type types_of[] = { T_INT, T_INT, T_DINT, T_REAL, T_LREAL, T_TIME, T_STRING, T_ULINT, T_SINT, T_WORD, T_USINT, T_DATE, T_TOD, T_DT };
 	const enum type type = PICK(m, types_of);
 
 	say(m, "(");
@@ -376,7 +395,21 @@ static void called(struct maker *m, enum type type, int depth)
 
 static void own_call(struct maker *m, int depth)
 {
-	if (chance(m, 50)) {
+	if (chance(m, 20)) {
+		say(m, "Reckon(A := ");
+		leaf(m, T_INT, depth);
+		say(m, ", ");
+		if (chance(m, 60)) {
+			say(m, "EN := ");
+			leaf(m, T_BOOL, depth);
+			say(m, ", ");
+		}
+		say(m, "B := ");
+		leaf_or_constant(m, T_INT, depth);
+		if (chance(m, 60))
+			say(m, ", Rest => %s", one_of(m, (const char *const[]){ "i2", "aj[3]", "pt2.x", NULL }, 4));
+		say(m, "%s)", chance(m, 50) ? ", ENO => b3" : "");
+	} else if (chance(m, 50)) {
 		say(m, "Reckon(");
 		leaf_or_constant(m, T_INT, depth);
 		say(m, ", ");
@@ -431,8 +464,20 @@ static void expr(struct maker *m, enum type type, int depth)
 		bool_expr(m, depth);
 	} else if (type == T_STRING) {
 		text_expr(m, depth);
-	} else if (type == T_COLOUR || type == T_MODE) {
+	} else if (type == T_COLOUR || type == T_MODE || type == T_DATE) {
 		leaf(m, type, depth);
+	} else if (type == T_TOD || type == T_DT) {
+		leaf(m, type, depth);
+		say(m, " %s ", chance(m, 50) ? "+" : "-");
+		leaf_or_constant(m, T_TIME, depth);
+	} else if (type == T_TIME && chance(m, 20)) {
+		const enum type dated = T_DATE + (enum type)below(m, 3);
+
+		say(m, "(");
+		leaf(m, dated, depth);
+		say(m, " - ");
+		variable(m, dated);
+		say(m, ")");
 	} else if (type >= T_BYTE && type <= T_LWORD) {
 		if (chance(m, 20)) {
 			say(m, "NOT ");
@@ -459,6 +504,10 @@ static void expr(struct maker *m, enum type type, int depth)
 		leaf_or_constant(m, T_INT, depth);
 		say(m, ", %s, %s)", one_of(m, (const char *const[]){ "i2", "aj[k1]", "pt2.x", NULL }, 4),
 		    chance(m, 50) ? "ai" : "aj");
+	} else if (type == T_DINT && m->room >= ROOM_BLOCK && chance(m, 10)) {
+		say(m, "Sum(%s)", one_of(m, (const char *const[]){ "ai", "aj", "pt1.row", "pts[k1].row", "two[1]", NULL }, 6));
+	} else if (type == T_INT && m->room >= ROOM_BLOCK && chance(m, 5)) {
+		say(m, "Turn(%s, us2)", one_of(m, (const char *const[]){ "ai", "aj", "pt1.row", "two[2]", NULL }, 5));
 	} else if (type == T_INT && m->room >= ROOM_BLOCK && chance(m, 15)) {
 		own_call(m, depth);
 	} else if (type == T_INT && chance(m, 8)) {
@@ -487,10 +536,14 @@ static void tab(struct maker *m, int indent)
 /* A place of the type that may be written. */
 static void target(struct maker *m, enum type type)
 {
-	static const int writable[TYPES] = { 4, 3, 8, 4, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 2, 3, 2, 1 };
+	static const int writable[TYPES] = { 4, 3, 8, 4, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 2, 3, 2, 1, 2, 2, 2 };
 
 	if (chance(m, 30) && element(m, type, 2))
 		return;
+	if (chance(m, 20) && type == T_STRING) {
+		letter(m);
+		return;
+	}
 	if (chance(m, 10) && (type == T_INT || type == T_DINT || type == T_STRING)) {
 		say(m, "%s", type == T_INT ? chance(m, 50) ? "pi^" : "pp^.x" : type == T_STRING ? "pp^.tag" :
 		    chance(m, 50) ? "rd" : "pp^.y");
@@ -528,6 +581,9 @@ static void assignment(struct maker *m)
 		"pi := REF(i4)", "pi := ADR(aj[k1 MOD 5 + 1])", "pi := REF(pt1.x)", "pi := REF(pts[us2 MOD 5].row[2])", "pi := REF(pp^.x)",
 		"pp := REF(pt2)", "pp := ADR(pts[i1 MOD 3 + 1])", "pp := ADR(pts[2])", "rd REF= d3", "rd REF= ad[1, k1 MOD 2]", "rd REF= pp^.y",
 		"pi := REF(k1)", "rd REF= k4", "rd REF= rd",
+		"pi ?= REF(i4)", "pi ?= pq", "pq ?= pi", "pq ?= pr", "pr ?= REF(r1)", "pr ?= pq", "pi ?= NULL", "pq ?= REF(aj[k1 MOD 5 + 1])",
+		"i4 := i2 := i1 + 1", "k1 := ai[k1] := aj[2] := i3", "d3 := d1 := i4 * 1000", "pt1 := pts[2] := pt2", "r1 := i2 := s1", "st1 := st2 := 'xyz'",
+		"dw1.%B1 := by2 := by1", "ai[i1] := pi^ := i4 / i2", "st1[2] := st2[1] := 'q'", "p1 := p2 := i3",
 		"ae[d3] := ad[0]", "pts[k1] := pts[i1]", "ar[0] := ar[1]", "ar[k1, 1] := ar[0][2]",
 	};
 	const enum type type = (enum type)below(m, TYPES);
@@ -690,8 +746,46 @@ static void more_calls(struct maker *m)
 	say(m, "%s;\n", calls[i].end);
 }
 
+static void split_of(struct maker *m)
+{
+	const uint32_t kind = below(m, 3);
+
+	say(m, "SPLIT_%s(", kind == 0 ? "DATE" : kind == 1 ? "TOD" : "DT");
+	if (chance(m, 50)) {
+		expr(m, T_DATE + (enum type)kind, 1);
+		say(m, ", i4, d3%s);\n", chance(m, 50) ? ", by2" : ", aj[k1]");
+	} else {
+		say(m, "%s => %s, IN := ", kind == 1 ? "MINUTE" : "YEAR", one_of(m, (const char *const[]){ "i2", "us2", "w1", "p1", "ai[k1]", NULL }, 6));
+		expr(m, T_DATE + (enum type)kind, 1);
+		say(m, "%s);\n", kind == 2 ? ", MILLISECOND => s1, SECOND => lw1" : "");
+	}
+}
+
+static void program_of(struct maker *m)
+{
+	if (chance(m, 30)) {
+		say(m, "Side();\n");
+		return;
+	}
+	say(m, "Side(Add := ");
+	expr(m, T_INT, 2);
+	if (chance(m, 50)) {
+		say(m, ", On := ");
+		expr(m, T_BOOL, 1);
+	}
+	say(m, "%s);\n", chance(m, 50) ? ", All => i4, Half => ad[1, 0]" : chance(m, 50) ? ", All => aj[k1]" : "");
+}
+
 static void call_of(struct maker *m)
 {
+	if (chance(m, 8)) {
+		split_of(m);
+		return;
+	}
+	if (m->room == ROOM_MAIN && !m->chart && chance(m, 10)) {
+		program_of(m);
+		return;
+	}
 	if (m->room != ROOM_BLOCK && chance(m, 25)) {
 		more_calls(m);
 		return;
@@ -767,6 +861,46 @@ static void leave(struct maker *m)
 		say(m, "RETURN;\n");
 }
 
+/* A jump forward to a label, over some statements; or back, a few times. */
+static void jump_of(struct maker *m, int depth, int indent)
+{
+	const int label = ++m->labels;
+	const bool back = m->room == ROOM_MAIN && m->whiles < 4 && chance(m, 40);
+	const int counter = back ? ++m->whiles : 0;
+
+	if (back) {
+		say(m, "g%d := 0;\n", counter);
+		tab(m, indent);
+		say(m, "L%d:\n", label);
+		tab(m, indent);
+		say(m, "g%d := g%d + 1;\n", counter, counter);
+	} else {
+		say(m, "IF ");
+		expr(m, T_BOOL, 1);
+		say(m, " THEN\n");
+		tab(m, indent + 1);
+		say(m, "JMP L%d;\n", label);
+		tab(m, indent);
+		say(m, "END_IF;\n");
+	}
+	statements(m, depth - 1, 3, indent);
+	tab(m, indent);
+	if (back) {
+		say(m, "IF (g%d < %d) AND ", counter, 1 + (int)below(m, 4));
+		expr(m, T_BOOL, 1);
+		say(m, " THEN\n");
+		tab(m, indent + 1);
+		say(m, "JMP l%d;\n", label);
+		tab(m, indent);
+		say(m, "END_IF;\n");
+		m->whiles--;
+		return;
+	}
+	say(m, "L%d:\n", label);
+	tab(m, indent);
+	assignment(m);
+}
+
 static void statement(struct maker *m, int depth, int indent)
 {
 	const uint32_t kind = below(m, 100);
@@ -780,11 +914,13 @@ static void statement(struct maker *m, int depth, int indent)
 		for_of(m, depth, indent);
 	else if (depth > 0 && kind < 45 && m->whiles < 4 && m->room == ROOM_MAIN)
 		while_of(m, depth, indent);
-	else if (kind < 57 && m->room != ROOM_FUNCTION)
+	else if (depth > 0 && kind < 49)
+		jump_of(m, depth, indent);
+	else if (kind < 59 && m->room != ROOM_FUNCTION)
 		call_of(m);
-	else if (kind < 58)
+	else if (kind < 60)
 		say(m, ";\n");
-	else if (kind < 62 && depth < 3) {
+	else if (kind < 64 && depth < 3) {
 		say(m, "IF ");
 		expr(m, T_BOOL, 1);
 		say(m, " THEN ");
@@ -808,13 +944,17 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 	random_seed(&m.source, seed);
 	say(&m, "%s%s", types, globals);
 	m.room = ROOM_FUNCTION;
-	say(&m, "FUNCTION Reckon : INT ST\nVAR_INPUT\n  A : INT;\n  B : INT;\nEND_VAR\nVAR\n  Own : INT := 3;\nEND_VAR\n"
-		"  Reckon := A * 2 - B;\n");
+	say(&m, "FUNCTION Reckon : INT ST\nVAR_INPUT\n  A : INT;\n  B : INT;\nEND_VAR\nVAR_OUTPUT\n  Rest : INT;\nEND_VAR\nVAR\n  Own : INT := 3;\nEND_VAR\n"
+		"  Reckon := A * 2 - B;\n  Rest := A / 2;\n");
 	statements(&m, 1, 3, 1);
 	if (chance(&m, 20))
 		say(&m, "  ENO := A <> B;\n");
 	say(&m, "END_FUNCTION\n\nFUNCTION Carry : DINT ST\nVAR_INPUT\n  By : INT;\nEND_VAR\nVAR_IN_OUT\n  One : INT;\n  Row : ARRAY[1..5] OF INT;\nEND_VAR\n"
 		"  Carry := One;\n  Row[By] := One;\n  One := By + i4;\n");
+	say(&m, "END_FUNCTION\n\nFUNCTION Sum : DINT ST\nVAR_INPUT\n  Row : ARRAY[*] OF INT;\nEND_VAR\nVAR\n  n : DINT;\nEND_VAR\n"
+		"  FOR n := LOWER_BOUND(Row, 1) TO UPPER_BOUND(Row, 1) DO\n    Sum := Sum + Row[n];\n  END_FOR;\n"
+		"END_FUNCTION\n\nFUNCTION Turn : INT ST\nVAR_IN_OUT\n  Row : ARRAY[*] OF INT;\nEND_VAR\nVAR_INPUT\n  Place : USINT;\nEND_VAR\n"
+		"  Turn := Row[Place];\n  Row[UPPER_BOUND(Row, 1)] := Row[LOWER_BOUND(Row, 1)];\n");
 	say(&m, "END_FUNCTION\n\nFUNCTION_BLOCK Mix ST\nVAR_INPUT\n  Add : INT := 2;\nEND_VAR\nVAR_IN_OUT\n  Both : INT;\nEND_VAR\n"
 		"VAR_OUTPUT\n  Half : INT;\n  Total : UINT;\nEND_VAR\nVAR\n  Kept : INT;\n  Inner : TON;\nEND_VAR\n"
 		"VAR_TEMP\n  Fresh : INT := 4;\nEND_VAR\n"
@@ -824,14 +964,18 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 	say(&m, "END_FUNCTION_BLOCK\n\nSUBROUTINE Start ST\nVAR\n  Starts : INT;\nEND_VAR\n  Starts := Starts + 1;\n");
 	m.room = ROOM_ROUTINE;
 	statements(&m, 1, 3, 1);
+	say(&m, "END_SUBROUTINE\n\nPROGRAM Side ST\nVAR_INPUT\n  Add : INT := 1;\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  All : INT;\n  Half : DINT;\nEND_VAR\n"
+		"VAR_TEMP\n  Fresh : INT := 2;\nEND_VAR\n"
+		"  All := All + Add + Fresh;\n  Fresh := 9;\n  Half := All / 2;\n  IF On THEN\n    i4 := All;\n  END_IF;\n");
 	const bool action = chance(&m, 25); /* of a chart whose step is always active */
 
-	say(&m, action ? "END_SUBROUTINE\n\nPROGRAM Main SFC\n  INITIAL_STEP Always:\n    Do(N);\n  END_STEP\n  ACTION Do:\n" :
-		"END_SUBROUTINE\n\nPROGRAM Main ST\n");
+	say(&m, action ? "END_PROGRAM\n\nPROGRAM Main SFC\n  INITIAL_STEP Always:\n    Do(N);\n  END_STEP\n  ACTION Do:\n" :
+		"END_PROGRAM\n\nPROGRAM Main ST\n");
 	m.room = ROOM_MAIN;
+	m.chart = action;
 	if (chance(&m, 75))
 		say(&m, "  pi := REF(i4);\n  pp := REF(pts[us2 MOD 3 + 1]);\n  rd REF= d3;\n");
 	statements(&m, 3, 7, 1);
-	say(&m, "  Start();\n%sEND_PROGRAM\n", action ? "  END_ACTION\n" : "");
+	say(&m, "%s  Start();\n%sEND_PROGRAM\n", action ? "" : "  Side(Add := 1);\n", action ? "  END_ACTION\n" : "");
 	return m.used;
 }

@@ -9,7 +9,7 @@
 #include <strings.h>
 
 /* What a statement leaves. */
-enum flow { FLOW_ON, FLOW_EXIT, FLOW_CONTINUE, FLOW_RETURN };
+enum flow { FLOW_ON, FLOW_EXIT, FLOW_CONTINUE, FLOW_RETURN, FLOW_JUMP };
 
 static enum flow run_list(struct frame_of *f, const struct stmt *stmt);
 
@@ -27,6 +27,22 @@ static bool is_true(struct frame_of *f, const struct tree *tree)
 static bool fits_text(const struct slot *slot, struct value value)
 {
 	return value.type != IEC_STRING || value.len <= slot->value->room;
+}
+
+/* pointer ?= other: NULL, if they are for different types. */
+static void try_pointer(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+	struct slot *pointer = tree_slot(f, stmt->place, &chain), *other;
+	const bool refers = stmt->value->kind == TREE_REF;
+	enum iec_type type;
+
+	other = !refers ? tree_slot(f, stmt->value, &chain) : stmt->value->left ? tree_first(f, stmt->value->left) : NULL;
+	type = !other ? IEC_NONE : refers ? other->value->type : other->shape->value->type;
+	if (pointer->shape->value->type != type)
+		pointer->led = NULL;
+	else
+		pointer->led = refers ? tree_slot(f, stmt->value->left, &chain) : other->led;
 }
 
 /* A pointer gets a place, which may be nowhere. */
@@ -53,6 +69,12 @@ static void assign(struct frame_of *f, const struct stmt *stmt)
 	struct value value, index[INDICES_MAX] = { { 0 } };
 	struct slot *to, *from;
 
+	if (stmt->body)
+		assign(f, stmt->body);
+	if (stmt->tried) {
+		try_pointer(f, stmt);
+		return;
+	}
 	if (stmt->value->kind == TREE_REF) {
 		refer(f, stmt);
 		return;
@@ -116,12 +138,19 @@ struct given {
 	int count;
 };
 
+static bool is_pin(const struct tree *arg, const char *name)
+{
+	return arg->pin && arg->pin_len == (int)strlen(name) && strncasecmp(arg->pin, name, strlen(name)) == 0;
+}
+
 static void read_arguments(struct frame_of *f, const struct tree *arg, struct slot *callee,
 			   struct chain_state *chain, struct given *given)
 {
 	int last = -1;
 
 	for (; arg && given->count < ARGS_MAX; arg = arg->next) {
+		if (is_pin(arg, "EN") || (arg->out && is_pin(arg, "ENO")))
+			continue;
 		const int to = target_of(callee, arg, &last), n = given->count++;
 		const bool place = to >= 0 && callee->part[to].flags & VAR_IN_OUT;
 
@@ -136,14 +165,23 @@ static void read_arguments(struct frame_of *f, const struct tree *arg, struct sl
 	}
 }
 
-static void give_arguments(struct slot *callee, const struct given *given)
+static void give_arguments(struct st_world *world, struct slot *callee, const struct given *given)
 {
 	for (int i = 0; i < given->count; i++) {
 		struct slot *to = &callee->part[given->to[i]];
 
 		if (given->arg[i]->out)
 			continue;
-		if (given->whole[i]) {
+		if (given->whole[i] && to->var && to->var->any_bounds) {
+			const struct slot own = *to, *clone = slot_clone(world, given->whole[i]);
+
+			if (clone) {
+				*to = *clone;
+				to->name = own.name;
+				to->flags = own.flags;
+				to->var = own.var;
+			}
+		} else if (given->whole[i]) {
 			slot_copy(to, given->whole[i]);
 		} else {
 			const int room = to->value->room;
@@ -178,8 +216,37 @@ static const struct body *body_of(const struct st_world *world, const struct pou
 	return &world->body[pou - world->project->pou];
 }
 
+/* ENO => of a function. */
+static void tell_result(struct frame_of *f, const struct tree *call, bool good)
+{
+	for (const struct tree *arg = call->left; arg; arg = arg->next) {
+		struct chain_state chain = { .on = true };
+		const bool eno = arg->out && is_pin(arg, "ENO");
+		struct slot *to = eno ? tree_slot(f, arg, &chain) : NULL;
+
+		if (to)
+			slot_put(f->world, to, value_bool(good));
+	}
+}
+
+static bool run_called(struct frame_of *f, const struct tree *call, struct chain_state *chain,
+		       struct value *out);
+
 bool run_function(struct frame_of *f, const struct tree *call, struct chain_state *chain,
 		  struct value *out)
+{
+	bool good;
+
+	for (const struct tree *arg = call->left; arg; arg = arg->next)
+		if (is_pin(arg, "EN"))
+			chain->on &= value_is_true(tree_compute(f, arg, IEC_BOOL, chain));
+	good = run_called(f, call, chain, out);
+	tell_result(f, call, good);
+	return good;
+}
+
+static bool run_called(struct frame_of *f, const struct tree *call, struct chain_state *chain,
+		       struct value *out)
 {
 	const struct body *body = body_of(f->world, call->pou);
 	struct slot callee = body->frame;
@@ -199,7 +266,7 @@ bool run_function(struct frame_of *f, const struct tree *call, struct chain_stat
 	for (int i = 0; i < callee.count; i++)
 		if (vars_is_eno(&call->pou->vars, i))
 			callee.part[i].value->i = 1;
-	give_arguments(&callee, &given);
+	give_arguments(f->world, &callee, &given);
 	run_body(f->world, body, &callee);
 	for (int i = 0; i < callee.count; i++)
 		if (vars_is_eno(&call->pou->vars, i))
@@ -245,7 +312,7 @@ static void call_instance(struct frame_of *f, const struct stmt *stmt)
 		f->world->errors++;
 		return;
 	}
-	give_arguments(callee, &given);
+	give_arguments(f->world, callee, &given);
 	if (callee->kind == SLOT_BLOCK) {
 		callee->block->called = true;
 		block_call(callee->block, f->world->now_ns);
@@ -256,11 +323,99 @@ static void call_instance(struct frame_of *f, const struct stmt *stmt)
 	take_results(f, callee, &given);
 }
 
+/* Other(In := 5, Out => Level): assignments before and behind its body. */
+static void call_program(struct frame_of *f, const struct stmt *stmt)
+{
+	struct st_world *world = f->world;
+	const struct body *body = body_of(world, stmt->called);
+	struct slot frame = body->frame;
+	int last = -1;
+
+	for (int after = 0; after < 2; after++) {
+		for (const struct tree *arg = stmt->args; arg; arg = arg->next) {
+			struct tree place = { .kind = TREE_PLACE, .local = -1, .global = &frame.part[target_of(&frame, arg, &last)] };
+			struct tree value = *arg;
+			const struct stmt one = { .kind = ST_ASSIGN, .place = arg->out ? &value : &place,
+						  .value = arg->out ? &place : &value };
+
+			if (arg->out == (after == 1))
+				assign(f, &one);
+		}
+		if (after == 0) {
+			slot_reset(world, &frame, true);
+			run_body(world, body, &frame);
+		}
+	}
+}
+
+/* Days since 1970-01-01 as a day of the calendar, year by year. */
+static void calendar(int64_t days, int64_t part[3])
+{
+	static const int length[] = { 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31 };
+	int64_t year = 1970;
+	bool leap;
+
+	for (;;) {
+		leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+		if (days < 0)
+			year--, days += (year % 4 == 0 && year % 100 != 0) || year % 400 == 0 ? 366 : 365;
+		else if (days >= 365 + leap)
+			year++, days -= 365 + leap;
+		else
+			break;
+	}
+	part[0] = year;
+	for (part[1] = 1; days >= length[part[1] - 1] + (part[1] == 2 && leap); part[1]++)
+		days -= length[part[1] - 1] + (part[1] == 2 && leap);
+	part[2] = days + 1;
+}
+
+static void split(struct frame_of *f, const struct stmt *stmt)
+{
+	static const char *const pins[] = { "YEAR", "MONTH", "DAY", "HOUR", "MINUTE", "SECOND", "MILLISECOND" };
+	const int64_t day_ns = INT64_C(86400000000000);
+	const int first = stmt->parts == 2 ? 3 : 0;
+	struct chain_state chain = { .on = true };
+	int64_t part[7], of_day;
+	struct value in = { 0 };
+	int number = first;
+
+	for (const struct tree *arg = stmt->args; arg; arg = arg->next)
+		if (is_pin(arg, "IN") || (!arg->pin && arg == stmt->args))
+			in = tree_compute(f, arg, IEC_NONE, &chain);
+	if (!chain.on)
+		return;
+	of_day = in.i % day_ns + (in.i % day_ns < 0 ? day_ns : 0);
+	calendar((in.i - of_day) / day_ns, part);
+	part[3] = of_day / INT64_C(3600000000000);
+	part[4] = of_day / INT64_C(60000000000) % 60;
+	part[5] = of_day / 1000000000 % 60;
+	part[6] = of_day / 1000000 % 1000;
+	for (const struct tree *arg = stmt->args; arg; arg = arg->next) {
+		struct tree whole = { .kind = TREE_CONSTANT, .literal.type = IEC_INT };
+		struct tree place = *arg, turned = { .kind = TREE_CALL, .fn = FN_CONVERT, .left = &whole };
+		const struct stmt one = { .kind = ST_ASSIGN, .place = &place, .value = &turned };
+
+		if (is_pin(arg, "IN") || (!arg->pin && arg == stmt->args))
+			continue;
+		for (int i = 0; arg->pin && i < 7; i++)
+			if (is_pin(arg, pins[i]))
+				number = i;
+		whole.literal.value.i = part[number++];
+		turned.to = tree_type(f, arg, IEC_NONE);
+		assign(f, &one);
+	}
+}
+
 static void call(struct frame_of *f, const struct stmt *stmt)
 {
 	struct chain_state chain = { .on = true };
 
-	if (stmt->called) {
+	if (stmt->parts) {
+		split(f, stmt);
+	} else if (stmt->called && stmt->called->kind == POU_PROGRAM) {
+		call_program(f, stmt);
+	} else if (stmt->called) {
 		const struct body *body = body_of(f->world, stmt->called);
 		struct slot frame = body->frame;
 
@@ -323,9 +478,9 @@ static enum flow run_if(struct frame_of *f, const struct stmt *stmt)
 /* Leaves @flow what goes on outside of the loop; true: the loop ends. */
 static bool loop_ends(enum flow *flow)
 {
-	const bool ends = *flow == FLOW_EXIT || *flow == FLOW_RETURN;
+	const bool ends = *flow == FLOW_EXIT || *flow == FLOW_RETURN || *flow == FLOW_JUMP;
 
-	if (*flow != FLOW_RETURN)
+	if (*flow != FLOW_RETURN && *flow != FLOW_JUMP)
 		*flow = FLOW_ON;
 	return ends;
 }
@@ -422,26 +577,43 @@ static enum flow run_one(struct frame_of *f, const struct stmt *stmt)
 	case ST_EXIT: return FLOW_EXIT;
 	case ST_CONTINUE: return FLOW_CONTINUE;
 	case ST_RETURN: return FLOW_RETURN;
+	case ST_JUMP: f->jump = stmt; return FLOW_JUMP;
 	default: break;
 	}
 	return FLOW_ON;
 }
 
-static enum flow run_list(struct frame_of *f, const struct stmt *stmt)
+/* The label that the jump names, among these statements; NULL: it stands further outside. */
+static const struct stmt *label_among(const struct stmt *first, const struct stmt *jump)
+{
+	for (; first; first = first->next)
+		if (first->kind == ST_LABEL && first->label.len == jump->label.len &&
+		    strncasecmp(first->label.text, jump->label.text, jump->label.len) == 0)
+			return first;
+	return NULL;
+}
+
+static enum flow run_list(struct frame_of *f, const struct stmt *first)
 {
 	enum flow flow = FLOW_ON;
 
-	for (; stmt && flow == FLOW_ON && !f->world->lost; stmt = stmt->next) {
+	for (const struct stmt *stmt = first; stmt && flow == FLOW_ON && !f->world->lost; stmt = stmt->next) {
 		if (++f->world->steps > STEPS_MAX)
 			f->world->lost = true;
 		flow = run_one(f, stmt);
+		if (flow != FLOW_JUMP)
+			continue;
+		stmt = label_among(first, f->jump);
+		if (!stmt)
+			return FLOW_JUMP;
+		flow = FLOW_ON;
 	}
 	return flow;
 }
 
 bool run_body(struct st_world *world, const struct body *body, struct slot *locals)
 {
-	struct frame_of f = { world, locals };
+	struct frame_of f = { .world = world, .locals = locals };
 
 	run_list(&f, body->first);
 	return !world->lost;
@@ -504,7 +676,7 @@ bool st_world_scan(struct st_world *world, int64_t now_ns)
 	for (int i = 0; i < world->project->pou_count; i++) {
 		struct slot frame = world->body[i].frame;
 
-		if (world->project->pou[i].kind != POU_PROGRAM)
+		if (world->project->pou[i].kind != POU_PROGRAM || world->body[i].called)
 			continue;
 		slot_reset(world, &frame, true);
 		if (!run_body(world, &world->body[i], &frame))

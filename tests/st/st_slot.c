@@ -171,6 +171,29 @@ void slot_reset(struct st_world *world, struct slot *slot, bool temporary)
 	}
 }
 
+static bool clone_into(struct st_world *world, struct slot *to, const struct slot *from)
+{
+	*to = *from;
+	if (from->kind == SLOT_VALUE) {
+		to->value = arena_alloc(&world->arena, sizeof(*to->value));
+		if (to->value)
+			*to->value = *from->value;
+		return to->value;
+	}
+	to->part = arena_alloc(&world->arena, (size_t)from->count * sizeof(*to->part));
+	for (int i = 0; to->part && i < from->count; i++)
+		if (!clone_into(world, &to->part[i], &from->part[i]))
+			return false;
+	return to->part;
+}
+
+struct slot *slot_clone(struct st_world *world, const struct slot *from)
+{
+	struct slot *slot = arena_alloc(&world->arena, sizeof(*slot));
+
+	return slot && clone_into(world, slot, from) ? slot : NULL;
+}
+
 struct slot *slot_member(struct slot *slot, const char *name, int len)
 {
 	for (int i = 0; slot && slot->kind != SLOT_ARRAY && i < slot->count; i++)

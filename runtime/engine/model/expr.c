@@ -776,7 +776,7 @@ static bool take_target_index(struct parser *parser)
 /* Steps behind the ] that closes the [ at the token; false: there is none. */
 static bool skip_brackets(struct lex *lex)
 {
-	int depth = 0;
+	int depth = 0, parens = 0;
 
 	for (;;) {
 		if (lex_is(lex, "["))
@@ -784,8 +784,10 @@ static bool skip_brackets(struct lex *lex)
 		else if (lex_is(lex, "]") && --depth == 0)
 			return lex_next(lex), true;
 		else if (lex->token.kind == TOKEN_END ||
-			 lex->token.kind == TOKEN_NEWLINE || lex_is(lex, ":="))
+			 lex->token.kind == TOKEN_NEWLINE || (lex_is(lex, ":=") && parens <= 0))
 			return false;
+		parens += lex_is(lex, "("); /* T[F(A := 1)] */
+		parens -= lex_is(lex, ")");
 		lex_next(lex);
 	}
 }

@@ -153,9 +153,21 @@ static bool stores(const struct ld *ld, const struct il_line *line, uint32_t ope
 	       line->operand == operand && line->rung == ld->number;
 }
 
+/* Is a value the same when it has been stored there? A number may get another type or be beyond a subrange, a text
+ * may be cut, an element may not exist. */
+static bool stores_all(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *m = ld_meaning(ld, operand);
+
+	return m && !meaning_is_indexed(m) &&
+	       (m->type == IEC_BOOL || reserved_generated(project_text(ld->translation->project, operand)));
+}
+
 /* Was it stored by the line before? Then it is still the result. */
 static bool is_result(struct ld *ld, uint32_t operand)
 {
+	if (!stores_all(ld, operand))
+		return false;
 	if (stores(ld, last_line(ld, true), operand))
 		return true;
 	if (ld->mark || !stores(ld, last_line(ld, false), operand))
