@@ -153,14 +153,35 @@ static bool stores(const struct ld *ld, const struct il_line *line, uint32_t ope
 	       line->operand == operand && line->rung == ld->number;
 }
 
-/* Is a value the same when it has been stored there? A number may get another type or be beyond a subrange, a text
- * may be cut, an element may not exist. */
+/* The type of the result behind line @at: of LD, and of operators on it; IEC_NONE: it is not known. */
+static enum iec_type result_behind(struct ld *ld, int at)
+{
+	const struct il_line *line;
+	const struct meaning *m;
+
+	for (; at >= 0; at--) {
+		line = &ld->il->line[at];
+		if (line->kind == IL_OP && line->op == OP_LD && !line->modifiers) {
+			m = ld_meaning(ld, line->operand);
+			return m ? m->type : IEC_NONE;
+		}
+		if (line->kind != IL_FN || !word_shares(word_row((enum word)line->word)))
+			break;
+	}
+	return IEC_NONE;
+}
+
+/* Is a value the same when it has been stored there by the last line? A number may get another type or be beyond a
+ * subrange, a text may be cut, an element may not exist. */
 static bool stores_all(struct ld *ld, uint32_t operand)
 {
 	const struct meaning *m = ld_meaning(ld, operand);
 
-	return m && !meaning_is_indexed(m) &&
-	       (m->type == IEC_BOOL || reserved_generated(project_text(ld->translation->project, operand)));
+	if (!m || meaning_is_indexed(m))
+		return false;
+	if (m->type == IEC_BOOL || reserved_generated(project_text(ld->translation->project, operand)))
+		return true;
+	return m->type != IEC_STRING && !meaning_is_ranged(m) && result_behind(ld, ld->il->count - 2) == m->type;
 }
 
 /* Was it stored by the line before? Then it is still the result. */
