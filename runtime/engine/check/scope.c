@@ -287,6 +287,8 @@ static bool is_step(const struct scope *scope, uint32_t table, const char *text,
 	return slot && slot->flags & VAR_SFC;
 }
 
+static struct answer *find_answer(const struct scope *scope, uint32_t table, uint32_t text);
+
 /* A declared name alone. Scan-safe: no. False: it is none. */
 static bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
 			    size_t len, struct meaning *out)
@@ -295,10 +297,15 @@ static bool scope_mean_name(const struct scope *scope, uint32_t table, const cha
 	uint32_t id = names_intern(names, text, len);
 	const struct declared *slot = find_declared(scope, table,
 						    names_fold(names, id));
+	const struct answer *made = slot || *text != '_' ? NULL : find_answer(scope, table, id);
 
 	if (slot)
 		mean_variable(scope, slot, out);
-	return slot != NULL;
+	else if (made && made->known && made->meaning.var) /* scope_add() */
+		*out = made->meaning;
+	else
+		return false;
+	return true;
 }
 
 static bool mean_system(const char *text, size_t len, struct meaning *out)
