@@ -83,8 +83,13 @@ $(BUILD)/%.o: %.c Makefile
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
+# ladder-modbus needs libmodbus. MODBUS=no leaves it out; so does a cross build that has no PKG_CONFIG_LIBDIR.
+MODBUS   ?= $(if $(filter 1,$(SMALL)),,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),$(if $(filter 1,$(STATIC)),,here)),$(shell $(PKG_CONFIG) --exists libmodbus 2>/dev/null && echo yes)))
+override MODBUS := $(filter yes,$(MODBUS))
+
 # Tests are in folders like those of the sources: tests/unit/scan/test_fb.c. A new one is found by its name.
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
+UNIT := $(filter-out $(if $(MODBUS),,$(BUILD)/unit/modbus/%),$(UNIT))
 # The tests of a folder are one program (tests/room.c). Compiling them takes longer than running them: -O0, but not for an emulator.
 TEST_C    = $(if $(CROSS),,$(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE))
 ROOM_TEST = $(TEST_C) -DTEST_MAIN=main_$(notdir $*) -include tests/room.h -Wno-missing-prototypes
@@ -99,13 +104,16 @@ UNIT_ROOMS := $(call folders,$(UNIT))
 $(foreach r,$(UNIT_ROOMS),$(eval $(call room,$r,$(filter $r/test_%,$(UNIT)),$(patsubst $(BUILD)/%,$(BUILD)/tests/%.o,$(filter $r/test_%,$(UNIT))))))
 $(UNIT_ROOMS:%=%/tests): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) $(ROOM_LIB) -lm
 $(UNIT): ; @ln -sf tests $@
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
 $(BUILD)/unit/online/tests: $(call obj,$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c)))
 $(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c runtime/ladderd/disk.c runtime/ladderd/stats.c runtime/ladderd/alarm_store.c runtime/online/alarms.c runtime/online/wire.c)
+$(BUILD)/unit/modbus/tests: $(call obj,$(filter-out %/main.c %/session.c,$(wildcard runtime/modbus/*.c)))
+$(BUILD)/unit/modbus/tests: private ROOM_LIB = $(MODBUS_LIB)
+$(BUILD)/unit/modbus/tests: private LDFLAGS += -Wl,--gc-sections
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c) runtime/ladder/foreign.c)
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
@@ -168,6 +176,16 @@ $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),$(ONLINE_SERIA
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(PRINT) $(THREADS) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
+
+MODBUS_LIB := $(if $(MODBUS),$(shell $(PKG_CONFIG) --libs libmodbus) -pthread)
+MODBUS_O := $(if $(MODBUS),$(call obj,$(wildcard runtime/modbus/*.c)))
+$(MODBUS_O): WARN += $(FRAME)
+$(MODBUS_O): CPPFLAGS += $(if $(MODBUS),$(shell $(PKG_CONFIG) --cflags libmodbus))
+all: $(if $(MODBUS),$(BUILD)/ladder-modbus,$(if $(CROSS)$(filter 1,$(SMALL) $(STATIC)),,no-modbus))
+no-modbus: ; @echo "make: ladder-modbus is left out: it needs libmodbus" >&2
+.PHONY: no-modbus
+$(BUILD)/ladder-modbus: $(MODBUS_O) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(MODBUS_LIB) -lm
 
 # All gpio drivers with fakes of libgpiod and the kernel: one suite, built three times.
 HAL_TEST := $(BUILD)/tests/hal

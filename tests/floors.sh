@@ -31,6 +31,7 @@ hal                       engine/base engine/scan/image.h engine/scan/code_acces
 runtime/ladder            $doors engine/exchange engine/exchange/classic engine/exchange/image hal online engine/text engine/catalog.def
 runtime/online            engine/base engine/scan
 runtime/attach
+runtime/modbus            engine/base hal online
 runtime/guard
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online guard/say.h
 editor-gtk/kit/gtk48      $doors
@@ -55,7 +56,7 @@ editor-gtk/window $doors $sheets online editor-gtk/panels editor-gtk/render hal
 "
 # Libraries that a room may include with < >, by the beginning of the path; all others
 # belong to libc.
-foreign='gpiod.h:hal avahi-client/:runtime/online/finder_avahi.c avahi-common/:runtime/online/finder_avahi.c md4c.h:editor-gtk/kit/ gtk/:editor-gtk/ glib:editor-gtk/ gio/:editor-gtk/ adwaita.h:editor-gtk/ gtksourceview/:editor-gtk/ pango/:editor-gtk/ cairo:editor-gtk/ libintl.h:editor-gtk/'
+foreign='gpiod.h:hal modbus.h:runtime/modbus/line.c avahi-client/:runtime/online/finder_avahi.c avahi-common/:runtime/online/finder_avahi.c md4c.h:editor-gtk/kit/ gtk/:editor-gtk/ glib:editor-gtk/ gio/:editor-gtk/ adwaita.h:editor-gtk/ gtksourceview/:editor-gtk/ pango/:editor-gtk/ cairo:editor-gtk/ libintl.h:editor-gtk/'
 # Rooms of the editor that are built and tested without a toolkit.
 plain='editor-gtk/edit'
 

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check - opens what a map names, for a moment.
+ */
+#define _DEFAULT_SOURCE
+#include "modbus/check.h"
+
+#include "modbus/line.h"
+#include "modbus/serve.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+static struct diag place_of(const struct iomap *map, const struct io_bus *bus, enum diag_id id)
+{
+	return (struct diag){ .id = id, .file = map->file, .line = bus->text_line,
+			      .column = bus->text_column };
+}
+
+/* Opens a serial line as another program would find it, and closes it. 0 or errno. */
+static int try_port(const char *port)
+{
+	const int fd = open(port, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+	int why = fd < 0 ? errno : 0;
+
+	if (fd >= 0 && !isatty(fd))
+		why = ENOTTY;
+	else if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0)
+		why = EBUSY;
+	if (fd >= 0)
+		close(fd);
+	return why;
+}
+
+static bool check_port(const struct iomap *map, const struct io_bus *bus, struct diag_list *diags)
+{
+	const int why = try_port(bus->port);
+
+	switch (why) {
+	case 0:
+		return true;
+	case EACCES:
+	case EPERM:
+		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_PERMISSION), "%s", bus->port);
+	case EBUSY:
+	case EWOULDBLOCK:
+		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_PORT_BUSY), "%s", bus->port);
+	case ENOTTY:
+		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NOT_SERIAL), "%s", bus->port);
+	default:
+		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NO_PORT), "%s%s%s", bus->port, DIAG_AND,
+				why == ENOENT ? "" : strerror(why));
+	}
+}
+
+static bool check_host(const struct iomap *map, const struct io_bus *bus, struct diag_list *diags)
+{
+	const struct addrinfo want = { .ai_socktype = SOCK_STREAM };
+	struct addrinfo *found;
+
+	if (getaddrinfo(bus->host, NULL, &want, &found) != 0)
+		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NO_HOST), "%s", bus->host);
+	freeaddrinfo(found);
+	return true;
+}
+
+/* Two names of one device, such as /dev/ttyUSB0 and /dev/serial/by-id/…; equal names are the reader's. */
+static bool check_twins(const struct iomap *map, const struct io_bus *bus, const struct io_bus *other,
+			struct diag_list *diags)
+{
+	char *a, *b;
+	bool same;
+
+	if (!other->port || strcmp(bus->port, other->port) == 0)
+		return true;
+	a = realpath(bus->port, NULL);
+	b = realpath(other->port, NULL);
+	same = a && b && strcmp(a, b) == 0;
+	free(a);
+	free(b);
+	return !same || diag_add(diags, place_of(map, bus, DIAG_MODBUS_PORT_TWICE), "%s%s%s", bus->port,
+				 DIAG_AND, other->name);
+}
+
+void check_serve(const struct iomap *map, const struct io_serve *serve, int why,
+		 struct diag_list *diags)
+{
+	const enum diag_id id = why == EADDRINUSE ? DIAG_MODBUS_ADDRESS_BUSY :
+				why == EACCES ? DIAG_MODBUS_LOW_PORT : DIAG_MODBUS_NOT_OURS;
+
+	if (serve->at.kind == BUS_MODBUS_RTU)
+		check_port(map, &serve->at, diags);
+	else
+		diag_add(diags, place_of(map, &serve->at, id), "%s:%u", serve->at.host, serve->at.tcp_port);
+}
+
+/* The servers listen all at once, so that two at one address are found, too. */
+static bool check_servers(const struct iomap *map, struct diag_list *diags)
+{
+	const struct io_net *net = map->net;
+	int *fd = calloc((size_t)net->serve_count + 1, sizeof(*fd));
+	bool good = true;
+
+	for (int i = 0; fd && i < net->serve_count; i++) {
+		fd[i] = -1;
+		if (net->serve[i].at.kind == BUS_MODBUS_RTU) {
+			good = check_port(map, &net->serve[i].at, diags) && good;
+			continue;
+		}
+		fd[i] = serve_listen(&net->serve[i].at);
+		if (fd[i] < 0) {
+			check_serve(map, &net->serve[i], errno, diags);
+			good = false;
+		}
+	}
+	for (int i = 0; fd && i < net->serve_count; i++)
+		if (fd[i] >= 0)
+			close(fd[i]);
+	free(fd);
+	return good;
+}
+
+bool check_machine(const struct iomap *map, struct diag_list *diags)
+{
+	const struct io_net *net = map->net;
+	bool good = true;
+
+	for (int i = 0; net && i < net->bus_count; i++) {
+		const struct io_bus *bus = &net->bus[i];
+
+		if (bus->kind == BUS_MODBUS_TCP)
+			good = check_host(map, bus, diags) && good;
+		if (bus->kind != BUS_MODBUS_RTU)
+			continue;
+		good = check_port(map, bus, diags) && good;
+		for (int j = 0; j < i; j++)
+			good = check_twins(map, bus, &net->bus[j], diags) && good;
+		for (int j = 0; j < net->serve_count; j++)
+			good = check_twins(map, bus, &net->serve[j].at, diags) && good;
+	}
+	return (!net || check_servers(map, diags)) && good;
+}

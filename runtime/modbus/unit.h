@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * unit - what is known of one unit on a bus: whether it answers, when it is asked again, whether its
+ * answers can be trusted, and counters.
+ *
+ * A unit that does not answer is asked again after 100 ms, then 200, 400 … 10 s. On a serial line an
+ * answer does not say what it answers, and one that is late could be taken for the answer to another
+ * request. So requests without an answer are remembered for a second. Meanwhile an answer that would fit
+ * one of them counts as a sign of life only, unless it was the same request.
+ */
+#ifndef MODBUS_UNIT_H
+#define MODBUS_UNIT_H
+
+#include "modbus/pdu.h"
+
+#define UNIT_AGAIN_NS 100000000   /* to the first repetition             */
+#define UNIT_MOST_NS  10000000000 /* … and to the last                   */
+#define UNIT_ALONE_NS 1000000000  /* the same, while the bus has no unit that answers */
+#define UNIT_LATE_NS  1000000000  /* no answer is later than this        */
+#define UNIT_OWED     6           /* requests that are remembered        */
+#define UNIT_FAILS    2           /* failures in a row make its values bad */
+
+struct unit_counts {
+	uint32_t requests;
+	uint32_t answers;      /* good ones                                    */
+	uint32_t timeouts;     /* nothing came, or half an answer              */
+	uint32_t crc;          /* answers with a wrong check                   */
+	uint32_t wrong;        /* of another unit, another request, another length */
+	uint32_t late;         /* not trusted: they may belong to a request before */
+	uint32_t exceptions[PDU_EXCEPTIONS]; /* by number; [0]: others        */
+};
+
+/* A request whose answer may still come. */
+struct unit_owed {
+	int64_t sent_ns;
+	uint8_t head[7];       /* what an answer repeats or depends on         */
+	uint16_t crc;          /* of all its bytes                              */
+};
+
+struct unit {
+	uint8_t id;
+	int fails;             /* in a row                                     */
+	int64_t again_ns;      /* it is not asked before                       */
+	int64_t wait_ns;       /* the last back-off                            */
+	struct unit_owed owed[UNIT_OWED];
+	int64_t unsure_ns;     /* too many to remember: nothing is trusted before  */
+	bool no_mask, no_single, no_many; /* functions that it has refused     */
+	struct unit_counts counts;
+};
+
+/** unit_is_away - it is asked only now and then. */
+bool unit_is_away(const struct unit *unit);
+/** unit_is_bad - its values do not count. */
+bool unit_is_bad(const struct unit *unit);
+/** unit_silent - no answer that fits came to a request; @owed: one may still come, to that request. NULL:
+ * it cannot. */
+void unit_silent(struct unit *unit, const struct pdu *owed, int64_t sent_ns, int64_t now_ns);
+/** unit_answered - an answer came. @numbered: it says what it answers.
+ * Fails: false: it may belong to another request before, do not use it. */
+bool unit_answered(struct unit *unit, const struct pdu *request, const struct pdu *answer, bool numbered,
+		   int64_t sent_ns, int64_t now_ns);
+/** unit_due_ns - when it may be asked; @alone: no other unit of the bus answers. */
+int64_t unit_due_ns(const struct unit *unit, bool alone);
+#endif
