@@ -3,6 +3,7 @@
  * hal - moves levels between requests and the process image in each scan. hal_open.c
  * allocates and opens.
  */
+#include "hal/channels.h"
 #include "hal/request.h"
 
 #include <string.h>
@@ -126,6 +127,7 @@ bool ReadPhysicalInputs(struct hal *hal, struct image *image, int64_t now_ns)
 		}
 		good = good && !request_in_fault(request);
 	}
+	channels_read(hal_channels(hal), image, now_ns);
 	return good;
 }
 
@@ -188,6 +190,8 @@ bool WritePhysicalOutputs(struct hal *hal, struct image *image, int64_t now_ns)
 		}
 		good = good && !request_in_fault(request);
 	}
+	if (!hal->held)
+		channels_write(hal_channels(hal), image, now_ns);
 	return good;
 }
 
@@ -209,6 +213,7 @@ bool hal_write_safe(struct hal *hal)
 		if (fault)
 			request->failures = HAL_FAILURES;
 	}
+	channels_safe(hal_channels(hal));
 	return good;
 }
 
@@ -263,12 +268,14 @@ void hal_exchange(struct hal *hal, struct hal *other)
 	other->map = before.map;
 	other->request = before.request;
 	other->request_count = before.request_count;
+	hal_exchange_channels(hal, other);
 	if (hal->held)
 		hal_write_safe(hal);
 }
 
 void hal_release(struct hal *hal)
 {
+	channels_release(hal_channels(hal));
 	hal->held = 0;
 }
 

@@ -23,6 +23,7 @@ enum hal_quality {
 	QUALITY_FAULT, /* HAL_FAILURES in a row; not read until hal_reopen() */
 };
 
+struct channels;
 struct hal_request;
 struct line_seen;
 
@@ -40,6 +41,9 @@ struct hal {
 	void *trace_context;
 	/* Called before an output that holds its value gets @value, in a scan; or NULL. */
 	void (*holds)(const struct hal *hal, const struct hal_request *request, uint64_t value);
+#ifndef RUNGBOARD_SMALL
+	struct channels *channels; /* of the points that have them; NULL: none. See hal_channels() */
+#endif
 };
 
 /**
@@ -142,7 +146,7 @@ void hal_exchange(struct hal *hal, struct hal *other);
  * in @other. Scan-safe: no. */
 void hal_close_rest(struct hal *other);
 
-/** hal_quality - the worst quality of all requests. Scan-safe: yes. */
+/** hal_quality - the worst quality of all requests, without channels: hal_worst(). Scan-safe: yes. */
 enum hal_quality hal_quality(const struct hal *hal);
 /** hal_find - request and bit of an address, for example for sim_set(); NULL: none. */
 struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line);

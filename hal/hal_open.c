@@ -3,6 +3,7 @@
  * hal_open - finds the lines of a map, groups them into requests and opens these, before the
  * first scan or while no program runs.
  */
+#include "hal/channels.h"
 #include "hal/request.h"
 
 #include <stdarg.h>
@@ -39,7 +40,7 @@ bool hal_supported(const struct iomap *map, struct diag_list *diags)
 		const struct io_point *point = &map->point[i];
 		const struct driver *driver = driver_row(point->driver);
 
-		if (!driver->open)
+		if (driver->by_channel ? !channels_supported(point->driver) : !driver->open)
 			good = diag_add(diags, io_place(map, point,
 				DIAG_IO_NO_DRIVER), "%s", driver->word);
 	}
@@ -116,7 +117,13 @@ static struct line_at *find_all(const struct iomap *map, struct arena *arena,
 bool hal_check(const struct iomap *map, struct arena *scratch,
 	       struct diag_list *diags)
 {
-	return find_all(map, scratch, diags) != NULL;
+	const bool good = find_all(map, scratch, diags) != NULL;
+	struct channels *channels = NULL;
+
+	if (!channels_plan(&channels, map, diags))
+		return false;
+	channels_close(channels);
+	return good;
 }
 
 static bool same_request(const struct io_point *a, const struct line_at *at_a,
@@ -139,10 +146,13 @@ static uint32_t group(const struct iomap *map, const struct line_at *place,
 			const struct io_point *point = &map->point[i];
 			uint32_t found = count, lines = 0;
 
-			if (point->output != (pass == 1))
+			if (io_has_channel(point))
+				number[i] = UINT32_MAX;
+			if (io_has_channel(point) || point->output != (pass == 1))
 				continue;
 			for (int k = i - 1; k >= 0 && found == count; k--)
-				if (same_request(point, &place[i],
+				if (number[k] != UINT32_MAX &&
+				    same_request(point, &place[i],
 						 &map->point[k], &place[k]))
 					found = number[k];
 			for (int k = 0; k < i && found < count; k++)
@@ -219,6 +229,8 @@ static bool make_requests(struct hal *hal, struct arena *arena,
 	for (int i = 0; i < map->count && !arena->failed; i++) {
 		struct hal_request *request = &hal->request[number[i]];
 
+		if (io_has_channel(&map->point[i]))
+			continue;
 		if (!request->ask.driver &&
 		    !make_request(request, arena, &map->point[i], map->dev,
 				  count_lines(map, number, number[i])))
@@ -233,7 +245,7 @@ size_t hal_memory(const struct iomap *map)
 	size_t bytes = 0;
 
 	for (int i = 0; i < map->count; i++)
-		bytes += driver_row(map->point[i].driver)->state_size +
+		bytes += io_has_channel(&map->point[i]) ? channels_memory() : driver_row(map->point[i].driver)->state_size +
 			 sizeof(struct line_at) + sizeof(uint32_t) +
 			 sizeof(struct hal_request) +
 			 sizeof(struct request_line) +
@@ -301,14 +313,18 @@ bool hal_plan(struct hal *hal, const struct iomap *map, struct arena *arena,
 	size_t before = arena->used;
 	const struct line_at *place;
 
+	struct channels *channels = NULL;
+	bool good;
+
 	*hal = (struct hal){ .map = map };
 	place = find_all(map, arena, diags);
-	if (!place)
-		return false;
-	if (!make_requests(hal, arena, place)) {
+	good = channels_plan(&channels, map, diags);
+	if (!place || !good || !make_requests(hal, arena, place)) {
 		hal->request_count = 0;
-		return no_memory(map, diags);
+		channels_close(channels);
+		return place && good && no_memory(map, diags);
 	}
+	hal_keep_channels(hal, channels);
 	hal->bytes = arena->used - before;
 	return true;
 }
@@ -321,7 +337,10 @@ bool hal_open_planned(struct hal *hal, struct diag_list *diags)
 			return false;
 		}
 	}
-	return true;
+	if (channels_open(hal_channels(hal), diags))
+		return true;
+	hal_close(hal);
+	return false;
 }
 
 bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
@@ -336,6 +355,7 @@ void hal_close(struct hal *hal)
 	for (uint32_t i = 0; i < hal->request_count; i++)
 		close_request(&hal->request[i]);
 	hal->request_count = 0;
+	hal_close_channels(hal);
 }
 
 /* Finds the lines of a request again; they must be on one chip. */
@@ -516,7 +536,7 @@ static bool make_new(struct hal *next, const struct open_line *lines, const stru
 		const struct io_point *point = &map->point[number];
 		uint32_t r = first;
 
-		if (lines[number].request || point->output != (i >= map->count))
+		if (io_has_channel(point) || lines[number].request || point->output != (i >= map->count))
 			continue;
 		while (r < next->request_count &&
 		       (next->request[r].ask.count == REQUEST_LINES ||
@@ -541,7 +561,8 @@ enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap
 	const size_t count = (size_t)map->count;
 	struct line_at *place = arena_alloc(arena, sizeof(*place) * (count + 1));
 	struct open_line *open = arena_alloc(arena, sizeof(*open) * (count + 1));
-	enum hal_beside result = BESIDE_GOOD;
+	enum hal_beside result = BESIDE_GOOD, of_channels;
+	struct channels *channels = NULL;
 
 	*next = (struct hal){ .map = map };
 	if (!hal_supported(map, diags))
@@ -552,6 +573,10 @@ enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap
 	for (int i = 0; i < map->count; i++) {
 		struct trouble why;
 
+		if (io_has_channel(&map->point[i])) {
+			place[i].chip = -1;
+			continue;
+		}
 		if (!find_beside(now, &map->point[i], &place[i], &open[i], &why)) {
 			diag_add(diags, io_place(map, &map->point[i], why.id), "%s", why.text);
 			result = BESIDE_REFUSED;
@@ -563,13 +588,18 @@ enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap
 		result = BESIDE_RESTART;
 	}
 	if (!check_places(map, place, diags))
-		return BESIDE_REFUSED;
-	if (result != BESIDE_GOOD)
-		return result;
-	if (make_twins(next, now, open, arena) && make_new(next, open, place, now->map->dev, arena))
+		result = BESIDE_REFUSED;
+	of_channels = channels_beside(&channels, hal_channels(now), map, diags, line);
+	if (result == BESIDE_GOOD && of_channels == BESIDE_GOOD && make_twins(next, now, open, arena) &&
+	    make_new(next, open, place, now->map->dev, arena)) {
+		hal_keep_channels(next, channels);
 		return BESIDE_GOOD;
+	}
+	channels_close(channels);
 	next->request_count = 0;
-	return no_memory(map, diags), BESIDE_REFUSED;
+	if (result == BESIDE_GOOD && of_channels == BESIDE_GOOD)
+		return no_memory(map, diags), BESIDE_REFUSED;
+	return result > of_channels ? result : of_channels;
 }
 
 bool hal_open_new(struct hal *next, struct diag_list *diags)
@@ -580,7 +610,10 @@ bool hal_open_new(struct hal *next, struct diag_list *diags)
 		hal_close_rest(next);
 		return false;
 	}
-	return true;
+	if (channels_open(hal_channels(next), diags))
+		return true;
+	hal_close_rest(next);
+	return false;
 }
 
 /* An output whose safe value could not be written in time gets it now. */
@@ -595,6 +628,7 @@ void hal_close_rest(struct hal *other)
 			request->dirty = false;
 		close_request(request);
 	}
+	hal_close_channels(other);
 }
 
 bool hal_list(const char *dev,

@@ -49,6 +49,7 @@ struct iomap {
 	const char *file;      /* as the user wrote it; borrowed              */
 	const char *board;     /* "Raspberry Pi 4"                            */
 	const char *dev;       /* folder of device files: "/dev", except in tests */
+	const char *sys;       /* of the kernel's files; NULL: "/sys", except in tests */
 	struct io_point *point;
 	int count;
 	const struct io_net *net; /* buses and what others may ask of us; NULL: none */

@@ -4,6 +4,8 @@
  */
 #include "ladderd/control.h"
 
+#include "hal/channels.h"
+
 #include "engine/base/version.h"
 #include "engine/scan/interrupt.h"
 #include "online/status.h"
@@ -123,11 +125,15 @@ static void add_io(struct block *block, const struct hal *hal)
 		[QUALITY_GOOD] = "good", [QUALITY_STALE] = "stale",
 		[QUALITY_FAULT] = "fault",
 	};
+	const struct channels_count count = channels_tally(hal_channels(hal));
 
 	add(block, "io: %s, %d lines in %u requests, %llu calls failed, "
-	    "%llu reopened\n", quality[hal_quality(hal)], hal->map->count,
+	    "%llu reopened\n", quality[hal_worst(hal)], hal->map->count,
 	    (unsigned)hal->request_count, (unsigned long long)hal->failed,
 	    (unsigned long long)hal->reopened);
+	if (count.good + count.stale + count.fault)
+		add(block, "channels: %u good, %u stale, %u in fault\n", (unsigned)count.good,
+		    (unsigned)count.stale, (unsigned)count.fault);
 }
 
 static void add_retain(struct block *block, const struct store *store)
@@ -260,7 +266,7 @@ void control_fill_status(const struct cycle *cycle, struct board_status *status)
 	const struct resource *resource = &cycle->resource;
 
 	status->mode = (uint8_t)resource->state;
-	status->io = (uint8_t)hal_quality(&cycle->hal);
+	status->io = (uint8_t)hal_worst(&cycle->hal);
 	status->forces = (uint16_t)resource->image.force_count;
 	memcpy(status->program, cycle->identity_bytes, sizeof(status->program));
 	status->scans = cycle->scans;

@@ -7,6 +7,8 @@
 #include "ladderd/guarded.h"
 #include "ladderd/link.h"
 
+#include "hal/channels.h"
+
 #include "engine/scan/interrupt.h"
 
 #include <errno.h>
@@ -266,7 +268,7 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 
 	if (!ReadPhysicalInputs(&cycle->hal, image, now_ns))
 		return FAULT_IO;
-	resource->io_fault = hal_quality(&cycle->hal) != QUALITY_GOOD;
+	resource->io_fault = hal_worst(&cycle->hal) != QUALITY_GOOD;
 	resource_zone(resource, cycle->wall.zone_ns);
 	resource_disk(resource, cycle->disk_bad || (cycle->store && store_error(cycle->store)));
 	if (!scan_program(cycle, now_ns))

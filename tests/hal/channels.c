@@ -1,0 +1,734 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * channels - the tests of analog values: scaling, quality, substitutes and safe values in virtual time, then the
+ * drivers pwm, w1 and hwmon with files in place of the kernel's, and what can go wrong with them.
+ */
+#include "hal/channel_cell.h"
+#include "hal/sysfs.h"
+#include "tests/hal/field.h"
+
+#include <math.h>
+#include <pthread.h>
+
+/* ---- scaling ---- */
+
+static int64_t value_of(enum iec_type type, double low, double high, double at_low, double at_high, double raw)
+{
+	const struct io_channel channel = {
+		.type = type, .scaled = true, .value_low = low, .value_high = high,
+		.at_low = at_low, .at_high = at_high,
+	};
+	union iec_value value = { .i = 77 };
+
+	channel_value(&channel, raw, &value);
+	return value.i;
+}
+
+static void test_scaling(void)
+{
+	struct io_channel channel = { .type = IEC_REAL };
+	union iec_value value;
+
+	CHECK(value_of(IEC_INT, 0, 27648, 0, 10, 5) == 13824);
+	CHECK(value_of(IEC_INT, 0, 27648, 0.004, 0.020, 0.012) == 13824);
+	CHECK_AS(value_of(IEC_INT, 0, 27648, 0.004, 0.020, 0.002) == -3456, "below its range it goes on");
+	CHECK(value_of(IEC_INT, 0, 27648, 0, 10, 20) == 32767);
+	CHECK(value_of(IEC_INT, 0, 27648, 0, 10, -20) == -32768);
+	CHECK(value_of(IEC_INT, 0, 27648, 0, 10, INFINITY) == 32767);
+	CHECK(value_of(IEC_INT, 0, 27648, 0, 10, NAN) == 0);
+	CHECK_AS(value_of(IEC_INT, 100, 0, 0, 10, 2.5) == 75, "a range upside down");
+	CHECK(value_of(IEC_INT, 0, 10, 0, 10, 2.5) == 3 && value_of(IEC_INT, 0, 10, 0, 10, 2.4) == 2);
+	CHECK(value_of(IEC_UINT, 0, 10, 0, 10, -1) == 0 && value_of(IEC_WORD, 0, 1e6, 0, 1, 1) == 65535);
+	CHECK(value_of(IEC_ULINT, 0, 1, 0, 1, 1e30) == -1);
+	CHECK(value_of(IEC_LINT, 0, 1, 0, 1, 1e30) == INT64_MAX);
+	CHECK(value_of(IEC_LINT, 0, 1, 0, 1, -1e30) == INT64_MIN);
+	CHECK(value_of(IEC_ULINT, 0, 1, 0, 1, 9223372036854775808.0) == INT64_MIN);
+	CHECK(channel_value(&channel, 1.25, &value) && value.r == 1.25);
+	CHECK(!channel_value(&channel, NAN, &value));
+	channel.limited = true, channel.least = 0.004, channel.most = 0.020;
+	CHECK(channel_value(&channel, 0.004, &value) && channel_value(&channel, 0.020, &value));
+	CHECK(!channel_value(&channel, 0.0039, &value) && !channel_value(&channel, 0.0201, &value));
+	channel = (struct io_channel){ .type = IEC_INT, .scaled = true, .value_high = 27648, .at_high = 10 };
+	CHECK(channel_raw(&channel, INT(13824)) == 5 && channel_raw(&channel, INT(-13824)) == -5);
+	channel = (struct io_channel){ .type = IEC_ULINT };
+	CHECK(channel_raw(&channel, INT(-1)) == 18446744073709551616.0);
+}
+
+/* ---- inputs of a gateway, in virtual time ---- */
+
+static void test_quality(void)
+{
+	struct field f;
+	struct io_channel *level;
+
+	field_begin(&f);
+	level = field_add(&f, "%IW2", DRIVER_modbus, IEC_INT);
+	level->raw = IEC_UINT;
+	level->scaled = true, level->value_high = 100, level->at_high = 1000;
+	level->limited = true, level->most = 1200;
+	field_add(&f, "%ID8", DRIVER_modbus, IEC_DINT);
+	level = field_add(&f, "%IX20.3", DRIVER_module, IEC_BOOL);
+	level->substituted = true, level->substitute.i = 1;
+	CHECK(field_open(&f));
+	CHECK_AS(field_scan(&f, 0), "a channel without a value is no fault of the scan");
+	CHECK(field_get(&f, 0).i == 0 && field_quality(&f, 0) == QUALITY_STALE);
+	CHECK_AS(field_get(&f, 2).i == 1, "it has its substitute from the beginning");
+	CHECK(hal_worst(&f.hal) == QUALITY_STALE && hal_quality(&f.hal) == QUALITY_GOOD);
+	channels_put(f.hal.channels, 0, INT(500), true, 10 * MS);
+	channels_put(f.hal.channels, 1, INT(-7), true, 10 * MS);
+	channels_put(f.hal.channels, 2, INT(0), true, 10 * MS);
+	field_scan(&f, 20 * MS);
+	CHECK(field_get(&f, 0).i == 50 && field_get(&f, 1).i == -7 && field_get(&f, 2).i == 0);
+	CHECK(hal_worst(&f.hal) == QUALITY_GOOD);
+	field_scan(&f, 1010 * MS);
+	CHECK_AS(hal_worst(&f.hal) == QUALITY_GOOD, "a value is good as long as stale= says");
+	field_scan(&f, 1010 * MS + 1);
+	CHECK_AS(field_quality(&f, 1) == QUALITY_STALE && field_get(&f, 1).i == -7,
+		 "then it is stale, and keeps its value");
+	CHECK_AS(field_get(&f, 2).i == 1, "… or has its substitute");
+	CHECK(channels_tally(f.hal.channels).stale == 3);
+	channels_put(f.hal.channels, 1, INT(8), true, 1100 * MS);
+	field_scan(&f, 1100 * MS);
+	CHECK(field_quality(&f, 1) == QUALITY_GOOD && field_get(&f, 1).i == 8);
+	for (int i = 0; i < 2; i++)
+		channels_put(f.hal.channels, 1, INT(0), false, 1110 * MS);
+	field_scan(&f, 1110 * MS);
+	CHECK_AS(field_quality(&f, 1) == QUALITY_GOOD, "two reads may fail");
+	channels_put(f.hal.channels, 1, INT(0), false, 1120 * MS);
+	field_scan(&f, 1120 * MS);
+	CHECK_AS(field_quality(&f, 1) == QUALITY_FAULT && field_get(&f, 1).i == 8, "the third is a fault");
+	channels_put(f.hal.channels, 1, INT(9), true, 1130 * MS);
+	field_scan(&f, 1130 * MS);
+	CHECK_AS(field_quality(&f, 1) == QUALITY_GOOD && field_get(&f, 1).i == 9, "a good read ends it");
+	channels_put(f.hal.channels, 0, INT(1201), true, 1140 * MS);
+	field_scan(&f, 1140 * MS);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_FAULT && field_get(&f, 0).i == 50,
+		 "a value outside of its limits is a fault at once");
+	channels_put(f.hal.channels, 0, INT(1200), true, 1150 * MS);
+	field_scan(&f, 1150 * MS);
+	CHECK(field_quality(&f, 0) == QUALITY_GOOD && field_get(&f, 0).i == 120);
+	channels_alone(f.hal.channels, DRIVER_modbus);
+	field_scan(&f, 1160 * MS);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_STALE && field_quality(&f, 1) == QUALITY_STALE,
+		 "without its gateway a point is stale at once");
+	CHECK(field_quality(&f, 99) == QUALITY_GOOD && field_quality(&f, -1) == QUALITY_GOOD);
+	field_end(&f);
+}
+
+static void test_filter_and_threshold(void)
+{
+	struct field f;
+	struct io_channel *channel;
+
+	field_begin(&f);
+	channel = field_add(&f, "%ID0", DRIVER_peer, IEC_REAL);
+	channel->filter_ns = 90 * MS;
+	channel = field_add(&f, "%IX8.0", DRIVER_peer, IEC_BOOL);
+	channel->raw = IEC_REAL;
+	channel->switches = true, channel->on_at = 8, channel->off_below = 2;
+	channel = field_add(&f, "%IX8.1", DRIVER_peer, IEC_BOOL);
+	f.point[2].active_low = true;
+	CHECK(field_open(&f));
+	channels_put(f.hal.channels, 0, REAL(10), true, 0);
+	field_scan(&f, 0);
+	CHECK_AS(field_get(&f, 0).r == 10, "the first value is not filtered");
+	channels_put(f.hal.channels, 0, REAL(20), true, 10 * MS);
+	field_scan(&f, 10 * MS);
+	CHECK_AS(field_get(&f, 0).r == 11, "10 ms of 90 ms: a tenth of the way");
+	field_scan(&f, 20 * MS);
+	CHECK(fabs(field_get(&f, 0).r - 11.9) < 1e-6);
+	for (int i = 3; i < 90; i++)
+		field_scan(&f, i * 10 * MS);
+	CHECK(field_get(&f, 0).r > 19.9 && field_get(&f, 0).r < 20);
+	for (int i = 0; i < 9; i++) {
+		static const struct { double value; int bit; } steps[] = {
+			{ 7.9, 0 }, { 8, 1 }, { 5, 1 }, { 2, 1 }, { 1.9, 0 }, { 7, 0 }, { 9, 1 }, { 2.1, 1 },
+			{ -5, 0 } };
+		channels_put(f.hal.channels, 1, REAL(steps[i].value), true, 900 * MS);
+		field_scan(&f, 900 * MS);
+		CHECK_AS(field_get(&f, 1).i == steps[i].bit, "between both thresholds a bit stays");
+	}
+	channels_put(f.hal.channels, 2, INT(0), true, 900 * MS);
+	field_scan(&f, 900 * MS);
+	CHECK(field_get(&f, 2).i == 1);
+	field_end(&f);
+}
+
+static void test_outputs_of_a_gateway(void)
+{
+	struct field f;
+	struct io_channel *channel;
+	uint32_t serial, before;
+
+	field_begin(&f);
+	channel = field_add(&f, "%QW0", DRIVER_modbus, IEC_INT);
+	channel->safe.i = 7;
+	field_add(&f, "%QW2", DRIVER_modbus, IEC_WORD);
+	f.point[1].hold = true;
+	channel = field_add(&f, "%QL8", DRIVER_modbus, IEC_LINT);
+	channel = field_add(&f, "%QD16", DRIVER_modbus, IEC_REAL);
+	channel->raw = IEC_INT, channel->scaled = true, channel->value_high = 10, channel->at_high = 1000;
+	CHECK(field_open(&f));
+	channels_get(f.hal.channels, 0, &serial);
+	CHECK_AS(serial == 0, "before the first scan there is nothing to write");
+	field_set(&f, 0, INT(-1234));
+	field_set(&f, 1, INT(0xbeef));
+	field_set(&f, 2, INT(INT64_MAX - 1));
+	field_set(&f, 3, REAL(2.5));
+	field_scan(&f, 0);
+	CHECK(channels_get(f.hal.channels, 0, &serial).i == -1234 && serial == 1);
+	CHECK(channels_get(f.hal.channels, 1, &serial).i == 0xbeef);
+	CHECK_AS(channels_get(f.hal.channels, 2, &serial).i == INT64_MAX - 1, "64 bits are exact");
+	CHECK(channels_get(f.hal.channels, 3, &serial).i == 250);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_STALE, "an output that nobody has written is stale");
+	channels_put(f.hal.channels, 0, INT(0), true, 0);
+	for (int i = 1; i < 300; i++)
+		field_scan(&f, i * 10 * MS);
+	CHECK_AS((channels_get(f.hal.channels, 0, &serial), serial == 1), "the serial tells changes only");
+	CHECK(field_quality(&f, 0) == QUALITY_GOOD);
+	before = serial;
+	CHECK(hal_write_safe(&f.hal));
+	CHECK(channels_get(f.hal.channels, 0, &serial).i == 7 && serial > before);
+	CHECK_AS(channels_get(f.hal.channels, 1, &serial).i == 0xbeef, "with safe=hold it keeps its value");
+	CHECK(channels_get(f.hal.channels, 3, &serial).i == 0);
+	field_set(&f, 0, INT(5));
+	field_scan(&f, 3000 * MS);
+	CHECK_AS(channels_get(f.hal.channels, 0, &serial).i == 7, "held outputs do not change");
+	before = serial;
+	hal_release(&f.hal);
+	field_scan(&f, 3010 * MS);
+	CHECK(channels_get(f.hal.channels, 0, &serial).i == 5 && serial > before);
+	for (int i = 0; i < 3; i++)
+		channels_put(f.hal.channels, 0, INT(0), false, 0);
+	CHECK_AS(field_scan(&f, 3020 * MS) && field_quality(&f, 0) == QUALITY_FAULT,
+		 "an output that cannot be written is a fault of the channel, not of the program");
+	field_end(&f);
+}
+
+/* Values of sim are in memory: one that nobody puts there stays as it is in the image. */
+static void test_simulated(void)
+{
+	struct field f;
+
+	field_begin(&f);
+	field_add(&f, "%IW0", DRIVER_sim, IEC_INT);
+	field_add(&f, "%QW0", DRIVER_sim, IEC_INT);
+	CHECK(field_open(&f));
+	field_set(&f, 0, INT(5));
+	field_scan(&f, 0);
+	field_scan(&f, 5000 * MS);
+	CHECK(field_get(&f, 0).i == 5 && hal_worst(&f.hal) == QUALITY_GOOD);
+	channels_put(f.hal.channels, 0, INT(6), true, 0);
+	field_scan(&f, 9000 * MS);
+	CHECK(field_get(&f, 0).i == 6 && hal_worst(&f.hal) == QUALITY_GOOD);
+	field_end(&f);
+}
+
+/* A bit: whether all are good; else the worst of them. */
+static void test_told_quality(void)
+{
+	struct field f;
+	struct io_channel *channel;
+
+	field_begin(&f);
+	channel = field_add(&f, "%IX30.0", DRIVER_quality, IEC_BOOL);
+	iec_addr_parse("%IW0", 4, &channel->of), channel->of_bits = 16;
+	channel = field_add(&f, "%IB31", DRIVER_quality, IEC_USINT);
+	iec_addr_parse("%IW0", 4, &channel->of), channel->of_bits = 32;
+	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT);
+	field_add(&f, "%IW2", DRIVER_modbus, IEC_INT);
+	field_add(&f, "%IW4", DRIVER_modbus, IEC_INT);
+	CHECK(field_open(&f));
+	channels_put(f.hal.channels, 2, INT(1), true, 0);
+	channels_put(f.hal.channels, 3, INT(1), true, 0);
+	field_scan(&f, 0);
+	CHECK(field_get(&f, 0).i == 1 && field_get(&f, 1).i == 0 && hal_worst(&f.hal) == QUALITY_STALE);
+	for (int i = 0; i < 3; i++)
+		channels_put(f.hal.channels, 3, INT(1), false, 0);
+	field_scan(&f, 0);
+	CHECK(field_get(&f, 0).i == 1 && field_get(&f, 1).i == 2);
+	field_scan(&f, 1001 * MS);
+	CHECK(field_get(&f, 0).i == 0 && field_get(&f, 1).i == 2);
+	field_end(&f);
+}
+
+/* ---- another map ---- */
+
+static void test_exchange(void)
+{
+	struct field f, g;
+	char line[LIMIT_ARG];
+	uint32_t serial;
+
+	field_begin(&f);
+	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT)->reg = 4;
+	field_add(&f, "%QW0", DRIVER_modbus, IEC_INT);
+	field_add(&f, "%QW2", DRIVER_modbus, IEC_INT)->safe.i = 3;
+	CHECK(field_open(&f));
+	channels_put(f.hal.channels, 0, INT(11), true, 0);
+	field_set(&f, 1, INT(21));
+	field_set(&f, 2, INT(22));
+	field_scan(&f, 0);
+	field_begin(&g);
+	field_add(&g, "%QW0", DRIVER_modbus, IEC_INT);
+	field_add(&g, "%IW0", DRIVER_modbus, IEC_INT)->reg = 4;
+	field_add(&g, "%IW2", DRIVER_modbus, IEC_INT)->reg = 5;
+	CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_GOOD);
+	CHECK(hal_open_new(&g.hal, &g.diags));
+	hal_exchange(&f.hal, &g.hal);
+	CHECK_AS(channels_get(f.hal.channels, 0, &serial).i == 21 && serial == 1,
+		 "an output of both maps goes on without a change");
+	ReadPhysicalInputs(&f.hal, &f.image, 10 * MS);
+	CHECK_AS(field_get(&f, 0).i == 11 && field_quality(&f, 1) == QUALITY_GOOD,
+		 "an input of both maps keeps its value");
+	CHECK(field_quality(&f, 2) == QUALITY_STALE);
+	hal_exchange(&f.hal, &g.hal);
+	field_scan(&f, 20 * MS);
+	CHECK_AS(channels_get(f.hal.channels, 1, &serial).i == 21 && field_get(&f, 0).i == 11, "and back");
+	CHECK(channels_get(f.hal.channels, 2, &serial).i == 22 && serial > 1);
+	hal_close_rest(&g.hal);
+	arena_free(&g.arena);
+	field_scan(&f, 30 * MS);
+	CHECK(field_quality(&f, 0) == QUALITY_GOOD);
+	field_end(&f);
+}
+
+/* ---- 1-wire ---- */
+
+#define SENSOR "bus/w1/devices/28-000005e2fdc3"
+
+static struct io_channel *add_sensor(struct field *f, const char *address, const char *sensor)
+{
+	struct io_channel *channel = field_add(f, address, DRIVER_w1, IEC_REAL);
+
+	channel->device = sensor;
+	channel->unit = UNIT_CELSIUS;
+	channel->stale_ns = 300 * MS;
+	return channel;
+}
+
+static bool near(double a, double b)
+{
+	return fabs(a - b) < 1e-4;
+}
+
+static void test_w1(void)
+{
+	struct field f;
+
+	sys_put(SENSOR "/w1_slave", "2b 00 4b 46 ff ff 0d 10 a1 : crc=a1 YES\n"
+		"2b 00 4b 46 ff ff 0d 10 a1 t=-1062\n");
+	sys_put("bus/w1/devices/28-1/temperature", "21437\n");
+	field_begin(&f);
+	add_sensor(&f, "%ID0", "28-000005e2fdc3");
+	add_sensor(&f, "%ID4", "28-1")->substituted = true;
+	f.channel[1].substitute.r = -99;
+	CHECK(field_open(&f));
+	CHECK_AS(field_scan(&f, now()) && near(field_get(&f, 0).r, -1.062) && near(field_get(&f, 1).r, 21.437),
+		 "the first scan has the values");
+	CHECK(hal_worst(&f.hal) == QUALITY_GOOD);
+	sys_put(SENSOR "/w1_slave", "2b 00 4b 46 ff ff 0d 10 00 : crc=a1 NO\n2b 00 t=21000\n");
+	CHECK_AS(UNTIL(&f, field_quality(&f, 0) != QUALITY_GOOD, 1000) && near(field_get(&f, 0).r, -1.062),
+		 "a wrong checksum is no value");
+	CHECK(field_quality(&f, 1) == QUALITY_GOOD);
+	sys_put(SENSOR "/w1_slave", "2b : crc=a1 YES\n2b t=21000\n");
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD && near(field_get(&f, 0).r, 21), 1000));
+	sys_put("bus/w1/devices/28-1/temperature", "85000\n");
+	CHECK_AS(UNTIL(&f, field_quality(&f, 1) == QUALITY_FAULT, 1000) && near(field_get(&f, 1).r, -99),
+		 "85 °C of a sensor that has lost its power is no value");
+	sys_put("bus/w1/devices/28-1/temperature", "84500\n");
+	CHECK(UNTIL(&f, near(field_get(&f, 1).r, 84.5), 1000));
+	sys_put("bus/w1/devices/28-1/temperature", "85000\n");
+	CHECK_AS(UNTIL(&f, near(field_get(&f, 1).r, 85), 1000), "85 °C near 84.5 °C is one");
+	sys_put("bus/w1/devices/28-1/temperature", "");
+	CHECK_AS(UNTIL(&f, field_quality(&f, 1) == QUALITY_FAULT, 1000), "an empty file");
+	sys_put("bus/w1/devices/28-1/temperature", "nonsense\n");
+	nap(100);
+	CHECK(UNTIL(&f, field_quality(&f, 1) == QUALITY_FAULT, 1000));
+	sys_remove("bus/w1/devices/28-1");
+	nap(100);
+	CHECK_AS(UNTIL(&f, field_quality(&f, 1) == QUALITY_FAULT, 1000), "a sensor that is removed");
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	CHECK_AS(UNTIL(&f, near(field_get(&f, 1).r, 20), 2000), "it is back within 2 s");
+	field_end(&f);
+}
+
+/* A read of the kernel that takes 3 s is a FIFO into which nobody writes. */
+static void test_slow_device(void)
+{
+	struct field f;
+	int64_t longest_ns = 0, end_ns, back_ns;
+	int writer, updates = 0;
+	float last = 0;
+
+	sys_remove(SENSOR);
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	sys_put(SENSOR "/temperature", "10000\n");
+	field_begin(&f);
+	add_sensor(&f, "%ID0", "28-000005e2fdc3");
+	add_sensor(&f, "%ID4", "28-1");
+	CHECK(field_open(&f) && UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD, 500));
+	unlink(sys_path(SENSOR "/temperature"));
+	mkfifo(sys_path(SENSOR "/temperature"), 0644);
+	end_ns = now() + 3000 * MS;
+	for (int i = 0; now() < end_ns; i++) {
+		char text[20];
+		int64_t began_ns = now();
+
+		field_scan(&f, began_ns);
+		longest_ns = now() - began_ns > longest_ns ? now() - began_ns : longest_ns;
+		updates += (float)field_get(&f, 1).r != last;
+		last = (float)field_get(&f, 1).r;
+		if (i % 50 == 0) {
+			snprintf(text, sizeof(text), "%d\n", 20000 + i);
+			sys_put("bus/w1/devices/28-1/temperature", text);
+		}
+		if (end_ns - now() < 2000 * MS && field_quality(&f, 0) != QUALITY_STALE)
+			break;
+		nap(1);
+	}
+	CHECK_AS(now() >= end_ns, "a device that does not answer is stale after its time");
+	CHECK_AS(longest_ns < 50 * MS, "no scan waits for it");
+	CHECK_AS(updates > 10 && field_quality(&f, 1) == QUALITY_GOOD, "another sensor goes on");
+	CHECK(near(field_get(&f, 0).r, 10));
+	back_ns = now();
+	writer = open(sys_path(SENSOR "/temperature"), O_WRONLY);
+	CHECK(writer >= 0 && write(writer, "11000\n", 6) == 6);
+	unlink(sys_path(SENSOR "/temperature"));
+	sys_put(SENSOR "/temperature", "11000\n");
+	close(writer);
+	CHECK_AS(UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD && near(field_get(&f, 0).r, 11), 2000),
+		 "when it answers, it is good again");
+	CHECK(now() - back_ns < 2000 * MS);
+	field_end(&f);
+}
+
+/* A thread that never comes back holds up no end. */
+static void test_hung_device(void)
+{
+	struct field f;
+	int64_t began_ns;
+	int writer;
+
+	sys_remove(SENSOR);
+	mkdir(sys_path(SENSOR), 0755);
+	mkfifo(sys_path(SENSOR "/temperature"), 0644);
+	field_begin(&f);
+	add_sensor(&f, "%ID0", "28-000005e2fdc3");
+	began_ns = now();
+	CHECK_AS(field_open(&f) && now() - began_ns < 1500 * MS, "a device that hangs delays the start by 1 s");
+	field_scan(&f, now());
+	CHECK(field_quality(&f, 0) == QUALITY_STALE);
+	began_ns = now();
+	field_end(&f);
+	CHECK_AS(now() - began_ns < 3000 * MS, "… and the end by 2 s");
+	writer = open(sys_path(SENSOR "/temperature"), O_WRONLY);
+	close(writer);
+	nap(50); /* its thread frees what it holds */
+	sys_remove(SENSOR);
+}
+
+/* ---- pwm ---- */
+
+#define CHIP "class/pwm/pwmchip0"
+
+static void make_chip(void)
+{
+	sys_remove("class/pwm");
+	sys_put(CHIP "/npwm", "4\n");
+	sys_put(CHIP "/export", "");
+	sys_put(CHIP "/pwm1/duty_cycle", "0");
+	sys_put(CHIP "/pwm1/period", "0");
+	sys_put(CHIP "/pwm1/enable", "0");
+	sys_put(CHIP "/pwm1/polarity", "normal\n");
+}
+
+static struct io_channel *add_pwm(struct field *f, const char *address, uint32_t number)
+{
+	struct io_channel *channel = field_add(f, address, DRIVER_pwm, IEC_INT);
+
+	channel->device = "pwmchip0";
+	channel->number = number;
+	channel->unit = UNIT_PERCENT;
+	channel->scaled = true, channel->value_high = 27648, channel->at_high = 100;
+	return channel;
+}
+
+/* The file keeps the end of a longer number, because a test's file is no file of the kernel. */
+static long duty(void)
+{
+	char text[9] = "";
+	FILE *file = fopen(sys_path(CHIP "/pwm1/duty_cycle"), "r");
+
+	if (!file)
+		return -1;
+	if (!fgets(text, sizeof(text), file))
+		text[0] = '\0';
+	fclose(file);
+	return strtol(text, NULL, 10);
+}
+
+static void test_pwm(void)
+{
+	struct field f;
+
+	make_chip();
+	field_begin(&f);
+	add_pwm(&f, "%QW0", 1)->safe.i = 13824;
+	f.point[0].active_low = true;
+	CHECK(field_open(&f));
+	CHECK(sys_get(CHIP "/pwm1/period") == 20000000 && sys_get(CHIP "/pwm1/enable") == 1);
+	CHECK_AS(duty() == 10000000, "it begins with its safe value");
+	CHECK(sysfs_read(sys_path(CHIP "/pwm1/polarity"), f.text, sizeof(f.text)) == 0);
+	CHECK_TEXT(f.text, "inversed");
+	field_set(&f, 0, INT(27648));
+	CHECK(UNTIL(&f, duty() == 20000000, 500));
+	CHECK(field_quality(&f, 0) == QUALITY_GOOD && hal_worst(&f.hal) == QUALITY_GOOD);
+	field_set(&f, 0, INT(32767));
+	UNTIL(&f, false, 20);
+	CHECK_AS(duty() == 20000000, "never more than its period");
+	sys_put(CHIP "/pwm1/duty_cycle", "7");
+	CHECK_AS(UNTIL(&f, duty() == 20000000, 1500), "an output is refreshed");
+	CHECK(hal_write_safe(&f.hal));
+	CHECK_AS(duty() == 10000000, "the safe value is written at once");
+	field_scan(&f, now());
+	nap(30);
+	CHECK(duty() == 10000000);
+	hal_release(&f.hal);
+	CHECK(UNTIL(&f, duty() == 20000000, 500));
+	hal_close(&f.hal);
+	CHECK_AS(duty() == 10000000, "at the end it has its safe value");
+	arena_free(&f.arena);
+}
+
+/* The kernel makes the folder of a channel when it is exported. */
+static void *play_kernel(void *unused)
+{
+	(void)unused;
+	for (int i = 0; i < 1000 && sys_get(CHIP "/export") != 2; i++)
+		nap(2);
+	sys_put(CHIP "/pwm2/period", "0");
+	sys_put(CHIP "/pwm2/enable", "0");
+	sys_put(CHIP "/pwm2/duty_cycle", "0");
+	return NULL;
+}
+
+static void test_pwm_export(void)
+{
+	struct field f;
+	pthread_t kernel;
+
+	make_chip();
+	field_begin(&f);
+	add_pwm(&f, "%QW0", 2);
+	pthread_create(&kernel, NULL, play_kernel, NULL);
+	CHECK(field_open(&f));
+	pthread_join(kernel, NULL);
+	CHECK(sys_get(CHIP "/pwm2/period") == 20000000 && sys_get(CHIP "/pwm2/enable") == 1);
+	field_end(&f);
+}
+
+static void test_pwm_goes_on(void)
+{
+	struct field f, g;
+	char line[LIMIT_ARG] = "";
+
+	make_chip();
+	field_begin(&f);
+	add_pwm(&f, "%QW0", 1)->safe.i = 13824;
+	CHECK(field_open(&f));
+	field_set(&f, 0, INT(27648));
+	CHECK(UNTIL(&f, duty() == 20000000, 500));
+	sys_put(CHIP "/pwm1/enable", "1 untouched");
+	field_begin(&g);
+	add_pwm(&g, "%QW8", 1)->safe.i = 13824;
+	CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_GOOD);
+	CHECK(hal_open_new(&g.hal, &g.diags) && duty() == 20000000);
+	hal_exchange(&f.hal, &g.hal);
+	hal_close_rest(&g.hal);
+	arena_free(&g.arena);
+	CHECK_AS(duty() == 20000000, "an output of both maps keeps its level");
+	CHECK(sys_get(CHIP "/pwm1/enable") == 1);
+	f.point[0].addr.byte = 8;
+	field_set(&f, 0, INT(0));
+	f.channel[0].type = IEC_INT;
+	CHECK_AS(UNTIL(&f, duty() == 0, 500), "and has the values of the new map");
+	field_begin(&g);
+	add_pwm(&g, "%QW8", 1)->period_ns = 10 * MS;
+	CHECK_AS(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_RESTART,
+		 "another period needs a restart");
+	CHECK_TEXT(line, "pwmchip0");
+	arena_free(&g.arena);
+	field_begin(&g);
+	CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_GOOD);
+	CHECK(hal_open_new(&g.hal, &g.diags));
+	hal_exchange(&f.hal, &g.hal);
+	hal_close_rest(&g.hal);
+	arena_free(&g.arena);
+	CHECK_AS(duty() == 10000000, "an output that the new map does not have is safe");
+	field_end(&f);
+}
+
+/* ---- hwmon ---- */
+
+static void test_hwmon(void)
+{
+	struct field f;
+	struct io_channel *channel;
+
+	sys_put("class/hwmon/hwmon0/name", "cpu_thermal\n");
+	sys_put("class/hwmon/hwmon0/temp1_input", "48312\n");
+	sys_put("class/hwmon/hwmon1/name", "ina219\n");
+	sys_put("class/hwmon/hwmon1/in1_input", "11984\n");
+	sys_put("class/hwmon/hwmon1/curr1_input", "-250\n");
+	sys_put("class/hwmon/hwmon2/name", "fan\n");
+	sys_put("class/hwmon/hwmon2/pwm1", "0\n");
+	sys_put("class/hwmon/hwmon2/pwm1_enable", "2\n");
+	field_begin(&f);
+	channel = field_add(&f, "%ID0", DRIVER_hwmon, IEC_REAL);
+	channel->device = "cpu_thermal", channel->name = "temp1";
+	channel = field_add(&f, "%ID4", DRIVER_hwmon, IEC_REAL);
+	channel->device = "hwmon1", channel->name = "in1";
+	channel = field_add(&f, "%ID8", DRIVER_hwmon, IEC_REAL);
+	channel->device = "ina219", channel->name = "curr1";
+	channel = field_add(&f, "%QW0", DRIVER_hwmon, IEC_REAL);
+	f.point[3].addr.bits = 32;
+	channel->device = "fan", channel->name = "pwm1";
+	channel = field_add(&f, "%IW12", DRIVER_hwmon, IEC_INT);
+	channel->device = "ina219", channel->name = "in1";
+	CHECK(field_open(&f) && field_scan(&f, now()));
+	CHECK(near(field_get(&f, 0).r, 48.312) && near(field_get(&f, 1).r, 11.984) &&
+	      near(field_get(&f, 2).r, -0.25));
+	CHECK_AS(field_get(&f, 4).i == 11984, "without a range a whole number is that of the device");
+	field_set(&f, 3, REAL(100));
+	CHECK(UNTIL(&f, sys_get("class/hwmon/hwmon2/pwm1") == 255, 500));
+	CHECK(sys_get("class/hwmon/hwmon2/pwm1_enable") == 1);
+	/* It comes back with another number. */
+	sys_remove("class/hwmon/hwmon0");
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_FAULT, 1000));
+	sys_put("class/hwmon/hwmon7/temp1_input", "50000\n");
+	sys_put("class/hwmon/hwmon7/name", "cpu_thermal\n");
+	CHECK_AS(UNTIL(&f, near(field_get(&f, 0).r, 50), 2000), "a device is found again by its name");
+	field_end(&f);
+}
+
+/* ---- what is wrong ---- */
+
+static void test_errors(void)
+{
+	struct field f;
+	char text[300];
+	static const char *const want[] = {
+		"test.io:2:1: error LD550: \"28-9\": this machine has no such device; it has 28-1",
+		"test.io:3:1: error LD554: \"28-1\" can only be read",
+		"test.io:4:1: error LD552: \"ina219\" has no channel in9",
+		"test.io:5:1: error LD553: \"twin\": several devices have this name; write one of hwmon3, hwmon4",
+		"test.io:6:1: error LD552: \"pwmchip0\" has no channel 9; it has 4",
+		"test.io:8:1: error LD507: \"pwmchip0\" is used twice in the map, first for %QW6",
+		"test.io:9:1: error LD555: \"pwmchip0 1\" can only be written",
+		"test.io:10:1: error LD550: \"ads1115\": this machine has no such device",
+	};
+	const int errors = (int)(sizeof(want) / sizeof(want[0]));
+
+	make_chip();
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	sys_put("class/hwmon/hwmon1/name", "ina219\n");
+	sys_put("class/hwmon/hwmon3/name", "twin\n");
+	sys_put("class/hwmon/hwmon4/name", "twin\n");
+	field_begin(&f);
+	add_sensor(&f, "%ID0", "28-9");
+	add_sensor(&f, "%QD4", "28-1");
+	f.point[1].output = true;
+	field_add(&f, "%ID8", DRIVER_hwmon, IEC_REAL)->device = "ina219";
+	f.channel[2].name = "in9";
+	field_add(&f, "%ID12", DRIVER_hwmon, IEC_REAL)->device = "twin";
+	f.channel[3].name = "temp1";
+	add_pwm(&f, "%QW4", 9);
+	add_pwm(&f, "%QW6", 1);
+	add_pwm(&f, "%QW8", 1);
+	add_pwm(&f, "%IW8", 1);
+	field_add(&f, "%IW10", DRIVER_pwm, IEC_INT)->device = "ads1115";
+	CHECK(!hal_check(&f.map, &f.arena, &f.diags));
+	CHECK_AS(f.diags.errors == errors, "all lines are checked in the same run");
+	for (int i = 0; i < errors && i < f.diags.count; i++) {
+		diag_print(&f.diags.diag[i], text, sizeof(text));
+		if (!CHECK_AS(strncmp(text, want[i], strlen(want[i])) == 0, "the message"))
+			printf("# got:  %s\n# want: %s\n", text, want[i]);
+	}
+	CHECK_AS(sys_get(CHIP "/pwm1/enable") == 0, "nothing is driven");
+	field_end(&f);
+}
+
+static void test_denied(void)
+{
+	struct field f;
+
+	if (geteuid() == 0) {
+		printf("ok %d # SKIP root may use every file\n", ++tap_count);
+		return;
+	}
+	make_chip();
+	chmod(sys_path(CHIP "/pwm1/duty_cycle"), 0444);
+	field_begin(&f);
+	add_pwm(&f, "%QW0", 1);
+	CHECK(!field_open(&f) && strstr(f.text, "LD551: \"pwmchip0\": no permission to use "));
+	field_end(&f);
+}
+
+/* ---- the list ---- */
+
+static char seen[2000];
+
+static void see(void *context, const struct device_seen *at)
+{
+	const size_t used = strlen(seen);
+
+	(void)context;
+	snprintf(seen + used, sizeof(seen) - used, "%s %s/%s %s %s %d\n", driver_row(at->driver)->word, at->device,
+		 at->label, at->channel, at->output ? "out" : "in",
+		 at->has_value ? (int)lround(at->value * 1000) : -1);
+}
+
+static void test_list(void)
+{
+	sys_remove("class");
+	sys_remove("bus");
+	make_chip();
+	sys_put(CHIP "/npwm", "2\n");
+	sys_put(CHIP "/pwm1/duty_cycle", "5");
+	sys_put(CHIP "/pwm1/period", "10");
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	sys_put("bus/w1/devices/28-2/w1_slave", "x crc=0 NO\nt=1\n");
+	mkdir(sys_path("bus/w1/devices/w1_bus_master1"), 0755);
+	sys_put("class/hwmon/hwmon1/name", "ina219\n");
+	sys_put("class/hwmon/hwmon1/in1_input", "11984\n");
+	sys_put("class/hwmon/hwmon1/in1_label", "VIN\n");
+	channels_list(field_sys, see, NULL);
+	CHECK_TEXT(seen, "pwm pwmchip0/ 0 out -1\npwm pwmchip0/ 1 out 50000\n"
+		   "w1 28-1/  in 20000\nw1 28-2/  in -1\nhwmon ina219/hwmon1 in1 in 11984\n");
+}
+
+int main(void)
+{
+	if (!sys_begin())
+		return 1;
+	test_scaling();
+	test_quality();
+	test_filter_and_threshold();
+	test_outputs_of_a_gateway();
+	test_simulated();
+	test_told_quality();
+	test_exchange();
+	test_w1();
+	test_slow_device();
+	test_hung_device();
+	test_pwm();
+	test_pwm_export();
+	test_pwm_goes_on();
+	test_hwmon();
+	test_errors();
+	test_denied();
+	test_list();
+	sys_remove("");
+	return tap_done();
+}
