@@ -43,9 +43,22 @@ for my $document (glob "$top/docs/*.md") {
 		close $out or die;
 	}
 }
-my @maps = (glob("$top/ladders/boards/*.io"), glob("$top/ladders/*/*.io"), glob("$folder/*.io"));
+my @samples = glob "$top/ladders/*.io";
+my @maps = (glob("$top/ladders/boards/*.io"), glob("$top/ladders/*/*.io"), @samples, glob("$folder/*.io"));
 cmp_ok(scalar @maps, '>=', 10, 'maps were found');
 is(errors_of($_), '', basename($_)) for @maps;
+
+# Each input and output of a sample that has a map is in it, and each output has a safe value.
+for my $map (@samples) {
+	my $project = $map =~ s/\.io$//r;
+	my $json = `$ladder check --json --io '$map' '@{[-e "$project.rung" ? "$project.rung" : $project]}'`;
+	my $said = decode_json($json)->[0];
+
+	is(join(' ', map "$_->{code} $_->{arg}", grep { $_->{code} =~ /LD515|LD030/ || !$said->{good} } @{$said->{diagnostics}}), '',
+		basename($map) . ': fits its program');
+}
+my @analog = grep { slurp($_) =~ /AT %\w*(?:A[IQ]|[IQ][WDL])/ } grep { !/plant\.rung$/ } glob "$top/ladders/*.rung";
+is(join(' ', map { basename($_) } grep { !-e s/\.rung$/.io/r } @analog), '', 'samples with analog values have a map');
 
 SKIP: {
 	my ($overlay) = glob "$folder/*.dts";

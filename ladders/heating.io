@@ -1,0 +1,14 @@
+BOARD "Raspberry Pi, Heating"
+# Made for the 40 pins; other pins are as good. Inputs: a contact from the pin to ground.
+
+%IX0.0  gpio  line=GPIO17  pull-up active-low debounce=5ms  # Away
+%IX0.1  gpio  line=GPIO27  pull-up active-low debounce=5ms  # Button
+%IX0.2  gpio  line=GPIO22  pull-up active-low debounce=5ms  # LimitOk
+
+%QX0.0  gpio  line=GPIO23  safe=0  # Boiler
+%QX0.1  gpio  line=GPIO24  safe=0  # Pump
+%QX0.2  gpio  line=GPIO25  safe=0  # BadSensor
+
+# ADS1115 on I2C (docs/field.md); a resistor of 150 Ohm makes 0 to 3 V of 0 to 20 mA.
+%AIW0  iio  device=ads1015 channel=voltage0  range=0..32000 at 0V..3V  filter=1s substitute=0
+%AIW2  iio  device=ads1015 channel=voltage1  range=0..32000 at 0V..3V  filter=1s substitute=0
