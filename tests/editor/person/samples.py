@@ -22,8 +22,8 @@ def samples(screen):
         name = os.path.basename(path)
         paths += [os.path.join(path, file) for file in sorted(os.listdir(path)) if file.split('.')[0] == name]
     texts = [os.path.basename(path) for path in paths if not path.endswith('.rung')]
-    maps = [path for path in paths if path.endswith('.io')]
-    # A scenario opens in the window of its program.
+    # A scenario or a map opens in the window of its program, if that is beside it.
+    maps = [path for path in paths if path.endswith('.io') and not os.path.exists(path[:-3] + '.rung')]
     programs = [path for path in paths if path.endswith('.rung')]
     assert len(paths) == len(programs) + len(texts) and len(programs) > 20 and len(texts) > 20, paths
     editor = Editor(screen, *paths)
