@@ -189,7 +189,7 @@ static void place(struct io_check *check, int index, const struct io_machine *ma
 	struct trouble why;
 	struct line_at at;
 
-	if (!driver->open)
+	if (!driver->open && !driver->by_channel)
 		diag_add(&check->here, io_place(&check->map, placed->point,
 						DIAG_IO_NO_DRIVER), "%s", driver->word);
 	if (!machine || !machine->count || !driver->find)
@@ -204,12 +204,20 @@ static void place(struct io_check *check, int index, const struct io_machine *ma
 		check_twice(check, index);
 }
 
-/* A safe value belongs to each output, so each one without is told. */
+static const struct diag *diag_at(const struct diag_list *list, int line)
+{
+	for (int i = 0; i < list->count; i++)
+		if (list->diag[i].line == line)
+			return &list->diag[i];
+	return NULL;
+}
+
+/* A safe value belongs to each output, so each line without is told. */
 static void check_safe(struct io_check *check, const struct io_point *point)
 {
 	char address[24];
 
-	if (!point->output || point->has_safe)
+	if (!point->output || point->has_safe || diag_at(&check->doubts, point->text_line))
 		return;
 	iec_addr_print(point->addr, address, sizeof(address));
 	diag_add(&check->doubts, io_place(&check->map, point, DIAG_IO_NO_SAFE), "%s", address);
@@ -251,14 +259,6 @@ void io_check_free(struct io_check *check)
 	free(check);
 }
 
-static const struct diag *diag_at(const struct diag_list *list, int line)
-{
-	for (int i = 0; i < list->count; i++)
-		if (list->diag[i].line == line)
-			return &list->diag[i];
-	return NULL;
-}
-
 const struct diag *io_check_at(const struct io_check *check, int line, bool *warns)
 {
 	const struct diag *said = diag_at(&check->errors, line);
@@ -275,4 +275,15 @@ const struct io_placed *io_check_point(const struct io_check *check, int line)
 		if (check->placed[i].point->text_line == line)
 			return &check->placed[i];
 	return NULL;
+}
+
+bool io_check_has(const struct io_check *check, struct iec_addr addr)
+{
+	for (int i = 0; i < check->map.count; i++) {
+		const struct io_values one = { check->map.point[i].addr, 1 };
+
+		if (io_values_have(&one, addr))
+			return true;
+	}
+	return false;
 }

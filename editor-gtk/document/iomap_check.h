@@ -60,7 +60,9 @@ void io_check_free(struct io_check *check);
 /** io_check_at - the first message of a line (1-based): an error of the text, a doubt, one about
  * this machine; NULL: none. @warns: gets whether it is no error of the text. */
 const struct diag *io_check_at(const struct io_check *check, int line, bool *warns);
-/** io_check_point - the point of a line of the text; NULL: the line has errors. */
+/** io_check_has - whether a line without errors has a value at @addr, or at some bits of it. */
+bool io_check_has(const struct io_check *check, struct iec_addr addr);
+/** io_check_point - the first point of a line of the text; NULL: the line has errors, or is no point. */
 const struct io_placed *io_check_point(const struct io_check *check, int line);
 
 #endif

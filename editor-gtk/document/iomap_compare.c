@@ -28,11 +28,24 @@ static char *field_of(const struct io_text *io, int row, enum io_field field)
 	return text;
 }
 
+/* What names a line: "%IX0.0", "BUS plant". Caller frees. */
+static char *name_of(const struct io_text *io, int row)
+{
+	char *name = field_of(io, row, IO_ADDRESS);
+	const char *word = io_kind_word(io->row[row].kind);
+	char *whole = g_strdup_printf("%s%s%s", word, *word ? " " : "", name);
+
+	free(name);
+	return whole;
+}
+
 /* "gpio GPIO17 pull=up", as it stands in the line. Caller frees. */
 static char *words_of(const struct io_text *io, int row)
 {
 	const struct io_row *of = &io->row[row];
-	const gsize from = of->word[IO_WORD_ADDRESS].at + of->word[IO_WORD_ADDRESS].len;
+	const struct io_span *name = &of->word[of->kind == IO_KIND_WINDOW ? IO_WORD_STATEMENT :
+								IO_WORD_ADDRESS];
+	const gsize from = name->at + name->len;
 	char *words = g_strndup(io->text + from, of->words_end > from ? of->words_end - from : 0);
 	char *valid = g_utf8_make_valid(g_strstrip(words), -1);
 
@@ -44,10 +57,10 @@ static char *words_of(const struct io_text *io, int row)
 static int partner_of(const struct comparing *of, const char *address)
 {
 	for (int i = 0; i < of->a.count; i++) {
-		char *other = of->met[i] ? NULL : field_of(&of->a, i, IO_ADDRESS);
+		char *other = of->met[i] ? NULL : name_of(&of->a, i);
 		const bool same = other && name_equal(other, address);
 
-		free(other);
+		g_free(other);
 		if (same)
 			return i;
 	}
@@ -57,17 +70,17 @@ static int partner_of(const struct comparing *of, const char *address)
 static void tell_line(struct comparing *of, const struct io_text *io, int row)
 {
 	const bool newer = io == &of->b;
-	char *address = field_of(io, row, IO_ADDRESS), *words = words_of(io, row);
+	char *address = name_of(io, row), *words = words_of(io, row);
 
 	of->take(of->context, &(struct iomap_difference){ address, !newer, newer, NULL,
 		newer ? "" : words, newer ? words : "" });
-	free(address);
+	g_free(address);
 	g_free(words);
 }
 
 static void tell_fields(struct comparing *of, int a, int b)
 {
-	char *address = field_of(&of->b, b, IO_ADDRESS);
+	char *address = name_of(&of->b, b);
 
 	for (int i = IO_ADDRESS + 1; i < IO_FIELDS; i++) {
 		char *from = field_of(&of->a, a, (enum io_field)i);
@@ -79,7 +92,7 @@ static void tell_fields(struct comparing *of, int a, int b)
 		free(from);
 		free(to);
 	}
-	free(address);
+	g_free(address);
 }
 
 static void tell_board(struct comparing *of)
@@ -106,10 +119,10 @@ void iomap_compare(const char *a, const char *b,
 	of.met = g_new0(bool, of.a.count + 1);
 	tell_board(&of);
 	for (int i = 0; i < of.b.count; i++) {
-		char *address = field_of(&of.b, i, IO_ADDRESS);
+		char *address = name_of(&of.b, i);
 		const int at = partner_of(&of, address);
 
-		free(address);
+		g_free(address);
 		if (at >= 0) {
 			of.met[at] = true;
 			tell_fields(&of, at, i);

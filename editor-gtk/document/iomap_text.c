@@ -70,6 +70,29 @@ static const struct { const char *name; enum io_word word; bool has_value; } opt
 	{ "pull-up", IO_WORD_PULL, false }, { "pull-down", IO_WORD_PULL, false },
 	{ "no-pull", IO_WORD_PULL, false }, { "push-pull", IO_WORD_DRIVE, false },
 	{ "open-drain", IO_WORD_DRIVE, false }, { "open-source", IO_WORD_DRIVE, false },
+	{ "device", IO_WORD_DEVICE, true }, { "sensor", IO_WORD_SENSOR, true },
+	{ "from", IO_WORD_FROM, true }, { "channel", IO_WORD_CHANNEL, true },
+	{ "name", IO_WORD_NAME, true }, { "period", IO_WORD_PERIOD, true },
+	{ "port", IO_WORD_PORT, true }, { "baud", IO_WORD_BAUD, true },
+	{ "parity", IO_WORD_PARITY, true }, { "stop-bits", IO_WORD_STOP_BITS, true },
+	{ "host", IO_WORD_HOST, true }, { "listen", IO_WORD_LISTEN, true },
+	{ "interface", IO_WORD_INTERFACE, true }, { "group", IO_WORD_GROUP, true },
+	{ "timeout", IO_WORD_TIMEOUT, true }, { "every", IO_WORD_EVERY, true },
+	{ "bus", IO_WORD_BUS, true }, { "unit", IO_WORD_UNIT, true },
+	{ "connections", IO_WORD_CONNECTIONS, true }, { "rate", IO_WORD_RATE, true },
+	{ "type", IO_WORD_TYPE, true }, { "di", IO_WORD_DI, true }, { "dq", IO_WORD_DQ, true },
+	{ "ai", IO_WORD_AI, true }, { "aq", IO_WORD_AQ, true },
+	{ "coil", IO_WORD_COIL, true }, { "discrete-input", IO_WORD_DISCRETE_INPUT, true },
+	{ "input-register", IO_WORD_INPUT_REGISTER, true },
+	{ "holding-register", IO_WORD_HOLDING_REGISTER, true },
+	{ "read-only", IO_WORD_ACCESS, false }, { "read-write", IO_WORD_ACCESS, false },
+	{ "bit", IO_WORD_BIT, true }, { "as", IO_WORD_AS, true }, { "raw", IO_WORD_RAW, true },
+	{ "word-order", IO_WORD_WORD_ORDER, true }, { "byte-order", IO_WORD_BYTE_ORDER, true },
+	{ "range", IO_WORD_RANGE, true }, { "limits", IO_WORD_LIMITS, true },
+	{ "threshold", IO_WORD_THRESHOLD, true }, { "hysteresis", IO_WORD_HYSTERESIS, true },
+	{ "filter", IO_WORD_FILTER, true }, { "poll", IO_WORD_POLL, true },
+	{ "stale", IO_WORD_STALE, true }, { "substitute", IO_WORD_SUBSTITUTE, true },
+	{ "refresh", IO_WORD_REFRESH, true }, { "on-change", IO_WORD_ON_CHANGE, false },
 };
 
 static enum io_word kind_of(const struct word *word)
@@ -84,6 +107,40 @@ static enum io_word kind_of(const struct word *word)
 	return IO_WORDS;
 }
 
+const char *io_kind_word(enum io_kind kind)
+{
+	static const char *const words[IO_KINDS] = { "", "BUS", "SERVE", "WINDOW", "PUBLISH",
+						     "MODULE" };
+
+	return words[kind];
+}
+
+static enum io_kind statement_of(const struct word *word)
+{
+	enum io_kind kind = IO_KIND_BUS;
+
+	while (kind < IO_KINDS && !ascii_is(io_kind_word(kind), word->text, word->len))
+		kind++;
+	return kind < IO_KINDS ? kind : IO_KIND_POINT;
+}
+
+#define FIXED 3 /* words before the options, at most                          */
+
+/* Words before the options, in their order. */
+static enum io_word fixed_word(enum io_kind kind, int number)
+{
+	static const enum io_word words[IO_KINDS][FIXED] = {
+		[IO_KIND_POINT] = { IO_WORD_ADDRESS, IO_WORD_DRIVER, IO_WORDS },
+		[IO_KIND_BUS] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORD_DRIVER },
+		[IO_KIND_SERVE] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORD_DRIVER },
+		[IO_KIND_WINDOW] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
+		[IO_KIND_PUBLISH] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
+		[IO_KIND_MODULE] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
+	};
+
+	return number < FIXED ? words[kind][number] : IO_WORDS;
+}
+
 static void take(const struct io_text *io, struct io_row *row, enum io_word kind,
 		 const struct word *word)
 {
@@ -91,6 +148,52 @@ static void take(const struct io_text *io, struct io_row *row, enum io_word kind
 		row->word[kind] = (struct io_span){ (size_t)(word->text - io->text),
 						    word->len };
 	row->words_end = (size_t)(word->text - io->text) + word->len;
+}
+
+static bool only_blanks(const char *text, size_t len)
+{
+	for (size_t i = 0; i < len; i++)
+		if (text[i] != ' ' && text[i] != '\t')
+			return false;
+	return true;
+}
+
+/* The names of a PUBLISH are several words with blanks between them. */
+static bool take_name(const struct io_text *io, struct io_row *row, const struct word *word)
+{
+	struct io_span *names = &row->word[IO_WORD_NAMES];
+	const size_t end = names->at + names->len, at = (size_t)(word->text - io->text);
+
+	if (row->kind != IO_KIND_PUBLISH || memchr(word->text, '=', word->len))
+		return false;
+	if (!names->len)
+		take(io, row, IO_WORD_NAMES, word);
+	else if (row->words_end == end && only_blanks(io->text + end, at - end))
+		names->len = at + word->len - names->at;
+	row->words_end = at + word->len;
+	return true;
+}
+
+/* @before: the kind of the word before it. Returns its own. */
+static enum io_word take_option(const struct io_text *io, struct io_row *row,
+				enum io_word before, const struct word *word)
+{
+	enum io_word kind = kind_of(word);
+
+	if (take_name(io, row, word))
+		return IO_WORD_NAMES;
+	if (before == IO_WORD_RANGE && ascii_is("at", word->text, word->len))
+		kind = IO_WORD_AT;
+	else if (before == IO_WORD_AT)
+		kind = IO_WORD_AT_VALUE;
+	else if (row->kind == IO_KIND_WINDOW && word->text[0] == '%')
+		kind = IO_WORD_SHOWN;
+	if (kind < IO_WORDS && row->word[kind].len) { /* given twice */
+		take(io, row, IO_WORDS, word);
+		return IO_WORDS;
+	}
+	take(io, row, kind, word);
+	return kind;
 }
 
 /* ---- lines ---- */
@@ -158,17 +261,25 @@ static bool read_row(struct io_text *io, struct lex *lex, const struct word *fir
 		     size_t least)
 {
 	struct io_row *row = push_row(io);
+	enum io_word kind;
 	struct word word;
+	int number = 1;
 
 	if (!row)
 		return false;
+	row->kind = statement_of(first);
 	row->line = first->line;
 	row->from = begin_of_line(io, (size_t)(first->text - io->text), least);
-	take(io, row, IO_WORD_ADDRESS, first);
-	if (next_word(lex, io->text, row, &word))
-		take(io, row, IO_WORD_DRIVER, &word);
-	while (next_word(lex, io->text, row, &word))
-		take(io, row, kind_of(&word), &word);
+	kind = fixed_word(row->kind, 0);
+	take(io, row, kind, first);
+	while (next_word(lex, io->text, row, &word)) {
+		if (fixed_word(row->kind, number) == IO_WORDS) {
+			kind = take_option(io, row, kind, &word);
+			continue;
+		}
+		kind = fixed_word(row->kind, number++);
+		take(io, row, kind, &word);
+	}
 	end_row(io, lex, row);
 	return true;
 }
@@ -286,50 +397,333 @@ static size_t put_comment(const struct io_text *io, const struct io_span *commen
 	return (size_t)(end - at);
 }
 
-static const enum io_word word_of[IO_FIELDS] = {
-	[IO_ADDRESS] = IO_WORD_ADDRESS, [IO_DRIVER] = IO_WORD_DRIVER,
-	[IO_LINE] = IO_WORD_LINE, [IO_PULL] = IO_WORD_PULL,
-	[IO_ACTIVE_LOW] = IO_WORD_ACTIVE_LOW, [IO_DEBOUNCE] = IO_WORD_DEBOUNCE,
-	[IO_DRIVE] = IO_WORD_DRIVE, [IO_SAFE] = IO_WORD_SAFE, [IO_COMMENT] = IO_WORDS,
+/* Fields of one word, and what stands before the value in it. IO_WORDS: of several words. */
+static const struct field_row {
+	const char *name;
+	enum io_word word;
+	const char *before;
+} fields[IO_FIELDS] = {
+	[IO_ADDRESS] = { N_("Address"), IO_WORD_ADDRESS, "" },
+	[IO_DRIVER] = { N_("Driver"), IO_WORD_DRIVER, "" },
+	[IO_LINE] = { N_("I/O line"), IO_WORDS, "" },
+	[IO_PULL] = { N_("Pull"), IO_WORD_PULL, "" },
+	[IO_ACTIVE_LOW] = { N_("Active low"), IO_WORD_ACTIVE_LOW, "active-low" },
+	[IO_DEBOUNCE] = { N_("Debounce"), IO_WORD_DEBOUNCE, "debounce=" },
+	[IO_DRIVE] = { N_("Drive"), IO_WORD_DRIVE, "" },
+	[IO_DEVICE] = { N_("Device"), IO_WORDS, "" },
+	[IO_CHANNEL] = { N_("Channel"), IO_WORDS, "" },
+	[IO_PERIOD] = { N_("Period"), IO_WORD_PERIOD, "period=" },
+	[IO_BUS] = { N_("Bus"), IO_WORD_BUS, "bus=" },
+	[IO_UNIT] = { N_("Unit"), IO_WORD_UNIT, "unit=" },
+	[IO_TYPE] = { N_("Module type"), IO_WORD_TYPE, "type=" },
+	[IO_TABLE] = { N_("Table"), IO_WORDS, "" },
+	[IO_NUMBER] = { N_("Number"), IO_WORDS, "" },
+	[IO_BIT] = { N_("Bit"), IO_WORD_BIT, "bit=" },
+	[IO_AS] = { N_("Value type"), IO_WORD_AS, "as=" },
+	[IO_RAW] = { N_("Register type"), IO_WORD_RAW, "raw=" },
+	[IO_WORD_ORDER] = { N_("Word order"), IO_WORD_WORD_ORDER, "word-order=" },
+	[IO_BYTE_ORDER] = { N_("Byte order"), IO_WORD_BYTE_ORDER, "byte-order=" },
+	[IO_RANGE] = { N_("Range"), IO_WORDS, "" },
+	[IO_LIMITS] = { N_("Limits"), IO_WORD_LIMITS, "limits=" },
+	[IO_THRESHOLD] = { N_("Threshold"), IO_WORD_THRESHOLD, "threshold=" },
+	[IO_HYSTERESIS] = { N_("Hysteresis"), IO_WORD_HYSTERESIS, "hysteresis=" },
+	[IO_FILTER] = { N_("Filter"), IO_WORD_FILTER, "filter=" },
+	[IO_POLL] = { N_("Poll"), IO_WORD_POLL, "poll=" },
+	[IO_STALE] = { N_("Stale"), IO_WORD_STALE, "stale=" },
+	[IO_SUBSTITUTE] = { N_("Substitute"), IO_WORD_SUBSTITUTE, "substitute=" },
+	[IO_REFRESH] = { N_("Refresh"), IO_WORD_REFRESH, "refresh=" },
+	[IO_ON_CHANGE] = { N_("On change"), IO_WORD_ON_CHANGE, "on-change" },
+	[IO_SAFE] = { N_("Safe"), IO_WORD_SAFE, "safe=" },
+	[IO_PORT] = { N_("Port"), IO_WORD_PORT, "port=" },
+	[IO_BAUD] = { N_("Baud rate"), IO_WORD_BAUD, "baud=" },
+	[IO_PARITY] = { N_("Parity"), IO_WORD_PARITY, "parity=" },
+	[IO_STOP_BITS] = { N_("Stop bits"), IO_WORD_STOP_BITS, "stop-bits=" },
+	[IO_HOST] = { N_("Host"), IO_WORD_HOST, "host=" },
+	[IO_INTERFACE] = { N_("Interface"), IO_WORD_INTERFACE, "interface=" },
+	[IO_GROUP] = { N_("Group address"), IO_WORD_GROUP, "group=" },
+	[IO_TIMEOUT] = { N_("Timeout"), IO_WORD_TIMEOUT, "timeout=" },
+	[IO_LISTEN] = { N_("Listen"), IO_WORD_LISTEN, "listen=" },
+	[IO_CONNECTIONS] = { N_("Connections"), IO_WORD_CONNECTIONS, "connections=" },
+	[IO_RATE] = { N_("Requests/s"), IO_WORD_RATE, "rate=" },
+	[IO_ACCESS] = { N_("Access"), IO_WORD_ACCESS, "" },
+	[IO_NAMES] = { N_("Variables"), IO_WORD_NAMES, "" },
+	[IO_EVERY] = { N_("Every"), IO_WORD_EVERY, "every=" },
+	[IO_DI] = { N_("DI"), IO_WORD_DI, "di=" }, [IO_DQ] = { N_("DQ"), IO_WORD_DQ, "dq=" },
+	[IO_AI] = { N_("AI"), IO_WORD_AI, "ai=" }, [IO_AQ] = { N_("AQ"), IO_WORD_AQ, "aq=" },
+	[IO_FIRST_DI] = { N_("First DI"), IO_WORD_DISCRETE_INPUT, "discrete-input=" },
+	[IO_FIRST_DQ] = { N_("First DQ"), IO_WORD_COIL, "coil=" },
+	[IO_FIRST_AI] = { N_("First AI"), IO_WORD_INPUT_REGISTER, "input-register=" },
+	[IO_FIRST_AQ] = { N_("First AQ"), IO_WORD_HOLDING_REGISTER, "holding-register=" },
+	[IO_COMMENT] = { N_("Comment"), IO_WORDS, "" },
 };
+
+/* Drivers of points, as bits. */
+enum { GPIO = 1, SIM = 2, IIO = 4, PWM = 8, W1 = 16, HWMON = 32, MODBUS = 64, MODULE = 128, PEER = 256,
+       OTHER = 512, DEVICES = IIO | W1 | HWMON };
+
+static bool word_is(const struct io_text *io, const struct io_span *word, const char *text)
+{
+	return ascii_is(text, io->text + word->at, word->len);
+}
+
+static unsigned driver_of(const struct io_text *io, const struct io_row *row)
+{
+	static const struct { const char *word; unsigned bit; } drivers[] = {
+		{ "gpio", GPIO }, { "sim", SIM }, { "iio", IIO }, { "pwm", PWM }, { "w1", W1 },
+		{ "hwmon", HWMON }, { "modbus", MODBUS }, { "module", MODULE }, { "peer", PEER },
+	};
+
+	for (size_t i = 0; i < sizeof(drivers) / sizeof(*drivers); i++)
+		if (word_is(io, &row->word[IO_WORD_DRIVER], drivers[i].word))
+			return drivers[i].bit;
+	return OTHER;
+}
+
+static bool point_has(unsigned driver, enum io_field field)
+{
+	static const unsigned of[IO_FIELDS] = {
+		[IO_LINE] = GPIO | SIM | OTHER, [IO_PULL] = GPIO | SIM | OTHER,
+		[IO_ACTIVE_LOW] = GPIO | SIM | OTHER, [IO_DEBOUNCE] = GPIO | SIM | OTHER,
+		[IO_DRIVE] = GPIO | SIM | OTHER,
+		[IO_DEVICE] = DEVICES | PWM | PEER, [IO_CHANNEL] = IIO | HWMON | PWM | PEER,
+		[IO_PERIOD] = PWM, [IO_BUS] = MODBUS | MODULE | PEER, [IO_UNIT] = MODBUS | MODULE,
+		[IO_TYPE] = MODULE, [IO_TABLE] = MODBUS, [IO_NUMBER] = MODBUS, [IO_BIT] = MODBUS,
+		[IO_AS] = DEVICES | PWM | MODBUS | PEER | SIM, [IO_RAW] = MODBUS,
+		[IO_WORD_ORDER] = MODBUS, [IO_BYTE_ORDER] = MODBUS,
+		[IO_RANGE] = DEVICES | PWM | MODBUS | PEER, [IO_LIMITS] = DEVICES | MODBUS,
+		[IO_THRESHOLD] = DEVICES | MODBUS, [IO_HYSTERESIS] = DEVICES | MODBUS,
+		[IO_FILTER] = DEVICES | MODBUS, [IO_POLL] = DEVICES | MODBUS | MODULE,
+		[IO_STALE] = DEVICES | MODBUS | MODULE | PEER,
+		[IO_SUBSTITUTE] = DEVICES | MODBUS | MODULE | PEER,
+		[IO_REFRESH] = MODBUS | MODULE | PWM | IIO, [IO_ON_CHANGE] = MODBUS | MODULE,
+		[IO_SAFE] = ~0u,
+	};
+
+	return of[field] & driver;
+}
+
+/* Of inputs, and of outputs; a module has both. */
+static bool fits_direction(const struct io_text *io, const struct io_row *row, enum io_field field)
+{
+	static const bool input[IO_FIELDS] = { [IO_LIMITS] = true, [IO_THRESHOLD] = true,
+		[IO_HYSTERESIS] = true, [IO_FILTER] = true, [IO_POLL] = true, [IO_STALE] = true,
+		[IO_SUBSTITUTE] = true };
+	static const bool output[IO_FIELDS] = { [IO_REFRESH] = true, [IO_ON_CHANGE] = true,
+		[IO_SAFE] = true };
+	const struct io_span *address = &row->word[IO_WORD_ADDRESS];
+	struct io_values values;
+
+	if (driver_of(io, row) & (GPIO | SIM | MODULE | OTHER) ||
+	    !io_values_read(io->text + address->at, address->len, &values))
+		return true;
+	return iec_area_row(values.first.area)->access == ACCESS_WRITE ? !input[field] : !output[field];
+}
+
+/* Fields of the lines that are no points; IO_FIELDS ends a list. */
+static const enum io_field *fields_of(enum io_kind kind)
+{
+	static const enum io_field bus[] = { IO_DRIVER, IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS,
+		IO_HOST, IO_INTERFACE, IO_GROUP, IO_TIMEOUT, IO_FIELDS };
+	static const enum io_field serve[] = { IO_DRIVER, IO_LISTEN, IO_PORT, IO_BAUD, IO_PARITY,
+		IO_STOP_BITS, IO_UNIT, IO_CONNECTIONS, IO_RATE, IO_FIELDS };
+	static const enum io_field window[] = { IO_BUS, IO_TABLE, IO_NUMBER, IO_ACCESS, IO_FIELDS };
+	static const enum io_field publish[] = { IO_NAMES, IO_EVERY, IO_BUS, IO_FIELDS };
+	static const enum io_field module[] = { IO_DI, IO_DQ, IO_AI, IO_AQ, IO_FIRST_DI,
+		IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ, IO_FIELDS };
+
+	switch (kind) {
+	case IO_KIND_BUS: return bus;
+	case IO_KIND_SERVE: return serve;
+	case IO_KIND_WINDOW: return window;
+	case IO_KIND_PUBLISH: return publish;
+	case IO_KIND_MODULE: return module;
+	case IO_KIND_POINT: case IO_KINDS: break;
+	}
+	return NULL;
+}
+
+enum { RTU = 1, TCP = 2, YARD = 4 };
+
+/* Protocols of buses and servers that have the field; unknown ones have all. */
+static bool fits_protocol(const struct io_text *io, const struct io_row *row, enum io_field field)
+{
+	static const unsigned of[IO_FIELDS] = {
+		[IO_PORT] = RTU, [IO_BAUD] = RTU, [IO_PARITY] = RTU, [IO_STOP_BITS] = RTU,
+		[IO_TIMEOUT] = RTU | TCP, [IO_HOST] = TCP, [IO_LISTEN] = TCP, [IO_CONNECTIONS] = TCP,
+		[IO_INTERFACE] = YARD, [IO_GROUP] = YARD,
+	};
+	const struct io_span *word = &row->word[IO_WORD_DRIVER];
+	const unsigned is = word_is(io, word, "modbus-rtu") ? RTU : word_is(io, word, "modbus-tcp") ? TCP :
+			    word_is(io, word, "peer") ? YARD : 0;
+
+	return !is || !of[field] || of[field] & is;
+}
+
+/* The one word of a field; IO_WORDS: it has several. */
+static enum io_word word_of(const struct io_row *row, enum io_field field)
+{
+	if (row->kind == IO_KIND_WINDOW && field == IO_ADDRESS)
+		return IO_WORD_SHOWN;
+	if (row->kind == IO_KIND_WINDOW && field == IO_BUS)
+		return IO_WORD_ADDRESS;
+	return fields[field].word;
+}
+
+/* A word that should not be there can be seen, and deleted. */
+static bool is_there(const struct io_row *row, enum io_field field)
+{
+	const enum io_word word = word_of(row, field);
+
+	return word < IO_WORDS && row->word[word].len &&
+	       !(field >= IO_FIRST_DI && field <= IO_FIRST_AQ);
+}
+
+bool io_text_has(const struct io_text *io, int number, enum io_field field)
+{
+	const struct io_row *row = &io->row[number];
+	const enum io_field *of = fields_of(row->kind);
+
+	if (field == IO_ADDRESS || field == IO_COMMENT || is_there(row, field))
+		return true;
+	if (row->kind == IO_KIND_POINT)
+		return field == IO_DRIVER || (point_has(driver_of(io, row), field) &&
+					      fits_direction(io, row, field));
+	while (*of != IO_FIELDS && *of != field)
+		of++;
+	return *of == field && fits_protocol(io, row, field);
+}
+
+/* What stands before the value of a field in its word. */
+static const char *before_of(const struct io_row *row, enum io_field field)
+{
+	return row->kind == IO_KIND_WINDOW && field == IO_BUS ? "" : fields[field].before;
+}
+
+/* The word that names the device, and the one that it should be. */
+static const enum io_word device_words[] = { IO_WORD_DEVICE, IO_WORD_CHIP, IO_WORD_SENSOR,
+					     IO_WORD_FROM };
+static const enum io_word channel_words[] = { IO_WORD_CHANNEL, IO_WORD_NAME };
+static const enum io_word table_words[] = { IO_WORD_COIL, IO_WORD_DISCRETE_INPUT,
+					    IO_WORD_INPUT_REGISTER, IO_WORD_HOLDING_REGISTER };
+
+#define COUNT(list) (int)(sizeof(list) / sizeof(*(list)))
+
+/* The first of these words that the row has; IO_WORDS: none. */
+static enum io_word first_of(const struct io_row *row, const enum io_word *words, int count)
+{
+	for (int i = 0; i < count; i++)
+		if (row->word[words[i]].len)
+			return words[i];
+	return IO_WORDS;
+}
+
+static const char *option_name(enum io_word word)
+{
+	for (size_t i = 0; i < sizeof(option) / sizeof(*option); i++)
+		if (option[i].word == word)
+			return option[i].name;
+	return "";
+}
+
+static size_t put_first(const struct io_text *io, const struct io_row *row,
+			const enum io_word *words, int count, char *out)
+{
+	const enum io_word word = first_of(row, words, count);
+
+	return word == IO_WORDS ? 0 : put_name(io, &row->word[word], out);
+}
+
+static size_t put_table(const struct io_row *row, char *out)
+{
+	const enum io_word word = first_of(row, table_words, COUNT(table_words));
+	const char *name = word == IO_WORDS ? "" : option_name(word);
+
+	memcpy(out, name, strlen(name));
+	return strlen(name);
+}
+
+static size_t put_value(const struct io_text *io, const struct io_span *word, char *out)
+{
+	const struct io_span value = value_of(io, word);
+
+	memcpy(out, io->text + value.at, value.len);
+	return value.len;
+}
+
+static size_t put_range(const struct io_text *io, const struct io_row *row, char *out)
+{
+	const struct io_span *at = &row->word[IO_WORD_AT_VALUE];
+	size_t len = put_value(io, &row->word[IO_WORD_RANGE], out);
+
+	if (!at->len)
+		return len;
+	memcpy(out + len, " at ", 4);
+	memcpy(out + len + 4, io->text + at->at, at->len);
+	return len + 4 + at->len;
+}
+
+static bool is_flag(enum io_field field)
+{
+	return field == IO_ACTIVE_LOW || field == IO_ON_CHANGE;
+}
+
+/* Names stand in quotes if they must. */
+static bool is_name(const struct io_row *row, enum io_field field)
+{
+	return (field == IO_ADDRESS && row->kind != IO_KIND_POINT && row->kind != IO_KIND_WINDOW) ||
+	       field == IO_PORT || field == IO_INTERFACE;
+}
+
+/* A field of one word. */
+static size_t put_word(const struct io_text *io, const struct io_row *row, enum io_field field,
+		       char *out)
+{
+	const struct io_span *word = &row->word[word_of(row, field)];
+
+	if (is_flag(field)) {
+		out[0] = '1';
+		return word->len > 0;
+	}
+	if (is_name(row, field))
+		return put_name(io, word, out);
+	if (*before_of(row, field))
+		return put_value(io, word, out);
+	memcpy(out, io->text + word->at, word->len);
+	return word->len;
+}
+
+static size_t put_field(const struct io_text *io, const struct io_row *row, enum io_field field,
+			char *out)
+{
+	switch ((int)field) {
+	case IO_COMMENT: return put_comment(io, &row->comment, out);
+	case IO_LINE: return put_line(io, row, out);
+	case IO_DEVICE: return put_first(io, row, device_words, COUNT(device_words), out);
+	case IO_CHANNEL: return put_first(io, row, channel_words, COUNT(channel_words), out);
+	case IO_TABLE: return put_table(row, out);
+	case IO_NUMBER: return put_first(io, row, table_words, COUNT(table_words), out);
+	case IO_RANGE: return put_range(io, row, out);
+	default: return put_word(io, row, field, out);
+	}
+}
 
 char *io_text_field(const struct io_text *io, int number, enum io_field field)
 {
 	const struct io_row *row = &io->row[number];
-	const struct io_span value = field == IO_COMMENT ? row->comment :
-		field == IO_LINE ? (struct io_span){ row->from, row->end - row->from } :
-		field == IO_ADDRESS || field == IO_DRIVER ? row->word[word_of[field]] :
-		value_of(io, &row->word[word_of[field]]);
-	char *out = malloc(value.len + 2);
-	size_t len = value.len;
+	char *out = malloc(row->end - row->from + 32); /* more than any field of the row */
+	size_t len = 0;
 
 	if (!out)
 		return NULL;
-	if (field == IO_COMMENT) {
-		len = put_comment(io, &row->comment, out);
-	} else if (field == IO_LINE) {
-		len = put_line(io, row, out);
-	} else if (field == IO_ACTIVE_LOW) {
-		len = row->word[IO_WORD_ACTIVE_LOW].len > 0;
-		out[0] = '1';
-	} else {
-		memcpy(out, io->text + value.at, len);
-	}
+	if (io_text_has(io, number, field))
+		len = put_field(io, row, field, out);
 	out[len] = '\0';
 	return out;
 }
 
 const char *io_field_name(enum io_field field)
 {
-	static const char *const name[IO_FIELDS] = {
-		[IO_ADDRESS] = N_("Address"), [IO_DRIVER] = N_("Driver"),
-		[IO_LINE] = N_("I/O line"), [IO_PULL] = N_("Pull"),
-		[IO_ACTIVE_LOW] = N_("Active low"), [IO_DEBOUNCE] = N_("Debounce"),
-		[IO_DRIVE] = N_("Drive"), [IO_SAFE] = N_("Safe"),
-		[IO_COMMENT] = N_("Comment"),
-	};
-
-	return _(name[field]);
+	return _(fields[field].name);
 }
 
 char *io_text_board(const struct io_text *io)
@@ -694,18 +1088,24 @@ const char *const *io_text_choices(enum io_field field)
 	static const char *const drive[] = { "push-pull", "open-drain", "open-source",
 					     NULL };
 	static const char *const safe[] = { "0", "1", "hold", NULL };
+	static const char *const substitute[] = { "0", "hold", NULL };
 	static const char *const yes[] = { "1", NULL };
+	static const char *const table[] = { "coil", "discrete-input", "input-register",
+					     "holding-register", NULL };
+	static const char *const order[] = { "big", "little", NULL };
+	static const char *const parity[] = { "even", "odd", "none", NULL };
+	static const char *const baud[] = { "9600", "19200", "38400", "57600", "115200", NULL };
+	static const char *const bits[] = { "1", "2", NULL };
+	static const char *const access[] = { "read-only", "read-write", NULL };
+	static const char *const *const words[IO_FIELDS] = {
+		[IO_PULL] = pull, [IO_DRIVE] = drive, [IO_SAFE] = safe,
+		[IO_SUBSTITUTE] = substitute, [IO_ACTIVE_LOW] = yes, [IO_ON_CHANGE] = yes,
+		[IO_TABLE] = table, [IO_WORD_ORDER] = order, [IO_BYTE_ORDER] = order,
+		[IO_PARITY] = parity, [IO_BAUD] = baud, [IO_STOP_BITS] = bits,
+		[IO_ACCESS] = access,
+	};
 
-	switch (field) {
-	case IO_PULL: return pull;
-	case IO_DRIVE: return drive;
-	case IO_SAFE: return safe;
-	case IO_ACTIVE_LOW: return yes;
-	case IO_ADDRESS: case IO_DRIVER: case IO_LINE: case IO_DEBOUNCE: case IO_COMMENT:
-	case IO_FIELDS:
-		break;
-	}
-	return NULL;
+	return words[field];
 }
 
 static bool is_choice(const char *const *choices, const char *value)
@@ -716,51 +1116,279 @@ static bool is_choice(const char *const *choices, const char *value)
 	return !choices || !*value;
 }
 
+/* Whether the words of io_text_choices() are the only ones. The word itself says what it is for, or
+ * it is a bit. */
+static bool is_strict(const struct io_text *io, const struct io_row *row, enum io_field field)
+{
+	const struct io_span *address = &row->word[IO_WORD_ADDRESS];
+	struct io_values values;
+
+	if (field == IO_SAFE)
+		return driver_of(io, row) & (GPIO | SIM | OTHER) &&
+		       io_values_read(io->text + address->at, address->len, &values) &&
+		       values.first.bits == 1;
+	return field == IO_PULL || field == IO_DRIVE || field == IO_TABLE || field == IO_ACCESS ||
+	       is_flag(field);
+}
+
+static bool is_fixed(const struct io_row *row, enum io_word word)
+{
+	for (int i = 0; i < FIXED; i++)
+		if (fixed_word(row->kind, i) == word)
+			return true;
+	return word == IO_WORD_SHOWN;
+}
+
+/* Options cannot stand before the words that a line begins with. */
+static bool lacks_before(const struct io_row *row, enum io_field field)
+{
+	if (field == IO_COMMENT)
+		return false;
+	for (int i = 0; i < FIXED; i++) {
+		const enum io_word word = fixed_word(row->kind, i);
+
+		if (word == IO_WORDS || word == word_of(row, field))
+			return false;
+		if (!row->word[word].len)
+			return true;
+	}
+	return false;
+}
+
 static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 				  enum io_field field, const char *value)
 {
-	static const struct { enum io_word kind; const char *before; } words[IO_FIELDS] = {
-		[IO_ADDRESS] = { IO_WORD_ADDRESS, "" }, [IO_DRIVER] = { IO_WORD_DRIVER, "" },
-		[IO_PULL] = { IO_WORD_PULL, "" }, [IO_DRIVE] = { IO_WORD_DRIVE, "" },
-		[IO_DEBOUNCE] = { IO_WORD_DEBOUNCE, "debounce=" },
-		[IO_SAFE] = { IO_WORD_SAFE, "safe=" },
-	};
-	char word[LIMIT_NAME + 16] = "";
+	char word[NAME_ROOM + 24] = "";
+	const char *before = before_of(row, field);
 
 	if (strlen(value) > LIMIT_NAME)
 		return IO_BAD_NAME;
-	if (!*value && (field == IO_ADDRESS || field == IO_DRIVER))
+	if (!*value && is_fixed(row, word_of(row, field)))
 		return IO_EMPTY;
-	if (*value)
-		snprintf(word, sizeof(word), "%s%s", words[field].before, value);
+	if (*value && is_flag(field))
+		snprintf(word, sizeof(word), "%s", before);
+	else if (*value && is_name(row, field)) {
+		snprintf(word, sizeof(word), "%s", before);
+		if (!spell_typed(word + strlen(before), sizeof(word) - strlen(before), value,
+				 strlen(value)))
+			return IO_BAD_NAME;
+	} else if (*value) {
+		snprintf(word, sizeof(word), "%s%s", before, value);
+	}
 	if (*word && !is_one_word(word))
 		return IO_MANY_WORDS;
-	set_word(draft, row, words[field].kind, word);
+	set_word(draft, row, word_of(row, field), word);
 	return IO_GOOD;
+}
+
+/* One of several words: the one that is there is replaced; else @usual is added. */
+static enum io_refusal set_named(struct draft *draft, const struct io_row *row,
+				 const enum io_word *words, int count, enum io_word usual,
+				 const char *value)
+{
+	const enum io_word is = first_of(row, words, count);
+	char word[NAME_ROOM + 24] = "";
+	int used;
+
+	if (strlen(value) > LIMIT_NAME)
+		return IO_BAD_NAME;
+	if (*value) {
+		used = snprintf(word, sizeof(word), "%s=", option_name(usual));
+		if (!spell_typed(word + used, sizeof(word) - (size_t)used, value, strlen(value)))
+			return IO_BAD_NAME;
+	}
+	set_word(draft, row, is == IO_WORDS ? usual : is, word);
+	return IO_GOOD;
+}
+
+/* The table of a new point: what is usual for its address. */
+static enum io_word usual_table(const struct io_text *io, const struct io_row *row)
+{
+	const struct io_span *word = &row->word[word_of(row, IO_ADDRESS)];
+	struct io_values values;
+	bool output;
+
+	if (!io_values_read(io->text + word->at, word->len, &values))
+		return IO_WORD_HOLDING_REGISTER;
+	output = row->kind == IO_KIND_WINDOW ||
+		 iec_area_row(values.first.area)->access == ACCESS_WRITE;
+	if (values.first.bits == 1)
+		return output ? IO_WORD_COIL : IO_WORD_DISCRETE_INPUT;
+	return output ? IO_WORD_HOLDING_REGISTER : IO_WORD_INPUT_REGISTER;
+}
+
+static enum io_refusal set_table(const struct io_text *io, struct draft *draft,
+				 const struct io_row *row, const char *value)
+{
+	const enum io_word is = first_of(row, table_words, COUNT(table_words));
+	const struct io_span number = is == IO_WORDS ? (struct io_span){ 0, 0 } :
+		value_of(io, &row->word[is]);
+	enum io_word usual = IO_WORD_COIL;
+	char word[NAME_ROOM + 24] = "";
+
+	if (number.len > LIMIT_NAME)
+		return IO_BAD_NAME;
+	while (strcmp(option_name(usual), value) != 0 && usual < IO_WORD_HOLDING_REGISTER)
+		usual++;
+	if (*value)
+		snprintf(word, sizeof(word), "%s=%.*s", value, number.len ? (int)number.len : 1,
+			 number.len ? io->text + number.at : "0");
+	set_word(draft, row, is == IO_WORDS ? usual : is, word);
+	return IO_GOOD;
+}
+
+static enum io_refusal set_number(const struct io_text *io, struct draft *draft,
+				  const struct io_row *row, const char *value)
+{
+	const enum io_word is = first_of(row, table_words, COUNT(table_words));
+	const enum io_word usual = is == IO_WORDS ? usual_table(io, row) : is;
+	char word[LIMIT_NAME + 24] = "";
+
+	if (strlen(value) > LIMIT_NAME)
+		return IO_BAD_NAME;
+	if (*value)
+		snprintf(word, sizeof(word), "%s=%s", option_name(usual), value);
+	if (*word && !is_one_word(word))
+		return IO_MANY_WORDS;
+	set_word(draft, row, usual, word);
+	return IO_GOOD;
+}
+
+/* Splits "0..27648 at 0V..10V" into "range=0..27648" and "0V..10V". */
+static enum io_refusal spell_range(const char *value, char *range, char *at, size_t room)
+{
+	const size_t len = strcspn(value, " \t");
+	const char *rest = value + len + strspn(value + len, " \t");
+
+	if (strlen(value) + 8 > room)
+		return IO_BAD_NAME;
+	snprintf(range, room, "range=%.*s", (int)len, value);
+	at[0] = '\0';
+	if (!is_one_word(range))
+		return IO_MANY_WORDS;
+	if (!*rest)
+		return IO_GOOD;
+	if (!ascii_is("at", rest, strcspn(rest, " \t")))
+		return IO_MANY_WORDS;
+	rest += 2;
+	rest += strspn(rest, " \t");
+	snprintf(at, room, "%s", rest);
+	return is_one_word(at) ? IO_GOOD : IO_MANY_WORDS;
+}
+
+static enum io_refusal set_range(struct draft *draft, const struct io_row *row, const char *value)
+{
+	char range[LIMIT_NAME + 8] = "", at[LIMIT_NAME + 8] = "", whole[2 * LIMIT_NAME + 24];
+	const bool has = row->word[IO_WORD_AT].len > 0;
+	const enum io_refusal why = *value ? spell_range(value, range, at, sizeof(at)) : IO_GOOD;
+
+	if (why != IO_GOOD)
+		return why;
+	if (has && row->word[IO_WORD_AT_VALUE].len) {
+		set_word(draft, row, IO_WORD_AT_VALUE, at);
+		if (!*at)
+			set_word(draft, row, IO_WORD_AT, "");
+		set_word(draft, row, IO_WORD_RANGE, range);
+		return IO_GOOD;
+	}
+	if (has)
+		set_word(draft, row, IO_WORD_AT, "");
+	snprintf(whole, sizeof(whole), *at ? "%s at %s" : "%s", range, at);
+	set_word(draft, row, IO_WORD_RANGE, whole);
+	return IO_GOOD;
+}
+
+/* Words with blanks between them, none of them an option. */
+static bool are_words(const char *text)
+{
+	struct lex lex;
+	const char *end = text + strlen(text);
+
+	lex_init(&lex, text, strlen(text));
+	lex.newlines = lex.comments = true;
+	for (lex_next(&lex); lex.token.kind != TOKEN_END; lex_next(&lex))
+		if (lex.token.kind == TOKEN_NEWLINE || lex.token.kind == TOKEN_COMMENT ||
+		    lex.token.kind == TOKEN_BAD || lex_is(&lex, "#") ||
+		    memchr(lex.token.text, '=', lex.token.len))
+			return false;
+	return end > text && !is_blank(text[0]) && !is_blank(end[-1]);
+}
+
+static enum io_refusal set_names(struct draft *draft, const struct io_row *row, const char *value)
+{
+	if (*value && !are_words(value))
+		return IO_BAD_NAME;
+	set_word(draft, row, IO_WORD_NAMES, value);
+	return IO_GOOD;
+}
+
+static enum io_word device_word(const struct io_text *io, const struct io_row *row)
+{
+	switch (driver_of(io, row)) {
+	case PWM: return IO_WORD_CHIP;
+	case W1: return IO_WORD_SENSOR;
+	case PEER: return IO_WORD_FROM;
+	default: return IO_WORD_DEVICE;
+	}
+}
+
+static enum io_refusal set_in(const struct io_text *io, struct draft *draft,
+			      const struct io_row *row, enum io_field field, const char *value)
+{
+	switch ((int)field) {
+	case IO_LINE:
+		return set_line(draft, row, value);
+	case IO_COMMENT:
+		set_comment(draft, row, value);
+		return IO_GOOD;
+	case IO_DEVICE:
+		return set_named(draft, row, device_words, COUNT(device_words),
+				 device_word(io, row), value);
+	case IO_CHANNEL:
+		return set_named(draft, row, channel_words, COUNT(channel_words),
+				 driver_of(io, row) == PEER ? IO_WORD_NAME : IO_WORD_CHANNEL, value);
+	case IO_TABLE:
+		return set_table(io, draft, row, value);
+	case IO_NUMBER:
+		return set_number(io, draft, row, value);
+	case IO_RANGE:
+		return set_range(draft, row, value);
+	case IO_NAMES:
+		return set_names(draft, row, value);
+	default:
+		return set_option(draft, row, field, value);
+	}
+}
+
+/* The field has this value already, in whatever spelling. */
+static bool is_now(const struct io_text *io, int number, enum io_field field, const char *value)
+{
+	char *now = io_text_field(io, number, field);
+	const bool same = now && strcmp(now, value) == 0;
+
+	free(now);
+	return same;
 }
 
 enum io_refusal io_text_set(const struct io_text *io, int number, enum io_field field,
 			    const char *value, struct io_edit *edit)
 {
 	const struct io_row *row = &io->row[number];
-	enum io_refusal why = IO_GOOD;
+	enum io_refusal why;
 	struct draft draft;
 
 	*edit = (struct io_edit){ 0, 0, NULL };
+	if (!io_text_has(io, number, field))
+		return IO_NO_FIELD;
+	if (lacks_before(row, field))
+		return IO_EMPTY;
 	if (has_control(value))
 		return IO_BAD_NAME;
-	if (!is_choice(io_text_choices(field), value))
+	if (is_strict(io, row, field) && !is_choice(io_text_choices(field), value))
 		return IO_NO_WORD;
 	if (!draft_open(&draft, io, row))
 		return IO_MEMORY;
-	if (field == IO_LINE)
-		why = set_line(&draft, row, value);
-	else if (field == IO_COMMENT)
-		set_comment(&draft, row, value);
-	else if (field == IO_ACTIVE_LOW)
-		set_word(&draft, row, IO_WORD_ACTIVE_LOW, *value ? "active-low" : "");
-	else
-		why = set_option(&draft, row, field, value);
+	why = is_now(io, number, field, value) ? IO_GOOD : set_in(io, &draft, row, field, value);
 	if (why == IO_GOOD)
 		return draft_close(&draft, io, row, edit);
 	free(draft.text);
@@ -834,19 +1462,135 @@ static size_t behind_line(const struct io_text *io, size_t at)
 	return at < io->len ? at + 1 : at;
 }
 
-enum io_refusal io_text_add(const struct io_text *io, int number, const char *address,
-			    const char *driver, const char *comment,
+/* Whether the row has its line for itself. */
+static bool is_alone(const struct io_text *io, const struct io_row *row)
+{
+	return row->from == 0 || io->text[row->from - 1] == '\n';
+}
+
+static bool is_output(const char *address)
+{
+	struct io_values values;
+
+	return io_values_read(address, strlen(address), &values) &&
+	       iec_area_row(values.first.area)->access == ACCESS_WRITE;
+}
+
+enum io_refusal io_text_add(const struct io_text *io, int number, const char *first,
+			    const char *second, const char *words, const char *comment,
 			    struct io_edit *edit)
 {
-	const size_t at = number < 0 ? io->len : behind_line(io, io->row[number].end);
+	const size_t at = number >= 0 ? behind_line(io, io->row[number].end) :
+		number == IO_AT_START && io->count && is_alone(io, &io->row[0]) ? io->row[0].from :
+		io->len;
 	const bool open = at > 0 && io->text[at - 1] != '\n';
-	const bool output = strncmp(address, "%Q", 2) == 0;
+	const bool output = is_output(first) && !strstr(words, "safe=");
 
 	*edit = (struct io_edit){ 0, 0, NULL };
-	if (!is_one_word(address) || !is_one_word(driver))
+	if (!is_one_word(first) || !is_one_word(second))
 		return IO_MANY_WORDS;
-	if (has_control(comment))
+	if (has_control(comment) || has_control(words))
 		return IO_BAD_NAME;
-	return put(edit, at, 0, (const char *[]){ open ? "\n" : "", address, "  ", driver,
-		output ? "  safe=0" : "", *comment ? "   # " : "", comment, "\n" }, 8);
+	return put(edit, at, 0, (const char *[]){ open ? "\n" : "", first, "  ", second,
+		*words ? "  " : "", words, output ? "  safe=0" : "", *comment ? "   # " : "",
+		comment, "\n" }, 10);
+}
+
+/* Swaps two neighbouring pieces of the text, of whole lines; the newline that the last line may lack
+ * stays missing. */
+static enum io_refusal swap(const struct io_text *io, size_t at, size_t middle, size_t end,
+			    struct io_edit *edit)
+{
+	const bool open = io->text[end - 1] != '\n';
+	const size_t len = end - at;
+	size_t used = 0;
+
+	*edit = (struct io_edit){ at, len, malloc(len + 2) };
+	if (!edit->with)
+		return IO_MEMORY;
+	memcpy(edit->with, io->text + middle, end - middle);
+	used = end - middle;
+	if (open)
+		edit->with[used++] = '\n';
+	memcpy(edit->with + used, io->text + at, middle - at);
+	used += middle - at;
+	edit->with[used - open] = '\0';
+	return IO_GOOD;
+}
+
+enum io_refusal io_text_move(const struct io_text *io, int number, int target, bool behind,
+			     struct io_edit *edit)
+{
+	const struct io_row *row = &io->row[number], *other = &io->row[target];
+	const size_t end = behind_line(io, row->end);
+	const size_t to = behind ? behind_line(io, other->end) : other->from;
+
+	*edit = (struct io_edit){ 0, 0, NULL };
+	if (!is_alone(io, row) || !is_alone(io, other))
+		return IO_SHARED_LINE;
+	if (to >= row->from && to <= end)
+		return put(edit, row->from, 0, (const char *[]){ "" }, 1);
+	return to < row->from ? swap(io, to, row->from, end, edit) :
+				swap(io, row->from, end, to, edit);
+}
+
+/* ---- values ---- */
+
+static bool read_digits(const char *text, size_t len, uint32_t *out)
+{
+	uint32_t number = 0;
+
+	if (len == 0 || len > 9)
+		return false;
+	for (size_t i = 0; i < len; i++) {
+		if (!ascii_digit(text[i]))
+			return false;
+		number = 10 * number + (uint32_t)(text[i] - '0');
+	}
+	*out = number;
+	return true;
+}
+
+/* The last bit behind "..", counted from the start of the area: "5" of bytes and words and of the bits of
+ * one byte, "3.5" of bits. */
+static bool read_last(const char *text, size_t len, struct iec_addr first, uint64_t *last)
+{
+	const char *dot = memchr(text, '.', len);
+	uint32_t byte, bit = 0;
+
+	if (first.bits == 1 && dot && !read_digits(dot + 1, len - (size_t)(dot - text) - 1, &bit))
+		return false;
+	if (!read_digits(text, dot ? (size_t)(dot - text) : len, &byte) || (dot && first.bits != 1))
+		return false;
+	*last = first.bits == 1 && !dot ? 8 * (uint64_t)first.byte + byte : 8 * (uint64_t)byte + bit;
+	return true;
+}
+
+bool io_values_read(const char *text, size_t len, struct io_values *out)
+{
+	size_t head = 0;
+	uint64_t last, first;
+
+	while (head < len && !(head + 1 < len && text[head] == '.' && text[head + 1] == '.'))
+		head++;
+	*out = (struct io_values){ .count = 1 };
+	if (iec_addr_parse(text, head, &out->first) != ADDR_OK)
+		return false;
+	if (head == len)
+		return true;
+	first = 8 * (uint64_t)out->first.byte + out->first.bit;
+	if (!read_last(text + head + 2, len - head - 2, out->first, &last) || last < first ||
+	    (last - first) / out->first.bits >= LIMIT_IO_POINTS)
+		return false;
+	out->count = (uint32_t)((last - first) / out->first.bits) + 1;
+	return true;
+}
+
+bool io_values_have(const struct io_values *values, struct iec_addr addr)
+{
+	const uint64_t from = 8 * (uint64_t)values->first.byte + values->first.bit;
+	const uint64_t to = from + (uint64_t)values->count * values->first.bits;
+	const uint64_t at = 8 * (uint64_t)addr.byte + addr.bit;
+
+	return values->first.area == addr.area && at < to && from < at + addr.bits;
 }

@@ -9,29 +9,72 @@
 #ifndef EDITOR_IOMAP_TEXT_H
 #define EDITOR_IOMAP_TEXT_H
 
+#include "engine/base/iec.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
+/* What a line is about. */
+enum io_kind {
+	IO_KIND_POINT,   /* and whatever is none of the others                 */
+	IO_KIND_BUS, IO_KIND_SERVE, IO_KIND_WINDOW, IO_KIND_PUBLISH, IO_KIND_MODULE, IO_KINDS
+};
+
 enum io_field {
-	IO_ADDRESS, IO_DRIVER,
+	IO_ADDRESS,    /* of a point and of a WINDOW; else the name of the line    */
+	IO_DRIVER,     /* of a BUS and a SERVE: its kind, "modbus-rtu"             */
 	IO_LINE,       /* "GPIO17", or label and offset: "1c20800.pinctrl 7"   */
 	IO_PULL, IO_ACTIVE_LOW, /* "1" or ""                                   */
-	IO_DEBOUNCE, IO_DRIVE, IO_SAFE,
+	IO_DEBOUNCE, IO_DRIVE,
+	IO_DEVICE,     /* device=, chip= of pwm, sensor=, from=                */
+	IO_CHANNEL,    /* channel=, name=                                      */
+	IO_PERIOD,
+	IO_BUS,        /* of a WINDOW: the name of its SERVE                   */
+	IO_UNIT, IO_TYPE,
+	IO_TABLE,      /* "coil", "input-register" …                           */
+	IO_NUMBER,     /* the first one in its table; of a WINDOW "0..9"       */
+	IO_BIT, IO_AS, IO_RAW, IO_WORD_ORDER, IO_BYTE_ORDER,
+	IO_RANGE,      /* "0..27648 at 0V..10V"                                */
+	IO_LIMITS, IO_THRESHOLD, IO_HYSTERESIS, IO_FILTER, IO_POLL, IO_STALE, IO_SUBSTITUTE,
+	IO_REFRESH, IO_ON_CHANGE, /* "1" or ""                                 */
+	IO_SAFE,
+	IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS, IO_HOST, IO_INTERFACE, IO_GROUP, IO_TIMEOUT,
+	IO_LISTEN, IO_CONNECTIONS, IO_RATE,
+	IO_ACCESS,     /* "read-only", "read-write"                            */
+	IO_NAMES,      /* "Level, Running"                                     */
+	IO_EVERY,
+	IO_DI, IO_DQ, IO_AI, IO_AQ, /* of a MODULE, and where they begin:      */
+	IO_FIRST_DI, IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ,
 	IO_COMMENT,    /* behind # or //, without blanks around it             */
 	IO_FIELDS
 };
 
 struct io_span { size_t at, len; }; /* bytes of the text; len 0: missing           */
 
-/* Words of a line that mean something. */
+/* Words of a line that mean something, in the usual order. */
 enum io_word {
-	IO_WORD_ADDRESS, IO_WORD_DRIVER, IO_WORD_LINE, IO_WORD_CHIP, IO_WORD_OFFSET,
-	IO_WORD_PULL, IO_WORD_ACTIVE_LOW, IO_WORD_DEBOUNCE, IO_WORD_DRIVE, IO_WORD_SAFE,
+	IO_WORD_STATEMENT, /* BUS, SERVE, WINDOW, PUBLISH, MODULE               */
+	IO_WORD_ADDRESS,   /* or name                                          */
+	IO_WORD_DRIVER, IO_WORD_LINE, IO_WORD_CHIP, IO_WORD_OFFSET,
+	IO_WORD_PULL, IO_WORD_ACTIVE_LOW, IO_WORD_DEBOUNCE, IO_WORD_DRIVE,
+	IO_WORD_DEVICE, IO_WORD_SENSOR, IO_WORD_FROM, IO_WORD_CHANNEL, IO_WORD_NAME,
+	IO_WORD_PERIOD, IO_WORD_PORT, IO_WORD_BAUD, IO_WORD_PARITY, IO_WORD_STOP_BITS,
+	IO_WORD_HOST, IO_WORD_LISTEN, IO_WORD_INTERFACE, IO_WORD_GROUP, IO_WORD_TIMEOUT,
+	IO_WORD_NAMES, IO_WORD_EVERY, IO_WORD_BUS, IO_WORD_UNIT, IO_WORD_CONNECTIONS,
+	IO_WORD_RATE, IO_WORD_TYPE, IO_WORD_DI, IO_WORD_DQ, IO_WORD_AI, IO_WORD_AQ,
+	IO_WORD_COIL, IO_WORD_DISCRETE_INPUT, IO_WORD_INPUT_REGISTER, IO_WORD_HOLDING_REGISTER,
+	IO_WORD_SHOWN,     /* the address of a WINDOW                          */
+	IO_WORD_ACCESS, IO_WORD_BIT, IO_WORD_AS, IO_WORD_RAW, IO_WORD_WORD_ORDER,
+	IO_WORD_BYTE_ORDER, IO_WORD_RANGE,
+	IO_WORD_AT, IO_WORD_AT_VALUE, /* behind range=: at 0V..10V             */
+	IO_WORD_LIMITS, IO_WORD_THRESHOLD, IO_WORD_HYSTERESIS, IO_WORD_FILTER, IO_WORD_POLL,
+	IO_WORD_STALE, IO_WORD_SUBSTITUTE, IO_WORD_REFRESH, IO_WORD_ON_CHANGE, IO_WORD_SAFE,
 	IO_WORDS
 };
 
 struct io_row {
-	int line;                      /* 1-based, the line of the address      */
+	enum io_kind kind;
+	int line;                      /* 1-based, the line of its first word   */
 	struct io_span word[IO_WORDS]; /* the first of each kind                */
 	struct io_span comment;        /* with its # or //                      */
 	size_t from;                   /* start of the line, or the end of the statement before
@@ -64,6 +107,8 @@ enum io_refusal {
 	IO_NO_BOARD,    /* the BOARD line has no name                           */
 	IO_BAD_OFFSET,  /* a label without a number                             */
 	IO_BAD_NAME,    /* control characters, or too long                      */
+	IO_NO_FIELD,    /* this line has no such field                          */
+	IO_SHARED_LINE, /* the line has more than this row                      */
 	IO_MEMORY,
 };
 
@@ -93,12 +138,31 @@ enum io_refusal io_text_set_board(const struct io_text *io, const char *name,
 				  struct io_edit *edit);
 /** io_text_delete - the whole line of a row, its comment included. */
 enum io_refusal io_text_delete(const struct io_text *io, int row, struct io_edit *edit);
-/** io_text_add - a line "ADDRESS  DRIVER" behind that of @row; -1: at the end. Outputs get
- * safe=0. */
-enum io_refusal io_text_add(const struct io_text *io, int row, const char *address,
-			    const char *driver, const char *comment,
+#define IO_AT_END   (-1)
+#define IO_AT_START (-2) /* before all rows                                    */
+/** io_text_add - a line "FIRST  SECOND  WORDS" behind that of @row, or IO_AT_…. Outputs get
+ * safe=0, unless @words says otherwise. @words: may be "". */
+enum io_refusal io_text_add(const struct io_text *io, int row, const char *first,
+			    const char *second, const char *words, const char *comment,
 			    struct io_edit *edit);
-/** io_text_choices - the possible words of a field; NULL: any. NULL-ended, lives for ever. */
+/** io_text_move - the line of a row goes before or behind that of another. */
+enum io_refusal io_text_move(const struct io_text *io, int row, int target, bool behind,
+			     struct io_edit *edit);
+/** io_text_choices - usual words of a field; NULL: any. NULL-ended, lives for ever. */
 const char *const *io_text_choices(enum io_field field);
+/** io_text_has - whether lines of this kind and driver have the field. */
+bool io_text_has(const struct io_text *io, int row, enum io_field field);
+/** io_kind_word - "BUS"; "" of a point. Lives for ever. */
+const char *io_kind_word(enum io_kind kind);
+
+/* The values of a line: an address, or several that follow one another. */
+struct io_values {
+	struct iec_addr first;
+	uint32_t count;
+};
+/** io_values_read - of "%IW100..106". False: it is no address. */
+bool io_values_read(const char *text, size_t len, struct io_values *out);
+/** io_values_have - whether the values have a bit in common with @addr. */
+bool io_values_have(const struct io_values *values, struct iec_addr addr);
 
 #endif

@@ -29,7 +29,7 @@ static void push(struct io_uses *uses, struct iec_addr addr, const char *name,
 		*use = (struct io_use){ addr, name, comment };
 }
 
-/* All elements of an array of bits, up to the end of the area. */
+/* All elements of an array, up to the end of the area. */
 static void push_array(struct io_uses *uses, const struct project *project,
 		       const struct var *var, const char *name)
 {
@@ -39,10 +39,13 @@ static void push_array(struct io_uses *uses, const struct project *project,
 
 	project_areas(project, &areas);
 	for (uint32_t i = 0; i < var->array.count; i++) {
+		const uint64_t bit = var->at.bit + (uint64_t)i * var->at.bits;
 		struct iec_addr addr = var->at;
 
-		addr.byte += (addr.bit + i) / 8;
-		addr.bit = (uint8_t)((addr.bit + i) % 8);
+		if (bit / 8 > LIMIT_AREA)
+			return;
+		addr.byte += (uint32_t)(bit / 8);
+		addr.bit = (uint8_t)(bit % 8);
 		if (!areas_have(&areas, addr))
 			return;
 		snprintf(text, sizeof(text), "%s[%lld]", name,
@@ -57,7 +60,7 @@ static void take(struct io_uses *uses, struct xref *xref, const struct xref_use 
 	const struct var *var = xref_var(xref->project, &use->target);
 	char name[NAME_ROOM];
 
-	if ((addr.area != AREA_I && addr.area != AREA_Q) || addr.bits != 1)
+	if (!iec_area_is_io(addr.area) || !addr.bits)
 		return;
 	if (!var) {
 		push(uses, addr, "", "");
@@ -79,7 +82,7 @@ static int compare_addr(struct iec_addr a, struct iec_addr b)
 		return a.area < b.area ? -1 : 1;
 	if (a.byte != b.byte)
 		return a.byte < b.byte ? -1 : 1;
-	return (int)a.bit - (int)b.bit;
+	return a.bit != b.bit ? (int)a.bit - (int)b.bit : (int)a.bits - (int)b.bits;
 }
 
 /* At one address, uses with a name come first. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_uses - the inputs and outputs of a program, bit by bit, and their names.
+ * iomap_uses - the inputs and outputs of a program, of any area and width, and their names.
  *
- * Only bits: words have no pin of their own. No toolkit.
+ * No toolkit.
  */
 #ifndef EDITOR_IOMAP_USES_H
 #define EDITOR_IOMAP_USES_H
@@ -18,7 +18,7 @@ struct io_use {
 
 struct io_uses {
 	struct arena arena;
-	struct io_use *use;  /* inputs first, by address, each once            */
+	struct io_use *use;  /* by area and address, each once                 */
 	int count;
 };
 

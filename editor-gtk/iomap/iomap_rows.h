@@ -13,20 +13,40 @@
 #include "editor-gtk/document/iomap_uses.h"
 #include "editor-gtk/kit/panel_row.h"
 
-/* Texts of a row, numbered after its fields. */
-enum { IOMAP_SYMBOL = IO_FIELDS, IOMAP_STATE };
+/* The pages of the table. */
+enum iomap_page {
+	IOMAP_PINS, IOMAP_ANALOG, IOMAP_MODBUS, IOMAP_PEERS, IOMAP_BUSES, IOMAP_SERVED, IOMAP_PAGES
+};
 
-/** iomap_row_new - of row @number of @io; its texts are the fields, IOMAP_SYMBOL and
- * IOMAP_STATE, its index is @number. @check: NULL: no errors. */
+/* Texts of a row: 0 … are the columns of its page, these are on all pages. */
+enum { IOMAP_KIND = PANEL_TEXTS - 4, IOMAP_SYMBOL, IOMAP_VALUE, IOMAP_STATE };
+
+/** iomap_page_name - translated. */
+const char *iomap_page_name(enum iomap_page page);
+/** iomap_values - the addresses of a point or of a WINDOW; false: they cannot be read. */
+bool iomap_values(const struct io_text *io, int row, struct io_values *out);
+/** iomap_page_of - where a row is shown. */
+enum iomap_page iomap_page_of(const struct io_text *io, int row);
+/** iomap_column - field of a column of a page; IO_FIELDS: there are no more. */
+enum io_field iomap_column(enum iomap_page page, int column);
+/** iomap_column_of - the column of a field; -1: the page has none. */
+int iomap_column_of(enum iomap_page page, enum io_field field);
+/** iomap_column_name - its title, translated. */
+const char *iomap_column_name(enum iomap_page page, int column);
+
+/** iomap_row_new - of row @number of @io; its texts are the columns of its page and those above, its
+ * index is @number, its table the page, and flags has a bit for each column that its line may have.
+ * @check: NULL: no errors. */
 LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machine *machine,
 			      const struct io_text *io, const struct io_check *check,
 			      int number);
 /** iomap_field - io_text_field() for g_free(); never NULL. */
 char *iomap_field(const struct io_text *io, int row, enum io_field field);
-/** iomap_has - does a row have this address? */
-bool iomap_has(const struct io_text *io, struct iec_addr addr);
+/** iomap_has - does a row have this address, or a bit of it? @check: NULL: unknown. */
+bool iomap_has(const struct io_text *io, const struct io_check *check, struct iec_addr addr);
 /** iomap_lacks - "The program uses, the map lacks: ..."; NULL: nothing. Caller: g_free. */
-char *iomap_lacks(const struct io_uses *uses, const struct io_text *io);
+char *iomap_lacks(const struct io_uses *uses, const struct io_text *io,
+		  const struct io_check *check);
 /** iomap_first_error - "Line 4: ..."; @all: also of lines that have a row. NULL: none.
  * Caller: g_free. */
 char *iomap_first_error(const struct io_check *check, const struct io_text *io, bool all);
@@ -34,9 +54,33 @@ char *iomap_first_error(const struct io_check *check, const struct io_text *io, 
  * NULL: none. Caller: g_free. */
 char *iomap_first_doubt(const struct io_check *check);
 /** iomap_choices - the values of a field to choose from: pairs of a text and its description.
- * Caller: g_ptr_array_unref. */
+ * @row: that the field is of; -1: of any. Caller: g_ptr_array_unref. */
 GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *machine,
-			 const struct io_text *io, enum io_field field);
+			 const struct io_text *io, int row, enum io_field field);
+
+/* ---- lines to add ---- */
+
+/* What io_text_add() needs. */
+struct iomap_line {
+	char *first, *second, *words; /* g_free(), by iomap_line_clear()       */
+	int behind;                   /* a row, or -1                          */
+};
+/**
+ * iomap_line_make - the line that usually comes next on a page
+ * @kind: IO_KIND_POINT, or a line of the page
+ * @row: selected; -1: none
+ * Fails: false, and @why (translated, lives for ever) says what the map must have first.
+ */
+bool iomap_line_make(struct iomap_line *out, const struct io_uses *uses, const struct io_text *io,
+		     const struct io_check *check, const struct io_machine *machine,
+		     enum iomap_page page, enum io_kind kind, int row, const char **why);
+/** iomap_line_for - the line of an address that the program uses. */
+void iomap_line_for(struct iomap_line *out, const struct io_text *io,
+		    const struct io_machine *machine, struct iec_addr addr);
+void iomap_line_clear(struct iomap_line *line);
+/** iomap_next - the first address of this kind at or behind @from that is not in the map. */
+bool iomap_next(const struct io_text *io, const struct io_check *check, struct iec_addr from,
+		struct iec_addr *out);
 
 /** iomap_new_text - a map with a point for every input and output of @document, on lines of
  * this machine if it has any, else simulated. Caller: g_free. */

@@ -14,13 +14,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* One page of the table. */
+struct page {
+	struct panel_list list;
+	struct panel_cells cells;
+	GtkWidget *columns;     /* the button of its columns, in a box         */
+	GtkStackPage *tab;
+};
+
 struct _LadderIomapView {
 	GtkBox parent;
 	GtkTextBuffer *buffer;
-	GtkWidget *stack, *tools, *columns, *board, *lacks, *lacks_label, *message;
-	struct panel_list list;
+	GtkWidget *stack, *tools, *columns, *kinds, *board, *pages, *lacks, *lacks_label, *message;
+	struct page page[IOMAP_PAGES];
+	enum iomap_page now;    /* the visible page                            */
 	struct panel_watch *watch;
-	struct panel_cells cells;
 	struct io_machine machine;
 	struct io_uses uses;
 	guint64 version;        /* of the document that @uses is of, + 1; 0: none */
@@ -28,6 +36,7 @@ struct _LadderIomapView {
 	char *said;             /* message about the whole map; NULL: none     */
 	char *board_shown;      /* board name last read from the text          */
 	bool said_wrong, as_text;
+	bool opened;            /* the first page with rows has been shown     */
 };
 
 G_DEFINE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, GTK_TYPE_BOX)
@@ -76,6 +85,8 @@ static const char *refusal(enum io_refusal why)
 		[IO_NO_BOARD] = N_("The BOARD line has no name; correct it as text"),
 		[IO_BAD_OFFSET] = N_("The number of a line is too large"),
 		[IO_BAD_NAME] = N_("This name is too long, or has control characters"),
+		[IO_NO_FIELD] = N_("This line has no such value"),
+		[IO_SHARED_LINE] = N_("Two statements are in one line; move them as text"),
 		[IO_MEMORY] = N_("Out of memory"),
 	};
 
@@ -102,13 +113,21 @@ static bool done(LadderIomapView *view, const char *text, enum io_refusal why,
 
 /* ---- edits ---- */
 
+static void enter(LadderIomapView *view, int index, enum io_field field);
+
+static struct panel_list *list_now(LadderIomapView *view)
+{
+	return &view->page[view->now].list;
+}
+
 /* A row may be older than the text. */
 static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
 {
-	bool same = row->index < io->count;
+	const enum iomap_page page = (enum iomap_page)row->table;
+	bool same = row->index < io->count && iomap_page_of(io, row->index) == page;
 
-	for (int i = 0; same && i < IO_FIELDS; i++) {
-		char *text = iomap_field(io, row->index, (enum io_field)i);
+	for (int i = 0; same && iomap_column(page, i) != IO_FIELDS; i++) {
+		char *text = iomap_field(io, row->index, iomap_column(page, i));
 
 		same = strcmp(text, panel_row_text(row, i)) == 0;
 		g_free(text);
@@ -116,10 +135,37 @@ static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
 	return same;
 }
 
-static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char *value,
-		      char **why)
+static void show_page(LadderIomapView *view, enum iomap_page page)
+{
+	gtk_stack_set_visible_child(GTK_STACK(view->pages),
+				    gtk_stack_page_get_child(view->page[page].tab));
+}
+
+/* The row may be on another page now, if its driver is another one. */
+static void follow(LadderIomapView *view, int index, enum io_field field)
+{
+	char *text = map_text(view);
+	struct io_text io;
+	enum iomap_page page = view->now;
+
+	if (io_text_read(&io, text, strlen(text)) && index < io.count)
+		page = iomap_page_of(&io, index);
+	io_text_free(&io);
+	g_free(text);
+	if (page == view->now)
+		return;
+	panel_watch_later(view->watch);
+	panel_watch_now(view->watch);
+	show_page(view, page);
+	enter(view, index, field);
+}
+
+static bool set_column(GObject *owner, LadderPanelRow *row, int column, const char *value,
+		       char **why)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(owner);
+	const enum io_field field = iomap_column((enum iomap_page)row->table, column);
+	const int index = row->index;
 	enum io_refusal said = IO_NO_WORD;
 	struct io_edit edit = { 0, 0, NULL };
 	struct io_text io;
@@ -130,8 +176,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 		return false; /* the view is disposed */
 	text = map_text(view);
 	if (io_text_read(&io, text, strlen(text)) && is_same_row(&io, row)) {
-		said = io_text_set(&io, row->index, (enum io_field)field, value,
-				   &edit);
+		said = io_text_set(&io, index, field, value, &edit);
 		good = said == IO_GOOD;
 		*why = good ? NULL : g_strdup(refusal(said));
 		if (good)
@@ -142,12 +187,14 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 	if (good || !*why)
 		tell(view, NULL);
 	else {
-		char *whole = g_strdup_printf(_("%s, %s: %s"), panel_row_text(row, IO_ADDRESS),
-					      io_field_name((enum io_field)field), *why);
+		char *whole = g_strdup_printf(_("%s, %s: %s"), panel_row_text(row, 0),
+			iomap_column_name((enum iomap_page)row->table, column), *why);
 
 		tell(view, whole);
 		g_free(whole);
 	}
+	if (good && (field == IO_DRIVER || field == IO_ADDRESS))
+		follow(view, index, field);
 	return good;
 }
 
@@ -183,125 +230,158 @@ static void board_left(GtkEventControllerFocus *focus, LadderIomapView *view)
 
 static void commit(LadderIomapView *view)
 {
-	panel_cells_commit(view->list.view);
+	panel_cells_commit(list_now(view)->view);
 	set_board(view);
 }
 
-/* ---- points are added and deleted ---- */
-
-/* The last row of the same area; -1: none. */
-static int last_of(const struct io_text *io, enum iec_area area)
+static struct io_check *check_text(LadderIomapView *view, const char *text)
 {
-	int last = -1;
+	LadderDocument *document = panel_watch_document(view->watch);
+	struct project *project = document ? ladder_document_project(document) : NULL;
+	struct areas areas;
 
-	for (int i = 0; i < io->count; i++) {
-		const struct io_span *word = &io->row[i].word[IO_WORD_ADDRESS];
-		struct iec_addr at;
-
-		if (iec_addr_parse(io->text + word->at, word->len, &at) == ADDR_OK &&
-		    at.area == area)
-			last = i;
-	}
-	return last;
+	areas_init(&areas);
+	if (project)
+		project_areas(project, &areas);
+	return io_check_new(text, strlen(text), &areas, &view->machine, NULL);
 }
 
-/* The driver of the other points: a map is for a board or for a desk. */
-static const char *driver_for(const LadderIomapView *view, const struct io_text *io)
-{
-	for (int i = 0; i < io->count; i++) {
-		const struct io_span *word = &io->row[i].word[IO_WORD_DRIVER];
-		const enum driver_id id = driver_find(io->text + word->at, word->len);
+/* ---- lines are added, deleted and moved ---- */
 
-		if (id < DRIVER_COUNT)
-			return driver_row(id)->word;
-	}
-	return view->machine.count ? "gpio" : "sim";
+static bool is_at(const LadderPanelRow *row, gconstpointer index)
+{
+	return row->index == *(const int *)index;
 }
 
-/* @behind: a row; -1: the last one of its area. */
-static void add_point(LadderIomapView *view, struct iec_addr addr, const char *comment,
-		      int behind)
+/* Selects a row of the visible page and puts the focus into a cell. */
+static void enter(LadderIomapView *view, int index, enum io_field field)
 {
-	char *text = map_text(view), address[24];
-	struct io_edit edit = { 0, 0, NULL };
-	struct io_text io;
+	struct panel_list *list = list_now(view);
+	const int column = iomap_column_of(view->now, field);
 
-	iec_addr_print(addr, address, sizeof(address));
-	io_text_read(&io, text, strlen(text));
-	if (behind < 0 || behind >= io.count)
-		behind = last_of(&io, addr.area);
-	if (io_text_add(&io, behind, address, driver_for(view, &io), comment, &edit) ==
-	    IO_GOOD)
-		apply(view, text, &edit);
-	io_text_free(&io);
-	g_free(text);
+	if (panel_list_select(list, is_at, &index) && column >= 0)
+		cells_enter(list->view, panel_list_row(list), column);
 }
 
-static bool is_row(const LadderPanelRow *row, gconstpointer address)
+/* Index of the selected row; -1: none. */
+static int selected(LadderIomapView *view)
 {
-	return strcmp(panel_row_text(row, IO_ADDRESS), address) == 0;
+	const LadderPanelRow *row = panel_list_row(list_now(view));
+
+	return row ? row->index : -1;
 }
 
-/* The first bit that is not in the map, of inputs or of outputs. */
-static bool next_address(LadderIomapView *view, enum iec_area area, struct iec_addr *out)
+/* The row that begins at a place of the text; -1: none. */
+static int row_from(const struct io_text *io, size_t at)
+{
+	for (int i = 0; i < io->count; i++)
+		if (io->row[i].from >= at)
+			return i;
+	return -1;
+}
+
+/* @index: gets the row that was added. */
+static bool add_line(LadderIomapView *view, const struct iomap_line *line, const char *comment,
+		     int *index)
 {
 	char *text = map_text(view);
+	struct io_edit edit = { 0, 0, NULL };
 	struct io_text io;
-	bool found = false;
+	size_t at = 0;
+	bool good;
 
 	io_text_read(&io, text, strlen(text));
-	for (uint32_t bit = 0; !found && bit < iec_area_row(area)->usual * 8; bit++) {
-		*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), bit / 8 };
-		found = !iomap_has(&io, *out);
+	good = io_text_add(&io, line->behind, line->first, line->second, line->words, comment,
+			   &edit) == IO_GOOD;
+	if (good) {
+		at = edit.at;
+		apply(view, text, &edit);
 	}
 	io_text_free(&io);
 	g_free(text);
-	return found;
+	text = map_text(view);
+	io_text_read(&io, text, strlen(text));
+	*index = good ? row_from(&io, at) : -1;
+	io_text_free(&io);
+	g_free(text);
+	return good;
+}
+
+static void add_kind(LadderIomapView *view, enum io_kind kind)
+{
+	char *text = map_text(view);
+	struct io_check *check = check_text(view, text);
+	struct iomap_line line = { .behind = -1 };
+	const char *why = NULL;
+	struct io_text io;
+	int index = -1;
+	bool good;
+
+	io_text_read(&io, text, strlen(text));
+	good = iomap_line_make(&line, &view->uses, &io, check, &view->machine, view->now, kind,
+			       selected(view), &why);
+	io_text_free(&io);
+	io_check_free(check);
+	g_free(text);
+	if (good)
+		add_line(view, &line, "", &index);
+	iomap_line_clear(&line);
+	tell(view, good ? NULL : why);
+	if (index >= 0)
+		enter(view, index, IO_ADDRESS);
 }
 
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
-	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
-	LadderPanelRow *row = panel_list_row(&view->list);
-	const bool output = row &&
-		g_ascii_strncasecmp(panel_row_text(row, IO_ADDRESS), "%Q", 2) == 0;
-	struct iec_addr addr;
-	char text[24];
-
 	(void)action;
 	(void)unused;
-	if (!next_address(view, output ? AREA_Q : AREA_I, &addr))
-		return;
-	add_point(view, addr, "", row ? row->index : -1);
-	tell(view, NULL);
-	iec_addr_print(addr, text, sizeof(text));
-	if (panel_list_select(&view->list, is_row, text))
-		cells_enter(view->list.view, panel_list_row(&view->list), IO_ADDRESS);
+	add_kind(LADDER_IOMAP_VIEW(widget), IO_KIND_POINT);
+}
+
+static void add_other(GtkWidget *widget, const char *action, GVariant *kind)
+{
+	(void)action;
+	add_kind(LADDER_IOMAP_VIEW(widget), (enum io_kind)g_variant_get_int32(kind));
 }
 
 static void add_lacking(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
-	char *text = map_text(view);
+	char *whole = map_text(view);
+	struct io_check *check = check_text(view, whole);
 	struct io_text io;
 
 	(void)action;
 	(void)unused;
-	io_text_read(&io, text, strlen(text));
+	io_text_read(&io, whole, strlen(whole));
 	gtk_text_buffer_begin_user_action(view->buffer);
-	for (int i = 0; i < view->uses.count; i++)
-		if (!iomap_has(&io, view->uses.use[i].addr))
-			add_point(view, view->uses.use[i].addr, view->uses.use[i].name, -1);
+	for (int i = 0; i < view->uses.count; i++) {
+		const struct io_use *use = &view->uses.use[i];
+		char *text = map_text(view);
+		struct iomap_line line = { .behind = -1 };
+		struct io_text now;
+		int index;
+
+		io_text_read(&now, text, strlen(text));
+		if (!iomap_has(&io, check, use->addr) && !iomap_has(&now, NULL, use->addr)) {
+			iomap_line_for(&line, &now, &view->machine, use->addr);
+			add_line(view, &line, use->name, &index);
+			iomap_line_clear(&line);
+		}
+		io_text_free(&now);
+		g_free(text);
+	}
 	gtk_text_buffer_end_user_action(view->buffer);
 	io_text_free(&io);
-	g_free(text);
+	io_check_free(check);
+	g_free(whole);
 	tell(view, NULL);
 }
 
 static void delete_point(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
-	LadderPanelRow *row = panel_list_row(&view->list);
+	LadderPanelRow *row = panel_list_row(list_now(view));
 	char *text = map_text(view);
 	struct io_edit edit = { 0, 0, NULL };
 	struct io_text io;
@@ -313,6 +393,50 @@ static void delete_point(GtkWidget *widget, const char *action, GVariant *unused
 		done(view, text, io_text_delete(&io, row->index, &edit), &edit);
 	io_text_free(&io);
 	g_free(text);
+}
+
+/* The row of the same page before or behind @index in the text; -1: none. */
+static int neighbour(const struct io_text *io, int index, int step)
+{
+	const enum iomap_page page = iomap_page_of(io, index);
+
+	for (int i = index + step; i >= 0 && i < io->count; i += step)
+		if (iomap_page_of(io, i) == page)
+			return i;
+	return -1;
+}
+
+static void move(LadderIomapView *view, int step)
+{
+	LadderPanelRow *row = panel_list_row(list_now(view));
+	char *text = map_text(view);
+	struct io_edit edit = { 0, 0, NULL };
+	struct io_text io;
+	int target = -1, column = 0;
+
+	cells_focused(list_now(view)->view, &column);
+	io_text_read(&io, text, strlen(text));
+	if (row && is_same_row(&io, row))
+		target = neighbour(&io, row->index, step);
+	if (target >= 0 && done(view, text, io_text_move(&io, row->index, target, step > 0, &edit),
+				&edit))
+		enter(view, target, iomap_column(view->now, column));
+	io_text_free(&io);
+	g_free(text);
+}
+
+static void move_up(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	move(LADDER_IOMAP_VIEW(widget), -1);
+}
+
+static void move_down(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	move(LADDER_IOMAP_VIEW(widget), 1);
 }
 
 static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
@@ -328,9 +452,10 @@ static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
 
 /* ---- messages ---- */
 
-static void show_lacks(LadderIomapView *view, const struct io_text *io)
+static void show_lacks(LadderIomapView *view, const struct io_text *io,
+		       const struct io_check *check)
 {
-	char *text = iomap_lacks(&view->uses, io);
+	char *text = iomap_lacks(&view->uses, io, check);
 
 	if (text)
 		gtk_label_set_text(GTK_LABEL(view->lacks_label), text);
@@ -342,10 +467,10 @@ static void show_lacks(LadderIomapView *view, const struct io_text *io)
  * whole map. */
 static void show_message(LadderIomapView *view)
 {
-	const LadderPanelRow *row = panel_list_row(&view->list);
+	const LadderPanelRow *row = panel_list_row(list_now(view));
 	const char *note = row && !view->refused && !view->as_text ? row->note : NULL;
 	char *text = view->refused ? g_strdup(view->refused) :
-		note ? g_strdup_printf(_("%s: %s"), panel_row_text(row, IO_ADDRESS), note) :
+		note ? g_strdup_printf(_("%s: %s"), panel_row_text(row, 0), note) :
 		g_strdup(view->said);
 	const bool wrong = view->refused || (note ? row->tone == PANEL_ERROR :
 					     view->said_wrong);
@@ -408,18 +533,6 @@ static void take_uses(LadderIomapView *view)
 		io_uses_make(&view->uses, project);
 }
 
-static struct io_check *check_text(LadderIomapView *view, const char *text)
-{
-	LadderDocument *document = panel_watch_document(view->watch);
-	struct project *project = document ? ladder_document_project(document) : NULL;
-	struct areas areas;
-
-	areas_init(&areas);
-	if (project)
-		project_areas(project, &areas);
-	return io_check_new(text, strlen(text), &areas, &view->machine, NULL);
-}
-
 static void show_board(LadderIomapView *view, const struct io_text *io)
 {
 	char *board = io_text_board(io);
@@ -433,18 +546,10 @@ static void show_board(LadderIomapView *view, const struct io_text *io)
 	free(board);
 }
 
-/* Index of the selected row; -1: none. */
-static int selected(LadderIomapView *view)
-{
-	const LadderPanelRow *row = panel_list_row(&view->list);
-
-	return row ? row->index : -1;
-}
-
 /* Selects the row of the focused cell. */
-static void select_row(LadderIomapView *view, int index)
+static void select_row(struct panel_list *list, int index)
 {
-	GListModel *model = G_LIST_MODEL(view->list.selection);
+	GListModel *model = G_LIST_MODEL(list->selection);
 
 	for (guint i = 0; index >= 0 && i < g_list_model_get_n_items(model); i++) {
 		LadderPanelRow *row = g_list_model_get_item(model, i);
@@ -452,7 +557,7 @@ static void select_row(LadderIomapView *view, int index)
 
 		g_object_unref(row);
 		if (is) {
-			gtk_single_selection_set_selected(view->list.selection, i);
+			gtk_single_selection_set_selected(list->selection, i);
 			return;
 		}
 	}
@@ -463,48 +568,96 @@ static void given_up(GObject *owner)
 	tell(LADDER_IOMAP_VIEW(owner), NULL);
 }
 
+/* "Analog (3)", "Buses (2), errors: 1". */
+static void show_title(struct page *page, enum iomap_page number, GPtrArray *rows)
+{
+	GString *text = g_string_new(iomap_page_name(number));
+	int wrong = 0;
+
+	for (guint i = 0; i < rows->len; i++)
+		wrong += ((LadderPanelRow *)rows->pdata[i])->tone == PANEL_ERROR;
+	if (rows->len)
+		g_string_append_printf(text, " (%u)", rows->len);
+	if (wrong)
+		g_string_append_printf(text, _(", errors: %d"), wrong);
+	if (g_strcmp0(gtk_stack_page_get_title(page->tab), text->str) != 0)
+		gtk_stack_page_set_title(page->tab, text->str);
+	gtk_stack_page_set_needs_attention(page->tab, wrong > 0);
+	g_string_free(text, TRUE);
+}
+
+static void fill_page(LadderIomapView *view, enum iomap_page number, GPtrArray *rows)
+{
+	struct page *page = &view->page[number];
+	int field, now_field;
+	LadderPanelRow *cell = cells_focused(page->list.view, &field), *now;
+	const LadderPanelRow *chosen = panel_list_row(&page->list);
+	const int row = cell ? cell->index : -1, was = chosen ? chosen->index : -1;
+
+	show_title(page, number, rows);
+	panel_list_update(&page->list, rows);
+	select_row(&page->list, was);
+	now = cells_focused(page->list.view, &now_field);
+	if (row >= 0 && !(now && now->index == row && now_field == field))
+		panel_cells_focus(GTK_WIDGET(page->list.view), row, field);
+}
+
+/* A map is opened at the first page that has rows. */
+static void open_page(LadderIomapView *view, GPtrArray *const *rows)
+{
+	int page = 0;
+
+	if (view->opened)
+		return;
+	while (page < IOMAP_PAGES - 1 && !rows[page]->len)
+		page++;
+	view->opened = true;
+	show_page(view, rows[page]->len ? (enum iomap_page)page : IOMAP_PINS);
+}
+
 static void refresh(GtkWidget *widget)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
-	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	GPtrArray *rows[IOMAP_PAGES];
 	char *text = map_text(view);
 	struct io_check *check;
 	struct io_text io;
-	int field, now_field;
-	LadderPanelRow *cell = cells_focused(view->list.view, &field), *now;
-	const int row = cell ? cell->index : -1;
-	const int was = selected(view);
 
 	take_uses(view);
 	check = check_text(view, text);
 	io_text_read(&io, text, strlen(text));
+	for (int i = 0; i < IOMAP_PAGES; i++)
+		rows[i] = g_ptr_array_new_with_free_func(g_object_unref);
 	for (int i = 0; i < io.count; i++)
-		g_ptr_array_add(rows, iomap_row_new(&view->uses, &view->machine, &io,
-						    check, i));
-	panel_list_update(&view->list, rows);
-	select_row(view, was);
-	now = cells_focused(view->list.view, &now_field);
-	if (row >= 0 && !(now && now->index == row && now_field == field))
-		panel_cells_focus(GTK_WIDGET(view->list.view), row, field);
+		g_ptr_array_add(rows[iomap_page_of(&io, i)],
+				iomap_row_new(&view->uses, &view->machine, &io, check, i));
+	open_page(view, rows);
+	for (int i = 0; i < IOMAP_PAGES; i++) {
+		fill_page(view, (enum iomap_page)i, rows[i]);
+		g_ptr_array_unref(rows[i]);
+	}
 	show_board(view, &io);
-	show_lacks(view, &io);
+	show_lacks(view, &io, check);
 	find_said(view, check, &io);
 	mark_lines(view, check);
 	io_text_free(&io);
 	io_check_free(check);
 	g_free(text);
-	g_ptr_array_unref(rows);
 }
 
-static GPtrArray *choices_of(GObject *owner, int field)
+static GPtrArray *choices_of(GObject *owner, int column)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(owner);
 	char *text = map_text(view);
+	int row = selected(view);
 	GPtrArray *choices;
 	struct io_text io;
 
 	io_text_read(&io, text, strlen(text));
-	choices = iomap_choices(&view->uses, &view->machine, &io, (enum io_field)field);
+	if (row >= io.count)
+		row = -1;
+	choices = iomap_choices(&view->uses, &view->machine, &io, row,
+				iomap_column(view->now, column));
 	io_text_free(&io);
 	g_free(text);
 	return choices;
@@ -520,7 +673,8 @@ static void ladder_iomap_view_dispose(GObject *object)
 		g_signal_handlers_disconnect_by_data(view->buffer, view->watch);
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_object(&view->buffer);
-	panel_list_clear(&view->list);
+	for (int i = 0; i < IOMAP_PAGES; i++)
+		panel_list_clear(&view->page[i].list);
 	G_OBJECT_CLASS(ladder_iomap_view_parent_class)->dispose(object);
 }
 
@@ -545,64 +699,221 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	turned = g_signal_new("turned", LADDER_TYPE_IOMAP_VIEW, G_SIGNAL_RUN_LAST, 0, NULL,
 			      NULL, NULL, G_TYPE_NONE, 0);
 	gtk_widget_class_install_action(widget, "iomap.add", NULL, add);
+	gtk_widget_class_install_action(widget, "iomap.add-kind", "i", add_other);
 	gtk_widget_class_install_action(widget, "iomap.delete", NULL, delete_point);
+	gtk_widget_class_install_action(widget, "iomap.up", NULL, move_up);
+	gtk_widget_class_install_action(widget, "iomap.down", NULL, move_down);
 	gtk_widget_class_install_action(widget, "iomap.look", NULL, look_again);
 	gtk_widget_class_install_action(widget, "iomap.add-lacking", NULL,
 					add_lacking);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/iomap_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderIomapView, name)
-	CHILD(stack); CHILD(tools); CHILD(columns); CHILD(board); CHILD(lacks); CHILD(lacks_label);
-	CHILD(message);
+	CHILD(stack); CHILD(tools); CHILD(columns); CHILD(kinds); CHILD(board); CHILD(pages);
+	CHILD(lacks); CHILD(lacks_label); CHILD(message);
 #undef CHILD
-	panel_bind_list(widget, LadderIomapView);
 	gtk_widget_class_bind_template_callback(widget, board_activated);
 	gtk_widget_class_bind_template_callback(widget, board_left);
 }
 
-static const char *field_name(int field)
+/* ---- pages ---- */
+
+#define NAME(page) \
+	static const char *name_##page(int column) { return iomap_column_name(page, column); }
+NAME(IOMAP_PINS) NAME(IOMAP_ANALOG) NAME(IOMAP_MODBUS) NAME(IOMAP_PEERS) NAME(IOMAP_BUSES)
+NAME(IOMAP_SERVED)
+#undef NAME
+
+static bool is_fixed(const LadderPanelRow *row, int column)
 {
-	return io_field_name((enum io_field)field);
+	return !(row->flags >> column & 1);
 }
 
-static void add_columns(LadderIomapView *view)
+static int width_of(enum io_field field)
 {
-	static const struct { enum io_field field; int width; } column[] = {
-		{ IO_DRIVER, 76 }, { IO_LINE, 120 }, { IO_PULL, 118 }, { IO_ACTIVE_LOW, 70 },
-		{ IO_DEBOUNCE, 76 }, { IO_SAFE, 76 }, { IO_DRIVE, 110 },
-		{ IO_COMMENT, 110 },
-	};
-	static const int leaving[] = { IO_DRIVE, IO_PULL, IO_DEBOUNCE, IO_ACTIVE_LOW, IO_COMMENT,
-				       IO_SAFE };
+	switch ((int)field) {
+	case IO_ADDRESS: return 96;
+	case IO_DRIVER: return 90;
+	case IO_LINE: return 120;
+	case IO_PULL: return 118;
+	case IO_DRIVE: return 110;
+	case IO_COMMENT: return 110;
+	case IO_DEVICE: case IO_CHANNEL: case IO_RANGE: case IO_TABLE: case IO_PORT: case IO_HOST:
+	case IO_LISTEN: case IO_NAMES: return 130;
+	case IO_BUS: case IO_TYPE: case IO_ACCESS: case IO_AS: return 100;
+	default: return 76;
+	}
+}
 
-	panel_list_column(&view->list, "", 0, PANEL_ICON, 0);
-	panel_cells_add(&view->list, &view->cells, IO_ADDRESS, 0, 96);
-	panel_list_column(&view->list, _("Symbol"), IOMAP_SYMBOL, 0, 105);
-	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
-		panel_cells_add(&view->list, &view->cells, (int)column[i].field, 0,
-				column[i].width);
-	panel_list_column(&view->list, _("State"), IOMAP_STATE, PANEL_EXPAND, 150);
-	panel_list_may_leave(&view->list, leaving, G_N_ELEMENTS(leaving),
-			     GTK_MENU_BUTTON(view->columns));
+static bool has_choices(enum io_field field)
+{
+	switch ((int)field) {
+	case IO_ADDRESS: case IO_DRIVER: case IO_LINE: case IO_BUS: case IO_TYPE: case IO_AS:
+	case IO_RAW: case IO_NAMES: return true;
+	case IO_ACTIVE_LOW: case IO_ON_CHANGE: return false;
+	default: return io_text_choices(field);
+	}
+}
+
+/* Columns that leave a narrow table, the first one first. */
+static void let_leave(struct page *page, enum iomap_page number)
+{
+	static const enum io_field stay[] = { IO_ADDRESS, IO_DRIVER, IO_LINE, IO_DEVICE, IO_CHANNEL,
+					      IO_BUS, IO_UNIT, IO_TABLE, IO_NUMBER, IO_NAMES };
+	static const enum io_field pins[] = { IO_DRIVE, IO_PULL, IO_DEBOUNCE, IO_ACTIVE_LOW,
+					      IO_COMMENT, IO_SAFE };
+	GtkWidget *button = gtk_menu_button_new();
+	int leaving[IOMAP_KIND], count = 0;
+
+	if (number == IOMAP_PINS)
+		for (gsize i = 0; i < G_N_ELEMENTS(pins); i++)
+			leaving[count++] = iomap_column_of(number, pins[i]);
+	else
+		for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
+			bool stays = false;
+
+			for (gsize k = 0; k < G_N_ELEMENTS(stay); k++)
+				stays = stays || stay[k] == iomap_column(number, i);
+			if (!stays)
+				leaving[count++] = i;
+		}
+	/* those at the end first */
+	for (int i = 0; number != IOMAP_PINS && i < count / 2; i++) {
+		const int other = leaving[i];
+
+		leaving[i] = leaving[count - 1 - i];
+		leaving[count - 1 - i] = other;
+	}
+	gtk_menu_button_set_label(GTK_MENU_BUTTON(button), _("Columns"));
+	tip_set(button, _("Some columns have no room: choose which are shown"));
+	panel_list_may_leave(&page->list, leaving, count, GTK_MENU_BUTTON(button));
+	gtk_box_append(GTK_BOX(page->columns), button);
+}
+
+static void add_columns(struct page *page, enum iomap_page number)
+{
+	const bool points = number < IOMAP_BUSES;
+
+	panel_list_column(&page->list, "", 0, PANEL_ICON, 0);
+	if (!points)
+		panel_list_column(&page->list, _("Line"), IOMAP_KIND, 0, 84);
+	for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
+		const enum io_field field = iomap_column(number, i);
+
+		if (has_choices(field) && !(field == IO_ADDRESS && !points))
+			page->cells.choosable |= 1u << i;
+		if (field == IO_ACTIVE_LOW || field == IO_ON_CHANGE)
+			page->cells.checks |= 1u << i;
+	}
+	for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
+		panel_cells_add(&page->list, &page->cells, i, 0, width_of(iomap_column(number, i)));
+		if (i == 0 && points)
+			panel_list_column(&page->list, _("Symbol"), IOMAP_SYMBOL, 0, 105);
+	}
+	panel_list_column(&page->list, _("State"), IOMAP_STATE, PANEL_EXPAND, 150);
+}
+
+/* Ctrl+Shift+Up and Ctrl+Shift+Down move a line, also from a cell. */
+static void add_keys(GtkWidget *table)
+{
+	GtkEventController *keys = gtk_shortcut_controller_new();
+	static const struct { guint key; const char *action; } row[] = {
+		{ GDK_KEY_Up, "iomap.up" }, { GDK_KEY_Down, "iomap.down" },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(row); i++)
+		gtk_shortcut_controller_add_shortcut(GTK_SHORTCUT_CONTROLLER(keys),
+			gtk_shortcut_new(gtk_keyval_trigger_new(row[i].key,
+						GDK_CONTROL_MASK | GDK_SHIFT_MASK),
+					 gtk_named_action_new(row[i].action)));
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	gtk_widget_add_controller(table, keys);
+}
+
+static void add_page(LadderIomapView *view, enum iomap_page number)
+{
+	static const char *(*const names[IOMAP_PAGES])(int column) = {
+		name_IOMAP_PINS, name_IOMAP_ANALOG, name_IOMAP_MODBUS, name_IOMAP_PEERS,
+		name_IOMAP_BUSES, name_IOMAP_SERVED,
+	};
+	struct page *page = &view->page[number];
+	GtkWidget *scroller = gtk_scrolled_window_new(), *table = gtk_column_view_new(NULL);
+	char *name = g_strdup_printf("%s: %s", _("I/O map"), iomap_page_name(number));
+
+	page->cells = (struct panel_cells){
+		.owner = G_OBJECT(view), .later = true, .name = names[number], .set = set_column,
+		.given_up = given_up, .is_fixed = is_fixed, .choices = choices_of,
+	};
+	page->columns = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+	gtk_box_append(GTK_BOX(view->columns), page->columns);
+	gtk_widget_set_visible(page->columns, number == IOMAP_PINS);
+	gtk_widget_add_css_class(table, "data-table");
+	gtk_accessible_update_property(GTK_ACCESSIBLE(table), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_scrolled_window_set_min_content_height(GTK_SCROLLED_WINDOW(scroller), 32);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_widget_set_hexpand(scroller, TRUE);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), table);
+	page->tab = gtk_stack_add_titled(GTK_STACK(view->pages), scroller, NULL, iomap_page_name(number));
+	panel_list_init(&page->list, GTK_COLUMN_VIEW(table));
+	add_columns(page, number);
+	let_leave(page, number);
+	add_keys(table);
+	panel_list_follow(&page->list, G_CALLBACK(show_message), view);
+	g_free(name);
+}
+
+/* Lines that are no points: each kind can be added. */
+static void show_kinds(LadderIomapView *view)
+{
+	static const struct { enum iomap_page page; enum io_kind kind; const char *name; } row[] = {
+		{ IOMAP_BUSES, IO_KIND_BUS, N_("Add a bus") },
+		{ IOMAP_BUSES, IO_KIND_MODULE, N_("Add a type of module") },
+		{ IOMAP_SERVED, IO_KIND_SERVE, N_("Add a server") },
+		{ IOMAP_SERVED, IO_KIND_WINDOW, N_("Add a window of a server") },
+		{ IOMAP_SERVED, IO_KIND_PUBLISH, N_("Add variables for other boards") },
+	};
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(row); i++) {
+		char *action = g_strdup_printf("iomap.add-kind(%d)", (int)row[i].kind);
+
+		if (row[i].page == view->now)
+			g_menu_append(menu, _(row[i].name), action);
+		g_free(action);
+	}
+	gtk_widget_set_visible(view->kinds, g_menu_model_get_n_items(G_MENU_MODEL(menu)) > 0);
+	gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(view->kinds), G_MENU_MODEL(menu));
+	g_object_unref(menu);
+}
+
+static void turn(LadderIomapView *view)
+{
+	const GtkWidget *child = gtk_stack_get_visible_child(GTK_STACK(view->pages));
+
+	if (!view->watch)
+		return; /* the view is disposed */
+	for (int i = 0; i < IOMAP_PAGES; i++) {
+		const bool is = gtk_stack_page_get_child(view->page[i].tab) == child;
+
+		gtk_widget_set_visible(view->page[i].columns, is);
+		if (is)
+			view->now = (enum iomap_page)i;
+	}
+	show_kinds(view);
+	tell(view, NULL);
 }
 
 static void ladder_iomap_view_init(LadderIomapView *view)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
 
-	view->cells = (struct panel_cells){
-		.owner = G_OBJECT(view), .checks = 1u << IO_ACTIVE_LOW,
-		.choosable = 1u << IO_ADDRESS | 1u << IO_DRIVER | 1u << IO_LINE |
-			     1u << IO_PULL | 1u << IO_DRIVE | 1u << IO_SAFE,
-		.later = true, .name = field_name, .set = set_field, .given_up = given_up,
-		.choices = choices_of,
-	};
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, view->list.view);
-	add_columns(view);
-	panel_list_follow(&view->list, G_CALLBACK(show_message), view);
+	for (int i = 0; i < IOMAP_PAGES; i++)
+		add_page(view, (enum iomap_page)i);
+	g_signal_connect_object(view->pages, "notify::visible-child", G_CALLBACK(turn), view,
+				G_CONNECT_SWAPPED);
 	view->watch = panel_watch_new(widget, true, refresh);
 }
 

@@ -13,7 +13,7 @@ static void offers(const struct io_machine *machine, enum io_field field, const 
 {
 	const struct io_uses uses = { 0 };
 	const struct io_text io = { 0 };
-	GPtrArray *choices = iomap_choices(&uses, machine, &io, field);
+	GPtrArray *choices = iomap_choices(&uses, machine, &io, -1, field);
 	GString *got = g_string_new(NULL);
 
 	for (guint i = 0; i + 1 < choices->len; i += 2)

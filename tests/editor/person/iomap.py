@@ -147,7 +147,7 @@ def choices(screen):
     editor.type('up')
     editor.keys('Return')
     shows(editor, '%QX0.0, Comment', 'up')
-    editor.click(editor.find('Delete the point'))
+    editor.click(editor.find('Delete the line'))
     until(lambda: not editor.all('%QX0.0, Comment'), 'the point to be gone')
     editor.keys('ctrl+s')
     until(lambda: '%QX0.1  sim  safe=0   # MotorDown' in open(io).read(), 'the map')
@@ -195,7 +195,7 @@ def added(screen):
     editor.click(cell(editor, '%QX0.0, Comment'))
     point = None
     for address in '%QX7.0', '%QX7.1':
-        editor.click(editor.find('Add a point', 'push button'))
+        editor.click(editor.find('Add a line', 'push button'))
         point = editor.focus_on(', Address', 'text', but=point)
         editor.type(address)  # the old text was selected
         time.sleep(0.3)  # the table is read again meanwhile

@@ -38,7 +38,7 @@ static void uses(void)
 		iec_addr_print(made.use[i].addr, address, sizeof(address));
 		g_string_append_printf(all, "%s=%s ", address, made.use[i].name);
 	}
-	CHECK_TEXT(all->str, "%IX0.0=Start %IX0.5= %IX1.0=Main.Own %QX0.0= %QX0.6=Row[1] "
+	CHECK_TEXT(all->str, "%IX0.0=Start %IX0.5= %IX1.0=Main.Own %IW2=Wide %QX0.0= %QX0.6=Row[1] "
 		   "%QX0.7=Row[2] %QX1.0=Row[3] ");
 	CHECK_TEXT(io_uses_find(&made, made.use[0].addr)->comment, "(* push *)");
 	iec_addr_parse("%IX7.7", 6, &addr);
@@ -46,7 +46,7 @@ static void uses(void)
 	io_uses_free(&made);
 	text = iomap_new_text(document);
 	CHECK(strstr(text, "%IX1.0  ") && strstr(text, "   # Main.Own\n") &&
-	      strstr(text, "  safe=0   # Row[3]\n"));
+	      strstr(text, "  safe=0   # Row[3]\n") && strstr(text, "%IW2  sim   # Wide\n"));
 	g_free(text);
 	g_string_free(all, TRUE);
 	g_object_unref(document);
