@@ -7,6 +7,8 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/ascii.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,8 +80,7 @@ static bool word_is(const struct io_text *io, int row, enum io_word word, const 
 {
 	const struct io_span *span = &io->row[row].word[word];
 
-	return span->len == strlen(text) &&
-	       g_ascii_strncasecmp(io->text + span->at, text, span->len) == 0;
+	return ascii_is(text, io->text + span->at, span->len);
 }
 
 bool iomap_values(const struct io_text *io, int row, struct io_values *out)

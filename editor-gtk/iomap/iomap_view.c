@@ -36,6 +36,7 @@ struct _LadderIomapView {
 	char *said;             /* message about the whole map; NULL: none     */
 	char *board_shown;      /* board name last read from the text          */
 	bool said_wrong, as_text;
+	enum io_kind wanted;    /* of the line to add                          */
 	bool opened;            /* the first page with rows has been shown     */
 };
 
@@ -338,10 +339,21 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	add_kind(LADDER_IOMAP_VIEW(widget), IO_KIND_POINT);
 }
 
+static gboolean add_wanted(gpointer data)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(data);
+
+	if (view->watch)
+		add_kind(view, view->wanted);
+	return G_SOURCE_REMOVE;
+}
+
+/* When the menu has closed: it gives the focus back to its button. */
 static void add_other(GtkWidget *widget, const char *action, GVariant *kind)
 {
 	(void)action;
-	add_kind(LADDER_IOMAP_VIEW(widget), (enum io_kind)g_variant_get_int32(kind));
+	LADDER_IOMAP_VIEW(widget)->wanted = (enum io_kind)g_variant_get_int32(kind);
+	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, add_wanted, g_object_ref(widget), g_object_unref);
 }
 
 static void add_lacking(GtkWidget *widget, const char *action, GVariant *unused)
