@@ -142,7 +142,7 @@ def lines(screen):
     editor.tab('What others may ask (4)')
     editor.click(editor.find('Add another kind of line'))
     editor.find('Add a window of a server', 'menu item').press()
-    editor.focus_on('%QX2.0, Address', 'text')
+    editor.focus_on('%QX2.0, Name or address', 'text')
     shows(editor, '%QX2.0, Numbers', '16..23')
 
 
