@@ -7,6 +7,8 @@
 #include "ladderd/guarded.h"
 #include "ladderd/link.h"
 
+#include "hal/channels.h"
+
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
 #include "engine/scan/carry.h"
@@ -219,6 +221,7 @@ static bool open_beside(struct download *download, struct standby *standby,
 	standby->map.dev = download->cycle->hal.map->dev;
 	result = hal_beside(&standby->lines, &download->cycle->hal, &standby->map,
 			    &standby->arena, diags, line);
+	standby->channels = hal_channels(&standby->lines);
 	out->map = result != BESIDE_GOOD ? MAP_RESTART : MAP_EXCHANGED;
 	if (result == BESIDE_GOOD && standby->stored.len[STORED_MAP] == runs->len[STORED_MAP] &&
 	    memcmp(stored_part(&standby->stored, STORED_MAP), stored_part(runs, STORED_MAP),

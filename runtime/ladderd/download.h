@@ -84,6 +84,7 @@ struct standby {
 	size_t view_size;
 	/* While it is on trial: what ran before, as it was then. */
 	struct hal lines;      /* of its map; then those of the program before */
+	struct channels *channels; /* of its map                             */
 	char map_detail[200];
 	struct resource before;
 	uint8_t before_identity[32];

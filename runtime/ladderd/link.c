@@ -11,6 +11,7 @@
 #include "ladderd/conf.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
+#include "ladderd/gateways.h"
 #include "ladderd/ends.h"
 #include "ladderd/alarm_store.h"
 #include "ladderd/clock.h"
@@ -85,6 +86,10 @@ struct link {
 	struct alarms alarms;
 	bool alarms_wait;
 	struct alarm_store alarm_store;
+	struct gateways gateways;
+	struct server_io io;
+	const struct iomap *first_map; /* of the program that ladderd began with */
+	struct channels *first_channels;
 	struct server_log log;
 	struct server_conf conf;
 	struct server_password lock;
@@ -110,6 +115,8 @@ struct link {
 	pthread_t thread, scans;
 	bool runs;
 	_Atomic bool stop, dozes;
+	_Atomic int wants;             /* enum server_wants                    */
+	int shown;                     /* by the scan thread: the mode that it has shown */
 	_Atomic int trial;             /* enum trial                           */
 	_Atomic uint32_t turns;        /* of the thread's loop                  */
 	uint32_t turns_seen;           /* by the scan thread, and when          */
@@ -216,18 +223,30 @@ void link_serve(struct link *link)
 	exchange_serve(&link->exchange);
 }
 
-void link_show(struct link *link, int64_t now_ns)
-{
-	exchange_show(&link->exchange, now_ns);
-	alarm_look(&link->alarms.ring, &link->cycle->resource);
-}
-
 static void wake_up(struct link *link)
 {
 	const uint64_t one = 1;
 
 	if (write(link->wake, &one, sizeof(one)) < 0)
 		errno = 0; /* the counter is full, so the thread is awake */
+}
+
+/* A gateway that wants outputs gets them now. */
+static void wake_for_gateways(struct link *link)
+{
+	const int wants = atomic_load_explicit(&link->wants, memory_order_relaxed);
+	const int state = (int)link->cycle->resource.state;
+
+	if (wants == WANTS_OUTPUTS || (wants == WANTS_MODE && state != link->shown))
+		wake_up(link);
+	link->shown = state;
+}
+
+void link_show(struct link *link, int64_t now_ns)
+{
+	exchange_show(&link->exchange, now_ns);
+	alarm_look(&link->alarms.ring, &link->cycle->resource);
+	wake_for_gateways(link);
 }
 
 void link_trial_over(struct link *link, bool back)
@@ -673,6 +692,8 @@ static const struct program *use(struct link *link, struct standby *standby)
 		store_close(link->retain);
 	link->retain = NULL;
 	exchange_renew(&link->exchange, used.views, image_memory_size(used.program));
+	gateways_use(&link->gateways, standby ? &standby->map : link->first_map,
+		     standby ? standby->channels : link->first_channels);
 	arena_free(&link->retain_arena);
 	arena_init(&link->retain_arena);
 	if (retains)
@@ -708,14 +729,11 @@ static void go_back(struct link *link)
 static void end_trial(struct link *link)
 {
 	enum trial trial;
-	uint64_t count;
 
 	/* An order that is late may be the exchange before the trial, or need what going back frees. */
 	if (atomic_load(&link->trial) == TRIAL_NONE || !wait_for_scan(link))
 		return;
 	trial = (enum trial)atomic_exchange(&link->trial, TRIAL_NONE);
-	if (read(link->wake, &count, sizeof(count)) < 0)
-		errno = 0;
 	server_settle(link->server); /* the exchange before the trial */
 	if (trial == TRIAL_BACK)
 		go_back(link);
@@ -971,6 +989,15 @@ static int poll_ms(struct link *link, bool more)
 	return (int)((due_ns - now_ns > REST_NS ? REST_NS : due_ns - now_ns + 999999) / 1000000);
 }
 
+/* It counts; what for is found out without it. */
+static void stay_awake(struct link *link)
+{
+	uint64_t count;
+
+	if (read(link->wake, &count, sizeof(count)) < 0)
+		errno = 0;
+}
+
 static void watch_streams(struct link *link, bool more)
 {
 	struct pollfd ready[OURS + SERVER_SESSIONS] = {
@@ -997,6 +1024,8 @@ static void watch_streams(struct link *link, bool more)
 	}
 	if (poll(ready, OURS + SERVER_SESSIONS, poll_ms(link, more)) < 0)
 		return;
+	if (ready[0].revents)
+		stay_awake(link);
 	if (ready[1].revents)
 		take_in(link);
 	serve_port(link, ready[2].revents);
@@ -1031,6 +1060,7 @@ static void *serve_desks(void *argument)
 		watch_streams(link, more);
 		end_trial(link);
 		more = server_step(link->server, clock_now());
+		atomic_store_explicit(&link->wants, (int)server_wants(link->server), memory_order_relaxed);
 		send_all(link);
 		log_state(link);
 		log_late(link);
@@ -1165,6 +1195,7 @@ void link_free(struct link *link)
 	if (!link)
 		return;
 	server_free(link->server);
+	gateways_free(&link->gateways);
 	journal_close(link->journal);
 	alarm_store_close(&link->alarm_store, &link->alarms.list);
 	free(link->alarms.before);
@@ -1248,6 +1279,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,
+		.io = &link->io,
 	};
 
 	link->views = calloc(3, size);
@@ -1280,6 +1312,10 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		link->exchange.recorder = &link->recorder;
 	}
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
+	link->first_map = cycle->hal.map;
+	link->first_channels = hal_channels(&cycle->hal);
+	gateways_use(&link->gateways, link->first_map, link->first_channels);
+	link->io = gateways_io(&link->gateways);
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);
 	link->alarms.clock_ns = clock_wall;

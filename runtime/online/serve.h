@@ -83,6 +83,9 @@ struct server {
 	struct gateways_status gateways; /* what the status tells              */
 	struct gateway_report report[GATEWAY_COUNT]; /* the last ones          */
 	uint64_t io_session[GATEWAY_COUNT]; /* `opened` of the session that began last */
+	int64_t io_told_ns[GATEWAY_COUNT]; /* when the log told of it last, 0: never */
+	bool io_told[GATEWAY_COUNT];       /* … that it began                  */
+	int64_t now_ns;        /* of the last step                            */
 	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
 	struct image mirror;

@@ -14,6 +14,7 @@
 
 #define WINDOW_MOST  2048u         /* coils or registers of one request       */
 #define OUTPUT_BYTES 17            /* of an output in a frame, at most        */
+#define TOLD_NS INT64_C(60000000000) /* between two events about one gateway     */
 
 static const struct server_io *io_of(const struct asked *asked)
 {
@@ -40,6 +41,20 @@ static struct session *serving(struct server *server, enum gateway_id id)
 	return NULL;
 }
 
+/* A gateway that begins and ends again and again must not fill the log. */
+static void tell(struct server *server, const struct session *session, enum gateway_id id, bool begins)
+{
+	const struct server_setup *setup = &server->setup;
+	const bool rests = server->io_told_ns[id] && server->now_ns - server->io_told_ns[id] < TOLD_NS;
+
+	if (rests && (begins || !server->io_told[id]))
+		return;
+	server->io_told_ns[id] = server->now_ns;
+	server->io_told[id] = begins;
+	setup->log->add(setup->context, begins ? EVENT_GATEWAY : EVENT_GATEWAY_GONE,
+			(uint8_t)session->role, session->user, gateway_word(id), "");
+}
+
 /* Also if another map runs for which the session has not begun yet. */
 void io_end(struct server *server, struct session *session)
 {
@@ -47,6 +62,7 @@ void io_end(struct server *server, struct session *session)
 		if (server->io_session[i] != session->opened)
 			continue;
 		server->io_session[i] = 0;
+		tell(server, session, (enum gateway_id)i, false);
 		server->setup.io->alone(server->setup.io->context, (enum gateway_id)i);
 	}
 	session->gateway = (struct gateway_session){ .begun = false };
@@ -80,8 +96,10 @@ static void take_gateway(struct server *server, struct session *session, enum ga
 		io_end(server, session); /* it may have served others */
 	session->gateway = (struct gateway_session){ .begun = true, .id = id };
 	server->io_session[id] = session->opened;
-	if (!again)
-		memset(&server->report[id], 0, sizeof(server->report[id]));
+	if (again)
+		return;
+	memset(&server->report[id], 0, sizeof(server->report[id]));
+	tell(server, session, id, true);
 }
 
 enum refusal serve_io_begin(struct asked *asked)

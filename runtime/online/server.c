@@ -495,6 +495,7 @@ bool server_step(struct server *server, int64_t now_ns)
 {
 	bool more = false;
 
+	server->now_ns = now_ns;
 	server_settle(server);
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		struct session *session = &server->session[i];
@@ -522,12 +523,21 @@ int64_t server_due(const struct server *server)
 	return due_ns;
 }
 
-bool server_gives(const struct server *server)
+enum server_wants server_wants(const struct server *server)
 {
-	for (int i = 0; i < SERVER_SESSIONS; i++)
-		if (server->session[i].used && server->session[i].gateway.outputs)
-			return true;
-	return false;
+	const struct server_io *io = server->setup.io;
+	enum server_wants wants = WANTS_NOTHING;
+
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		const struct session *session = &server->session[i];
+
+		if (!session->used || !session->gateway.outputs)
+			continue;
+		if (io->outputs(io->context, session->gateway.id))
+			return WANTS_OUTPUTS;
+		wants = WANTS_MODE;
+	}
+	return wants;
 }
 
 /* ---- sessions ---- */

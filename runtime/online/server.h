@@ -136,6 +136,8 @@ struct server_io {
 	void (*put)(void *context, uint32_t point, union iec_value value, bool good);
 	/** The next output whose value has changed since it was given. Fails: false: none. */
 	bool (*output)(void *context, enum gateway_id gateway, struct server_output *out);
+	/** How many outputs it has. */
+	uint32_t (*outputs)(void *context, enum gateway_id gateway);
 	/** All outputs are given again. */
 	void (*again)(void *context, enum gateway_id gateway);
 	/** The gateway has gone. */
@@ -206,6 +208,11 @@ const struct image *server_image(const struct server *server);
 bool server_step(struct server *server, int64_t now_ns);
 /** server_due - when a value is to be published next; INT64_MAX: never. */
 int64_t server_due(const struct server *server);
-/** server_gives - whether a gateway wants outputs: then server_step() is to be called after each scan. */
-bool server_gives(const struct server *server);
+/* When server_step() is to be called for gateways. */
+enum server_wants {
+	WANTS_NOTHING,
+	WANTS_MODE,            /* when the mode has changed                   */
+	WANTS_OUTPUTS,         /* after each scan                             */
+};
+enum server_wants server_wants(const struct server *server);
 #endif

@@ -188,6 +188,12 @@ static bool next_output(void *context, enum gateway_id gateway, struct server_ou
 	return false;
 }
 
+static uint32_t count_outputs(void *context, enum gateway_id gateway)
+{
+	(void)context;
+	return gateway == GATEWAY_PEER ? 1 : 3;
+}
+
 static void give_again(void *context, enum gateway_id gateway)
 {
 	(void)gateway;
@@ -301,7 +307,7 @@ static void rig_open(struct rig *rig)
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_clock clock = { read_clock, set_clock };
 	const struct server_io io = {
-		rig, count_points, find_point, put_point, next_output, give_again, be_alone, find_window, is_published,
+		rig, count_points, find_point, put_point, next_output, count_outputs, give_again, be_alone, find_window, is_published,
 	};
 	static const struct server_conf conf = { get_setting, change_setting };
 	static const char *_Atomic board_name = "b";

@@ -191,6 +191,14 @@ class Line:
         os.close(self.fd)
 
 
+def as_gateway(path, driver):
+    """A session that asks for the role io, and serves points."""
+    gateway = Client(path, hello=False)
+    gateway.hello(role=4)
+    gateway.io_begin(driver)
+    return gateway
+
+
 class Client:
     """One session. `told` collects the frames that were not asked for: (request, fields)."""
 
@@ -406,6 +414,57 @@ class Client:
 
     def has_password(self):
         return self.call(PASSWORD, b'\2').number('B') == 1
+
+    # ---- of a gateway ----
+
+    def io_begin(self, driver):
+        """The number of points; the map is known afterwards."""
+        it = self.call(IO_BEGIN, text(driver))
+        self.map, size, points = it.number('I'), it.number('I'), it.number('I')
+        self.map_text = b''
+        while len(self.map_text) < size:
+            it = self.call(IO_MAP, struct.pack('<II', self.map, len(self.map_text)))
+            assert it.number('I') == size
+            self.map_text += it.rest()
+        return points
+
+    def io_put(self, *values):
+        """values: (point, type, value), or (point, type, None) for one that could not be read."""
+        self.call(IO_PUT, struct.pack('<IH', self.map, len(values)) + b''.join(
+            struct.pack('<IBB', point, it is not None, kind) + value(kind, it or 0) for point, kind, it in values))
+
+    def io_outputs(self):
+        self.outputs = self.send(IO_OUTPUTS, struct.pack('<I', self.map))
+        self.answer(self.outputs)
+
+    def next_outputs(self):
+        """(mode, held, {point: (serial, value)}) of the next frame of outputs."""
+        while True:
+            number, it = self.next_told()
+            if number == self.outputs:
+                break
+        mode, held, found = it.number('B'), it.number('B') == 1, {}
+        for _ in range(it.number('H')):
+            point, serial, kind = it.number('I'), it.number('I'), it.number('B')
+            found[point] = serial, it.value(kind)
+        assert not it.rest()
+        return mode, held, found
+
+    def window(self, number, first, count, form):
+        it = self.call(IO_WINDOW, struct.pack('<BIIIH', 0, self.map, number, first, count))
+        self.mode, self.scan = it.number('B'), it.number('Q')
+        found = [it.number(form) for _ in range(count)]
+        assert not it.rest()
+        return found
+
+    def set_window(self, number, first, form, *values):
+        self.call(IO_WINDOW, struct.pack('<BIIIH', 1, self.map, number, first, len(values)) +
+                  struct.pack(f'<{len(values)}{form}', *values))
+
+    def io_report(self, words, units):
+        """units: {name: (requests, errors, requests without an answer)}"""
+        self.call(IO_REPORT, struct.pack('<I', self.map) + text(words) + struct.pack('<H', len(units)) +
+                  b''.join(text(name) + struct.pack('<QQQ', *counts) for name, counts in units.items()))
 
     def retained(self):
         """(whether the board keeps them, clock, {name: (type, bytes)})"""

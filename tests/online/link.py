@@ -30,7 +30,7 @@ from client import ANY, BOOL, INT, STRING, TIME, Client, Gone, Refused  # noqa: 
 BUILD = os.path.abspath(os.environ.get('BUILD', 'build'))
 ROOT = os.getuid() == 0
 PROGRAMS = ('ladderd', 'ladder', 'tests/online/ladder-attach')
-OWN, GROUPS = 23456, {'view': 24001, 'oper': 24002, 'eng': 24003}
+OWN, GROUPS = 23456, {'view': 24001, 'oper': 24002, 'eng': 24003, 'io': 24004}
 SEAL = '''RUNGBOARD 1
 PROJECT "Seal"
 
@@ -2652,6 +2652,9 @@ def try_all(desk):
         except Refused as error:
             return error.number
 
+    def gateway(service, zeros):
+        desk.call(service, struct.pack('<I', 1) + bytes(zeros))
+
     return {
         'status': number(desk.status), 'symbols': number(desk.symbols), 'read': number(lambda: desk.read('Motor')),
         'publish': number(lambda: desk.publish(['Motor'])), 'events': number(desk.events),
@@ -2674,6 +2677,10 @@ def try_all(desk):
         'alarms': number(desk.alarms), 'ack': number(lambda: desk.ack(99)), 'time': number(desk.clock),
         'clock': number(lambda: desk.clock(change=2)),
         'config': number(desk.config), 'set': number(lambda: desk.set('period', '1s', program=program)),
+        'serve': number(lambda: desk.io_begin('modbus')), 'map': number(lambda: gateway(client.IO_MAP, 4)),
+        'put': number(lambda: gateway(client.IO_PUT, 2)), 'outputs': number(lambda: gateway(client.IO_OUTPUTS, 0)),
+        'window': number(lambda: desk.call(client.IO_WINDOW, struct.pack('<BIIIH', 0, 1, 0, 0, 1))),
+        'report': number(lambda: gateway(client.IO_REPORT, 4)),
     }
 
 
@@ -2682,13 +2689,16 @@ def test_each_role_may_do_what_the_table_says():
     changing = 'write force unforce stop run cold set protect'.split()
     apart = {'ack': 5, 'clock': 5}
     moving = 'download block sums pieces verify commit abort upload config retain restore'.split()
-    nothing = {**dict.fromkeys(changing + moving, 5), **apart}
+    serving = 'serve map put outputs window report'.split()
+    nothing = {**dict.fromkeys(changing + moving + serving, 5), **apart}
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
         'view': {**dict.fromkeys(reading, 0), **nothing, 'reset': 5},
         'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6, 'ack': 47},
         'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), **dict.fromkeys(moving, 0), 'reset': 6,
-                'pieces': 1, 'verify': 23, 'commit': 21, 'restore': 32, 'ack': 47, 'clock': 31},
+                'pieces': 1, 'verify': 23, 'commit': 21, 'restore': 32, 'ack': 47, 'clock': 31, **dict.fromkeys(serving, 5)},
+        'io': {**dict.fromkeys(reading, 5), **nothing, 'reset': 5, **dict.fromkeys(serving, 0), 'status': 0, 'unpublish': 0,
+               'publish': 50, 'window': 46},
     }
 
     def ask(desk):
@@ -2703,6 +2713,9 @@ def test_each_role_may_do_what_the_table_says():
         assert in_role(board, None, lambda desk: desk.role, uid=0) == 0, 'root without a group'
         assert in_role(board, GROUPS['eng'], lambda desk: desk.role, uid=0) == 3, 'root with a group'
         assert in_role(board, GROUPS['view'], lambda desk: desk.read('Count')) == [0]
+        assert in_role(board, GROUPS['io'], lambda desk: desk.role) == 4
+        for role in 'view', 'eng':
+            assert in_role(board, GROUPS[role], lambda desk: (desk.hello(role=4), desk.role)[1]) != 4, role
 
 
 test_each_role_may_do_what_the_table_says.root = True
@@ -2935,6 +2948,8 @@ KINDS = {
     'FAILED': (lambda: GuardedBoard(SEAL, '--slots', '.'), False, cause_ended(256 + 2, 4)),
     'POWER': (slots, False, cause_power), 'AFTER': (slots, False, cause_after),
     'ALARM_ACK': (alarmed, True, cause_ack), 'DISK_BAD': (alarmed, False, cause_disk_bad), 'DISK_GOOD': (slots, False, cause_disk_good),
+    'GATEWAY': (slots, 4, lambda board, desk: (client.as_gateway(board.socket, 'modbus'), ('modbus', ''))[1]),
+    'GATEWAY_GONE': (slots, 4, lambda board, desk: (client.as_gateway(board.socket, 'peer').close(), ('peer', ''))[1]),
     'TIME_SET': (clocked, True, does(lambda desk: desk.clock(MONDAY, change=1), '.*', '2026-06-01 07:00:0.')),
     'TIME_MOVED': (clocked, False, cause_moved),
 }
@@ -2963,7 +2978,7 @@ def one_event(name, number):
         before, began = of_kind(log_in_role(board)), time.time_ns()
         wanted = cause(board, board.client())
         seen = []
-        if not by_desk:  # what a desk did stands in the log when it gets its answer
+        if not by_desk or name == 'GATEWAY_GONE':  # what a desk did stands in the log when it gets its answer
             until(lambda: len(of_kind(log_in_role(board))) > len(before))
             seen = log_in_role(board)
         kill(board)
@@ -2979,7 +2994,7 @@ def one_event(name, number):
         since = MONDAY if name.startswith('TIME_') else began
         assert -10**9 <= it['time'] - since <= ended - began + 10**9, it
         if by_desk:
-            assert it['user'] == user_name(25000 if ROOT else os.getuid()) and it['role'] == (1 if ROOT else 3), it
+            assert it['user'] == user_name(25000 if ROOT else os.getuid()) and it['role'] == (1 if ROOT else 3 if by_desk is True else by_desk), it
         else:
             assert not it['user'] and not it['role'], it
         assert all(map(re.fullmatch, wanted, it['args'])), (wanted, it)

@@ -29,6 +29,7 @@ struct bench {
 	bool good[POINTS];
 	union iec_value out;       /* of point 1                              */
 	uint32_t serial, given;
+	int told;                  /* events                                  */
 	/* The last answer. */
 	uint8_t answer[WIRE_FRAME_MOST];
 	struct frame frame;
@@ -71,7 +72,8 @@ static void amend(void *context, struct board_status *status)
 static void log_add(void *context, enum event_id id, uint8_t role, const char *user,
 		    const char *one, const char *two)
 {
-	(void)context, (void)id, (void)role, (void)user, (void)one, (void)two;
+	(void)role, (void)user, (void)one, (void)two;
+	((struct bench *)context)->told += id == EVENT_GATEWAY || id == EVENT_GATEWAY_GONE;
 }
 
 static bool log_next(void *context, uint32_t seq, struct event *out)
@@ -120,6 +122,12 @@ static bool next_output(void *context, enum gateway_id gateway, struct server_ou
 	return true;
 }
 
+static uint32_t count_outputs(void *context, enum gateway_id gateway)
+{
+	(void)context;
+	return gateway == GATEWAY_MODBUS;
+}
+
 static void again(void *context, enum gateway_id gateway)
 {
 	(void)gateway;
@@ -160,7 +168,7 @@ static const struct stored *running(void *context)
 	return &stored;
 }
 
-static struct server_io io = { NULL, points, find_point, put, next_output, again, alone, window, publishes };
+static struct server_io io = { NULL, points, find_point, put, next_output, count_outputs, again, alone, window, publishes };
 static const struct server_store store = { .running = running };
 static const struct server_log events = { .add = log_add, .next = log_next };
 static const char *_Atomic board_name = "bench";
@@ -311,6 +319,8 @@ static void test_roles(struct bench *bench)
 static void test_one_gateway_a_driver(struct bench *bench)
 {
 	const int one = greet(bench, ROLE_IO, true, false), two = greet(bench, ROLE_IO, true, false);
+	const int told = bench->told;
+	int three;
 
 	begin(bench, one, "mqtt", REFUSAL_NO_SERVICE);
 	begin(bench, one, "modbus", REFUSAL_NONE);
@@ -324,6 +334,13 @@ static void test_one_gateway_a_driver(struct bench *bench)
 	CHECK_AS(bench->alone[GATEWAY_PEER] == 1, "it serves one");
 	server_close(bench->server, two);
 	CHECK(bench->alone[GATEWAY_MODBUS] == 2);
+	CHECK_AS(bench->told == told + 4, "begins and ends are in the log");
+	for (int i = 0; i < 20; i++) {
+		three = greet(bench, ROLE_IO, true, false);
+		begin(bench, three, "peer", REFUSAL_NONE);
+		server_close(bench->server, three);
+	}
+	CHECK_AS(bench->told == told + 4, "not each time within a minute");
 }
 
 static void test_the_map(struct bench *bench)
@@ -406,10 +423,10 @@ static void test_outputs(struct bench *bench)
 
 	bench->serial = 5;
 	bench->out.i = 1;
-	CHECK(!server_gives(bench->server));
+	CHECK(server_wants(bench->server) == WANTS_NOTHING);
 	wire_put_u32(fields(bench), map);
 	CHECK(ask(bench, session, SERVICE_IO_OUTPUTS) == REFUSAL_NONE);
-	CHECK(server_gives(bench->server));
+	CHECK(server_wants(bench->server) == WANTS_OUTPUTS);
 	CHECK(outputs(bench, session, &mode, &held) == 1 && mode == STATE_RUN && held == 0);
 	CHECK(wire_u32(&bench->frame.body) == 1 && wire_u32(&bench->frame.body) == 5 &&
 	      wire_u8(&bench->frame.body) == IEC_BOOL && wire_u8(&bench->frame.body) == 1);
@@ -425,7 +442,7 @@ static void test_outputs(struct bench *bench)
 	exchange_show(&bench->exchange, 0);
 	CHECK_AS(outputs(bench, session, &mode, &held) == 0 && mode == STATE_STOP && held == 1, "held");
 	server_close(bench->server, session);
-	CHECK(!server_gives(bench->server));
+	CHECK(server_wants(bench->server) == WANTS_NOTHING);
 	resource_start(&bench->rig.resource);
 	exchange_show(&bench->exchange, 0);
 }

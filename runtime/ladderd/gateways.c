@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * gateways - a point belongs to the gateway of its driver; a module is a device of Modbus.
+ */
+#include "ladderd/gateways.h"
+
+#include "engine/base/name.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static bool serves(enum gateway_id gateway, const struct io_point *point)
+{
+	return gateway == GATEWAY_PEER ? point->driver == DRIVER_peer :
+					 point->driver == DRIVER_modbus || point->driver == DRIVER_module;
+}
+
+static void forget(struct gateways *gateways)
+{
+	for (int i = 0; i < GATEWAY_COUNT; i++) {
+		free(gateways->outputs[i].point);
+		free(gateways->outputs[i].given);
+	}
+	memset(gateways, 0, sizeof(*gateways));
+}
+
+static bool find_outputs(struct gateway_outputs *outputs, const struct iomap *map, enum gateway_id gateway)
+{
+	const size_t room = (size_t)map->count + 1;
+
+	outputs->point = calloc(room, sizeof(*outputs->point));
+	outputs->given = calloc(room, sizeof(*outputs->given));
+	if (!outputs->point || !outputs->given)
+		return false;
+	for (int i = 0; i < map->count; i++)
+		if (map->point[i].output && serves(gateway, &map->point[i]))
+			outputs->point[outputs->count++] = (uint32_t)i;
+	return true;
+}
+
+void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels)
+{
+	forget(gateways);
+	for (int i = 0; i < GATEWAY_COUNT; i++)
+		if (!find_outputs(&gateways->outputs[i], map, (enum gateway_id)i)) {
+			forget(gateways);
+			return;
+		}
+	gateways->map = map;
+	gateways->channels = channels;
+	for (int i = 0; i < map->count; i++)
+		for (int k = 0; k < GATEWAY_COUNT; k++)
+			gateways->points[k] += serves((enum gateway_id)k, &map->point[i]);
+}
+
+void gateways_free(struct gateways *gateways)
+{
+	forget(gateways);
+}
+
+/* ---- as in struct server_io ---- */
+
+static uint32_t count_points(void *context, enum gateway_id gateway)
+{
+	return ((struct gateways *)context)->points[gateway];
+}
+
+static bool find_point(void *context, enum gateway_id gateway, uint32_t point, struct server_point *out)
+{
+	const struct iomap *map = ((struct gateways *)context)->map;
+	const struct io_point *found;
+
+	if (!map || point >= (uint32_t)map->count)
+		return false;
+	found = &map->point[point];
+	if (!serves(gateway, found) || !found->channel)
+		return false;
+	*out = (struct server_point){ .output = found->output, .raw = found->channel->raw };
+	return true;
+}
+
+static void put_value(void *context, uint32_t point, union iec_value value, bool good)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	channels_put(((struct gateways *)context)->channels, (int)point, value, good,
+		     now.tv_sec * INT64_C(1000000000) + now.tv_nsec);
+}
+
+static bool next_output(void *context, enum gateway_id gateway, struct server_output *out)
+{
+	struct gateways *gateways = context;
+	struct gateway_outputs *outputs = &gateways->outputs[gateway];
+
+	while (outputs->next < outputs->count) {
+		const uint32_t i = outputs->next++, point = outputs->point[i];
+
+		out->point = point;
+		out->raw = gateways->map->point[point].channel->raw;
+		out->value = channels_get(gateways->channels, (int)point, &out->serial);
+		if (!out->serial || out->serial == outputs->given[i])
+			continue;
+		outputs->given[i] = out->serial;
+		return true;
+	}
+	outputs->next = 0;
+	return false;
+}
+
+static uint32_t count_outputs(void *context, enum gateway_id gateway)
+{
+	return ((struct gateways *)context)->outputs[gateway].count;
+}
+
+static void give_again(void *context, enum gateway_id gateway)
+{
+	struct gateway_outputs *outputs = &((struct gateways *)context)->outputs[gateway];
+
+	outputs->next = 0;
+	if (outputs->count)
+		memset(outputs->given, 0, outputs->count * sizeof(*outputs->given));
+}
+
+static void leave_alone(void *context, enum gateway_id gateway)
+{
+	struct channels *channels = ((struct gateways *)context)->channels;
+
+	if (gateway == GATEWAY_PEER) {
+		channels_alone(channels, DRIVER_peer);
+		return;
+	}
+	channels_alone(channels, DRIVER_modbus);
+	channels_alone(channels, DRIVER_module);
+}
+
+static bool find_window(void *context, uint32_t number, struct server_window *out)
+{
+	const struct iomap *map = ((struct gateways *)context)->map;
+	const struct io_net *net = map ? map->net : NULL;
+
+	if (!net || number >= (uint32_t)net->window_count)
+		return false;
+	*out = (struct server_window){
+		.addr = net->window[number].addr, .count = net->window[number].count,
+		.writable = net->window[number].writable,
+	};
+	return true;
+}
+
+static bool is_published(void *context, const char *name, size_t len)
+{
+	const struct iomap *map = ((struct gateways *)context)->map;
+	const struct io_net *net = map ? map->net : NULL;
+
+	for (int i = 0; net && i < net->publish_count; i++)
+		for (int k = 0; k < net->publish[i].count; k++)
+			if (name_is(net->publish[i].name[k], name, len))
+				return true;
+	return false;
+}
+
+struct server_io gateways_io(struct gateways *gateways)
+{
+	return (struct server_io){
+		.context = gateways, .points = count_points, .point = find_point, .put = put_value,
+		.output = next_output, .outputs = count_outputs, .again = give_again, .alone = leave_alone, .window = find_window,
+		.publishes = is_published,
+	};
+}
