@@ -487,7 +487,7 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	}
 	*types = arena_alloc(&ladder->arena,
 			     ((size_t)il->count + 1) * sizeof(**types));
-	if (!*types)
+	if (!*types || !generic_lines(t->scope, unit->pou, il, &ladder->scratch))
 		return no_memory(ladder, unit->pou->file);
 	arena_reset(&ladder->scratch);
 	check_il(t->scope, unit->pou, il, &ladder->scratch, *types,

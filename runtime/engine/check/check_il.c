@@ -1115,7 +1115,7 @@ static bool il_check_whole_move(struct il_check *c, int at)
 	return il_check_same(c, in, from, to) && can_write(c, out, to);
 }
 
-/* A function with ARRAY[*], of which only Structured Text makes copies; told. */
+/* A function with ARRAY[*] that has no copy for this call; told. */
 static bool has_any_bounds(struct il_check *c, const struct il_line *line)
 {
 	const struct project *project = scope_project(c->fn.scope);
@@ -1123,7 +1123,8 @@ static bool has_any_bounds(struct il_check *c, const struct il_line *line)
 
 	if (!pou || !pou_has_any_bounds(pou))
 		return false;
-	il_report(&c->fn, line, DIAG_ANY_BOUNDS_CALL, project_text(project, pou->name));
+	il_report(&c->fn, line, line->kind == IL_FN ? DIAG_ANY_BOUNDS_CALL : DIAG_ANY_BOUNDS_OF,
+		  project_text(project, pou->name));
 	return true;
 }
 

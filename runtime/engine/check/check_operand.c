@@ -823,7 +823,7 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	    !(c->item && c->item->kind == ST_CALL && call == &expr->node[expr->root]))
 		operand_report(c, DIAG_NO_RESULT, at, row->word);
 	if (word_is_own(word) && row->owner >= 0 && pou_has_any_bounds(&c->project->pou[row->owner])) {
-		operand_report(c, c->statement ? DIAG_ANY_BOUNDS_OF : DIAG_ANY_BOUNDS_CALL, at, row->word);
+		operand_report(c, DIAG_ANY_BOUNDS_OF, at, row->word);
 		for (int i = 0; i < args.count; i++)
 			expr->node[args.arg[i].at].whole = true;
 		return;

@@ -5,6 +5,8 @@
 #include "engine/check/generic.h"
 
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
+#include "engine/model/args.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/shape.h"
 #include "engine/model/st.h"
@@ -27,6 +29,15 @@ struct generic {
 	bool failed;
 };
 
+static bool bounds_of(const struct meaning *m, struct bounds *out)
+{
+	if (!m || m->kind != MEANING_ARRAY)
+		return false;
+	out->dims = m->dims > 1 ? m->dims : 1;
+	memcpy(out->dim, m->dims > 1 ? m->dim : &m->array, (size_t)out->dims * sizeof(*out->dim));
+	return true;
+}
+
 /* The dimensions of the array at @node of the expression. False: it is none. */
 static bool bounds_at(struct scope *scope, const struct pou *pou, struct expr *expr, int node,
 		      struct bounds *out)
@@ -40,10 +51,9 @@ static bool bounds_at(struct scope *scope, const struct pou *pou, struct expr *e
 	if (at->op == EXPR_NAME || at->op == EXPR_INDEX)
 		id = scope_first_of(scope, pou, expr, at);
 	m = id ? scope_find(scope, pou, id, &why) : NULL;
-	if (m && m->kind == MEANING_ARRAY) {
-		out->dims = m->dims > 1 ? m->dims : 1;
-		dim = m->dims > 1 ? m->dim : &m->array;
-	} else if (at->op == EXPR_CALL) { /* a function whose result is an array */
+	if (bounds_of(m, out))
+		return true;
+	if (at->op == EXPR_CALL) { /* a function whose result is an array */
 		const enum word word = expr_function(&scope_project(scope)->words, at);
 		const struct pou *called = shape_pou(scope_project(scope), word);
 		const struct var *result = called && called->vars.count ? &called->vars.var[0] : NULL;
@@ -97,6 +107,74 @@ static int generic_of(const struct project *project, enum word word)
 
 	return row && row->kind == WORD_FN && row->owner >= 0 && pou_has_any_bounds(&project->pou[row->owner]) ?
 	       row->owner : -1;
+}
+
+/* ---- calls of lists and boxes ---- */
+
+/* The bounds that the arguments behind line @at give to POU @of, in the order of its arrays; -1: one has none, or
+ * not so many. */
+static int bounds_of_lines(struct scope *scope, const struct pou *caller, const struct il *il, int at, int of,
+			   struct bounds *out)
+{
+	struct project *project = scope_project(scope);
+	const struct var_table *vars = &project->pou[of].vars;
+	int count = 0;
+
+	for (int i = 0; i < vars->count; i++) {
+		const char *name = project_text(project, vars->var[i].name);
+		enum diag_id why;
+		bool found = false;
+
+		if (!vars->var[i].any_bounds)
+			continue;
+		for (int k = at + 1; k < il->count && il->line[k].kind != IL_CALL && !found &&
+				     (il->line[k].kind == IL_ARG_IN || il->line[k].kind == IL_ARG_OUT); k++)
+			found = il->line[k].pin && il->line[k].kind == IL_ARG_IN &&
+				name_equal(project_text(project, il->line[k].pin), name) &&
+				bounds_of(scope_find(scope, caller, il->line[k].operand, &why), &out[count]);
+		if (!found || out[count].dims != (vars->var[i].dims > 1 ? vars->var[i].dims : 1))
+			return -1;
+		out[count++].var = i;
+	}
+	return count;
+}
+
+/* The copy of POU @of with these bounds; WORD_COUNT: there is none. */
+static enum word copy_with(const struct project *project, int of, const struct bounds *bounds, int count)
+{
+	for (int i = of + 1; i < project->pou_count; i++) {
+		bool same = project->pou[i].copy_of == of + 1;
+
+		for (int k = 0; same && k < count; k++)
+			same = has_bounds(&project->pou[i].vars.var[bounds[k].var], &bounds[k]);
+		if (same)
+			return project->pou[i].word;
+	}
+	return WORD_COUNT;
+}
+
+bool generic_lines(struct scope *scope, const struct pou *pou, struct il *il, struct arena *scratch)
+{
+	struct project *project = scope_project(scope);
+
+	for (int i = 0; i < il->count; i++) {
+		const int of = il->line[i].kind == IL_CALL ? generic_of(project, (enum word)il->line[i].word) : -1;
+		struct bounds *bounds;
+		enum word word = WORD_COUNT;
+		int count;
+
+		if (of < 0)
+			continue;
+		bounds = arena_alloc(scratch, (size_t)project->pou[of].vars.count * sizeof(*bounds));
+		if (!bounds)
+			return false;
+		count = bounds_of_lines(scope, pou, il, i, of, bounds);
+		if (count >= 0)
+			word = copy_with(project, of, bounds, count);
+		if (word != WORD_COUNT)
+			il->line[i].word = (uint16_t)word;
+	}
+	return true;
 }
 
 enum word generic_word(struct scope *scope, const struct pou *pou, struct expr *expr,
@@ -247,6 +325,63 @@ static void note_call(struct generic *g, int caller, const struct expr_node *cal
 		g->failed |= !add_copy(project, of, bounds, count);
 }
 
+static void note_lines(struct generic *g, int caller, const struct il *il)
+{
+	for (int i = 0; i < il->count && !g->failed; i++) {
+		const int of = il->line[i].kind == IL_CALL ? generic_of(g->project, (enum word)il->line[i].word) : -1;
+		struct bounds *bounds;
+		int count;
+
+		if (of < 0)
+			continue;
+		bounds = arena_alloc(&g->project->arena, (size_t)g->project->pou[of].vars.count * sizeof(*bounds));
+		g->failed |= !bounds;
+		count = bounds ? bounds_of_lines(g->scope, &g->project->pou[caller], il, i, of, bounds) : -1;
+		if (count >= 0 && copy_with(g->project, of, bounds, count) == WORD_COUNT)
+			g->failed |= !add_copy(g->project, of, bounds, count);
+	}
+}
+
+/* A box, as the call of a list. */
+static void note_box(struct generic *g, int caller, const struct cell *cell)
+{
+	struct names *names = &g->project->names;
+	const char *next = project_text(g->project, cell->args);
+	struct il_line line[LIMIT_ARGS + 1] = { { .kind = IL_CALL, .word = cell->word } };
+	struct il il = { .line = line, .count = 1 };
+	struct arg arg;
+
+	if (generic_of(g->project, (enum word)cell->word) < 0)
+		return;
+	while (il.count <= LIMIT_ARGS && args_next(&next, &arg))
+		if (!arg.output)
+			line[il.count++] = (struct il_line){
+				.kind = IL_ARG_IN, .pin = names_intern(names, arg.pin, arg.pin_len),
+				.operand = names_intern(names, arg.value, arg.value_len),
+			};
+	note_lines(g, caller, &il);
+}
+
+static void note_rung(struct generic *g, int caller, const struct rung *rung)
+{
+	const struct names *names = &g->project->names;
+
+	for (int i = 0; i < rung->rows * rung->cols && !rung->off && !g->failed; i++) {
+		const struct cell *cell = &rung->cell[i];
+		const enum operand_kind kind = words_row(&g->project->words, (enum word)cell->word)->operand;
+
+		if (word_is_own((enum word)cell->word))
+			note_box(g, caller, cell);
+		if ((kind != OPND_EXPR && kind != OPND_ASSIGN) ||
+		    !expr_parse_text(names_text(names, cell->operand), names_len(names, cell->operand), g->expr,
+				     g->ignored, (struct diag){ .id = DIAG_COUNT }))
+			continue;
+		for (int k = 0; k < g->expr->count; k++)
+			if (g->expr->node[k].op == EXPR_CALL)
+				note_call(g, caller, &g->expr->node[k]);
+	}
+}
+
 static void note_statement(struct generic *g, int caller, const struct st_item *item)
 {
 	struct st_part part;
@@ -281,6 +416,10 @@ static void note_calls(struct generic *g, int end)
 		for (int k = 0; st && !pou_has_any_bounds(&g->project->pou[i]) && k < st->count; k++)
 			if (st->item[k].kind != ST_COMMENT)
 				note_statement(g, i, &st->item[k]);
+		for (int k = 0; k < g->project->pou[i].rung_count && !pou_has_any_bounds(&g->project->pou[i]); k++)
+			note_rung(g, i, g->project->pou[i].rung[k]);
+		if (!pou_has_any_bounds(&g->project->pou[i]))
+			note_lines(g, i, &g->project->pou[i].il);
 	}
 }
 

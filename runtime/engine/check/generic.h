@@ -20,6 +20,8 @@ void generic_end(struct project *project, int pous);
  * none for them. Scan-safe: no. */
 enum word generic_word(struct scope *scope, const struct pou *pou, struct expr *expr,
 		       const struct expr_node *call, enum word word);
+/** generic_lines - the same for all calls with named arguments of a list of @pou. Scan-safe: no. Fails: false: no memory. */
+bool generic_lines(struct scope *scope, const struct pou *pou, struct il *il, struct arena *scratch);
 struct expr_bound;
 /** bound_value - what LOWER_BOUND or UPPER_BOUND is. Scan-safe: no. Fails: false: its first argument is no array,
  * the second no number of a dimension. */

@@ -1270,10 +1270,6 @@ bool il_to_il(struct translation *translation, struct unit *unit, struct arena *
 	const struct il *written = &unit->pou->il;
 	struct ld ld = { .translation = translation, .unit = unit, .scratch = scratch, .il = &unit->il };
 
-	if (!pou_has_edges(unit->pou)) {
-		unit->il = *written;
-		return true;
-	}
 	if (!ld_begin(&ld))
 		return false;
 	ld_edges(&ld);
