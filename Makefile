@@ -114,6 +114,7 @@ $(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/l
 $(BUILD)/unit/modbus/tests: $(call obj,$(filter-out %/main.c %/session.c,$(wildcard runtime/modbus/*.c)))
 $(BUILD)/unit/modbus/tests: private ROOM_LIB = $(MODBUS_LIB)
 $(BUILD)/unit/modbus/tests: private LDFLAGS += -Wl,--gc-sections
+$(BUILD)/unit/peer/tests: $(call obj,$(addprefix runtime/peer/,datagram.c inbox.c outbox.c) runtime/online/wire.c runtime/online/service.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c) runtime/ladder/foreign.c)
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
@@ -173,6 +174,12 @@ $(BUILD)/ladder-guard: $(GUARD)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(LEAN_LD) -o $@ $^
 $(BUILD)/ladder-attach: $(call obj,$(wildcard runtime/attach/*.c))
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
+# A gateway: variables from board to board.
+PEER := $(call obj,$(wildcard runtime/peer/*.c))
+$(PEER): WARN += $(FRAME)
+all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-peer)
+$(BUILD)/ladder-peer: $(PEER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # The same with a socket in the folder where it runs.
 $(BUILD)/tests/online/ladder-attach: runtime/attach/main.c
 	@mkdir -p $(@D)
@@ -303,14 +310,21 @@ $(BUILD)/man/ladder-guard.8: $(HERE)/ladder-guard
 	@{ printf '.TH LADDER-GUARD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-guard \\- makes outputs safe when ladderd dies or freezes\n'; \
 	  printf '.SH SYNOPSIS\n.B ladder-guard\n[OPTION]... \\-\\- ladderd ARGUMENT...\n.SH DESCRIPTION\n.nf\n'; \
 	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
-man: $(BUILD)/man/ladderd.8 $(BUILD)/man/ladder-attach.1 $(BUILD)/man/ladder-guard.8
+# So is that of ladder-peer.
+$(BUILD)/man/ladder-peer.8: $(HERE)/ladder-peer
+	@mkdir -p $(@D)
+	@{ printf '.TH LADDER-PEER 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-peer \\- variables from board to board\n'; \
+	  printf '.SH SYNOPSIS\n.B ladder-peer\n[OPTION]...\n.SH DESCRIPTION\n.nf\n'; \
+	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
+man: $(BUILD)/man/ladderd.8 $(BUILD)/man/ladder-attach.1 $(BUILD)/man/ladder-guard.8 $(BUILD)/man/ladder-peer.8
 unitdir ?= /lib/systemd/system
-install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard $(BUILD)/man/ladder-guard.8 $(BUILD)/man/ladder-attach.1) $(BUILD)/man/ladderd.8
+install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard $(BUILD)/ladder-peer $(BUILD)/man/ladder-guard.8 $(BUILD)/man/ladder-peer.8 $(BUILD)/man/ladder-attach.1) $(BUILD)/man/ladderd.8
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man8 \
 	  $(DESTDIR)$(unitdir) $(DESTDIR)/etc/default
-	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard) $(DESTDIR)$(prefix)/bin/
-	install -m 644 $(BUILD)/man/ladderd.8 $(if $(filter 1,$(SMALL)),,$(BUILD)/man/ladder-guard.8) $(DESTDIR)$(prefix)/share/man/man8/
+	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard $(BUILD)/ladder-peer) $(DESTDIR)$(prefix)/bin/
+	install -m 644 $(BUILD)/man/ladderd.8 $(if $(filter 1,$(SMALL)),,$(BUILD)/man/ladder-guard.8 $(BUILD)/man/ladder-peer.8) $(DESTDIR)$(prefix)/share/man/man8/
 	$(if $(filter 1,$(SMALL)),,install -d $(DESTDIR)$(prefix)/share/man/man1 && install -m 644 $(BUILD)/man/ladder-attach.1 $(DESTDIR)$(prefix)/share/man/man1/)
+	$(if $(filter 1,$(SMALL)),,sed -e 's|/usr/bin/ladder|$(prefix)/bin/ladder|g' packaging/ladder-peer.service >$(DESTDIR)$(unitdir)/ladder-peer.service)
 	sed $(SMALL:1=-e 's|/usr/bin/ladder-guard.* -- ||' -e 's|=/usr/bin/ladder-guard |=|') -e 's|/usr/bin/ladder|$(prefix)/bin/ladder|g' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
 	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
@@ -511,7 +525,7 @@ bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the d
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read st code script scenario iomap retain classic link record serial
+FUZZ      := read st code script scenario iomap retain classic link record serial peer
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential st_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
@@ -561,6 +575,8 @@ $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH
 $(BIN)/fuzz_st: $(BUILD)/tests/st/st_random.o
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
+PEER_PLAIN := $(addprefix runtime/peer/,datagram.c inbox.c outbox.c)
+$(BIN)/fuzz_peer: $(call obj,$(PEER_PLAIN) runtime/online/wire.c runtime/online/service.c)
 $(BIN)/fuzz_link $(BIN)/fuzz_serial: $(filter-out %/finder_avahi.o,$(ONLINE))
 $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
@@ -583,7 +599,7 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|code|s
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
-	  $(if $(filter st,$(TARGET)),tests/st/st_random.c tests/walker/random.c $(filter-out tests/walker/random_sfc%,$(wildcard tests/walker/random_*.c)) $(wildcard tests/walker/words*.c)) $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
+	  $(if $(filter st,$(TARGET)),tests/st/st_random.c tests/walker/random.c $(filter-out tests/walker/random_sfc%,$(wildcard tests/walker/random_*.c)) $(wildcard tests/walker/words*.c)) $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter peer,$(TARGET)),$(PEER_PLAIN) runtime/online/wire.c runtime/online/service.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
@@ -702,7 +718,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach

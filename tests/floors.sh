@@ -32,6 +32,7 @@ runtime/ladder            $doors engine/exchange engine/exchange/classic engine/
 runtime/online            engine/base engine/scan
 runtime/attach
 runtime/modbus            engine/base hal online
+runtime/peer              engine/base online hal
 runtime/guard
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online guard/say.h
 editor-gtk/kit/gtk48      $doors

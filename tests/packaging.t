@@ -34,6 +34,13 @@ is_deeply([$unit =~ /^NoExecPaths=(.*)\n/mg, map { split } $unit =~ /^ExecPaths=
 	[qw(/ /usr/bin/ladder-guard /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');
 like($unit, qr/^$_$/m, $_) for 'PrivateNetwork=yes', 'DynamicUser=yes', 'CapabilityBoundingSet=', 'NoNewPrivileges=yes', 'DevicePolicy=closed';
 
+# ladder-peer is in the network, and has nothing else.
+my $peer = get('packaging/ladder-peer.service');
+is_deeply([$peer =~ /^RestrictAddressFamilies=(.*)$/mg], ['AF_UNIX AF_INET AF_NETLINK'], 'ladder-peer: its sockets');
+is_deeply([$peer =~ /^NoExecPaths=(.*)\n/mg, map { split } $peer =~ /^ExecPaths=(.*)$/mg],
+	[qw(/ /usr/bin/ladder-peer -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64)], 'ladder-peer: what may be executed');
+like($peer, qr/^$_$/m, "ladder-peer: $_") for 'DynamicUser=yes', 'SupplementaryGroups=ladder-io', 'CapabilityBoundingSet=', 'NoNewPrivileges=yes', 'DevicePolicy=closed', 'CPUQuota=20%';
+
 # Whoever lets ladderd set the clock gives away nothing else.
 is_deeply([sort grep { !/^(#|\[|$)/ } split /\n/, get('packaging/ladderd-clock.conf')],
 	[sort qw(AmbientCapabilities=CAP_SYS_TIME CapabilityBoundingSet=CAP_SYS_TIME ProtectClock=no SystemCallFilter=@clock)], 'the right to set the clock');

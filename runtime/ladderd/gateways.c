@@ -149,6 +149,29 @@ static bool find_window(void *context, uint32_t number, struct server_window *ou
 	return true;
 }
 
+/* Bits of a point, from the start of its area. */
+static uint32_t first_bit(const struct io_point *point)
+{
+	return 8 * point->addr.byte + (point->addr.bits == 1 ? point->addr.bit : 0);
+}
+
+static bool are_good(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines)
+{
+	const struct gateways *gateways = context;
+	const struct iomap *map = gateways->map;
+
+	for (int i = 0; map && i < map->count; i++) {
+		const struct io_point *point = &map->point[i];
+		const uint32_t first = first_bit(point);
+
+		if (point->output || point->addr.area != area || first >= bit + count || bit >= first + point->addr.bits)
+			continue;
+		if (point->channel ? channels_point(gateways->channels, i) != QUALITY_GOOD : !lines)
+			return false;
+	}
+	return true;
+}
+
 static bool is_published(void *context, const char *name, size_t len)
 {
 	const struct iomap *map = ((struct gateways *)context)->map;
@@ -165,7 +188,7 @@ struct server_io gateways_io(struct gateways *gateways)
 {
 	return (struct server_io){
 		.context = gateways, .points = count_points, .point = find_point, .put = put_value,
-		.output = next_output, .outputs = count_outputs, .again = give_again, .alone = leave_alone, .window = find_window,
+		.output = next_output, .outputs = count_outputs, .again = give_again, .alone = leave_alone, .window = find_window, .good = are_good,
 		.publishes = is_published,
 	};
 }

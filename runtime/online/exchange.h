@@ -45,7 +45,18 @@ struct view {
 	int forces;           /* how many there are                            */
 	uint32_t serial;
 	uint8_t *memory;
+#ifndef RUNGBOARD_SMALL
+	/* Whether a value may be old; NULL: all are, if io_bad says so. In a copy of the link. */
+	bool (*is_old)(const struct view *view, const struct program *program, struct location at);
+	void *context;
+#endif
 };
+#ifdef RUNGBOARD_SMALL
+#define VIEW_IS_OLD(view, program, at) ((view)->io_bad)
+#else
+#define VIEW_IS_OLD(view, program, at)                                                              \
+	((view)->is_old ? (view)->is_old(view, program, at) : (view)->io_bad)
+#endif
 
 enum order_kind {
 	/* These have places of a program. */

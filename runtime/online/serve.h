@@ -192,6 +192,8 @@ enum refusal serve_io_report(struct asked *asked);
 enum refusal io_check_publish(struct asked *asked, struct wire_reader in);
 /** io_give - the next frame of outputs for a session. Returns its bytes; 0: nothing has changed. */
 size_t io_give(struct server *server, struct session *session);
+/** io_is_old - of a struct view: a variable that is an input is as good as that input; all others are good. */
+bool io_is_old(const struct view *view, const struct program *program, struct location at);
 /** io_end - a session serves no points any more. */
 void io_end(struct server *server, struct session *session);
 /** io_status - what the status tells of gateways. */

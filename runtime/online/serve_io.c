@@ -418,6 +418,23 @@ enum refusal io_check_publish(struct asked *asked, struct wire_reader in)
 	return REFUSAL_NONE;
 }
 
+bool io_is_old(const struct view *view, const struct program *program, struct location at)
+{
+	const struct server_io *io = ((const struct server *)view->context)->setup.io;
+	const struct areas *areas = &program->areas;
+
+	at = location_whole(at);
+	if (!io)
+		return view->io_bad;
+	if (at.area != AREA_NONE)
+		return !io->good(io->context, at.area, at.where, 1, !view->io_bad);
+	if (at.where >= areas->size)
+		return false;
+	at.area = areas_find(areas, at.where);
+	return !io->good(io->context, at.area, 8 * (at.where - areas->at[at.area]),
+			 8 * iec_type_row(at.type)->size, !view->io_bad);
+}
+
 const struct gateways_status *io_status(struct server *server)
 {
 	const struct server_setup *setup = &server->setup;

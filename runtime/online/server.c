@@ -466,6 +466,7 @@ static void tell_changed(const struct server *server, struct session *session)
 static void publish_next(struct server *server, struct session *session, int64_t now_ns)
 {
 	const struct view *view;
+	struct view of_gateway;
 	struct wire_writer out;
 
 	if (session->changed && session->greeted && !session->over && !session->out_len) {
@@ -486,6 +487,12 @@ static void publish_next(struct server *server, struct session *session, int64_t
 	if (view->forces != server->mirror.force_count)
 		server_learn_forces(server);
 	server->mirror.memory = view->memory;
+	if (session->role == ROLE_IO) {
+		of_gateway = *view;
+		of_gateway.is_old = io_is_old;
+		of_gateway.context = server;
+		view = &of_gateway;
+	}
 	out = wire_write(session->out, sizeof(session->out));
 	session->out_len = publish_write(&session->publications, view, &server->mirror, now_ns,
 					 &out);

@@ -143,6 +143,8 @@ struct server_io {
 	/** The gateway has gone. */
 	void (*alone)(void *context, enum gateway_id gateway);
 	bool (*window)(void *context, uint32_t number, struct server_window *out);
+	/** Whether all inputs among @count bits of @area from @bit on are good. @lines: those that are lines are. */
+	bool (*good)(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines);
 	/** Whether a PUBLISH line names the variable. */
 	bool (*publishes)(void *context, const char *name, size_t len);
 };

@@ -214,6 +214,13 @@ static bool find_window(void *context, uint32_t number, struct server_window *ou
 	return number < 8;
 }
 
+static bool are_good(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines)
+{
+	(void)context;
+	fuzz_expect(area > AREA_NONE && area < AREA_COUNT, "an area");
+	return (bit + count) & 1 || lines;
+}
+
 static bool is_published(void *context, const char *name, size_t len)
 {
 	(void)context;
@@ -307,7 +314,7 @@ static void rig_open(struct rig *rig)
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_clock clock = { read_clock, set_clock };
 	const struct server_io io = {
-		rig, count_points, find_point, put_point, next_output, count_outputs, give_again, be_alone, find_window, is_published,
+		rig, count_points, find_point, put_point, next_output, count_outputs, give_again, be_alone, find_window, are_good, is_published,
 	};
 	static const struct server_conf conf = { get_setting, change_setting };
 	static const char *_Atomic board_name = "b";

@@ -223,6 +223,17 @@ def test_published_variables_are_those_of_the_map():
         assert types == [INT, INT]
         number, it = gateway.next_told()
         assert number == request and it.number('B') == 0
+        # A variable that is an input is as old as that input; all others are new.
+        assert [it.number(form) for form in 'BQqIH'][4] == 2
+        assert [(it.number('H'), it.number('B'), it.value(INT)) for _ in range(2)] == [(0, 0, 154), (1, 2, 77)]
+        other = as_gateway(board.socket, 'modbus')
+        other.io_put((LEVEL, INT, 4))
+        found = {}
+        while found != {0: (0, 8), 1: (0, 4)}:
+            it = gateway.next_told()[1]
+            for _ in range([it.number(form) for form in 'BBQqIH'][5]):
+                which = it.number('H')
+                found[which] = it.number('B'), it.value(INT)
         refused(50, lambda: gateway.publish(['Count']), 'Count')
         refused(50, lambda: gateway.publish([0x07000000]))
         refused(5, lambda: gateway.publish_cells('Main'))
