@@ -234,8 +234,21 @@ $(HAL_TEST)/channel_map: $(call obj,tests/hal/channel_map.c tests/hal/fake.c $(H
 # Channels of analog values, with files in place of the kernel's.
 $(HAL_TEST)/channels: $(call obj,tests/hal/channels.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+# The driver iio, with a fake of libiio and, where it is installed, with the library itself.
+$(HAL_TEST)/fake_iio/%.o: hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) -Itests/hal/fake_iio $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/fake_iio/%.o: tests/hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) -Itests/hal/fake_iio $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+IIO_TEST := $(call obj,tests/hal/iio.c $(filter-out hal/iio_none.c,$(HAL_CORE)) hal/gpiod_none.c)
+$(HAL_TEST)/iio_fake: $(HAL_TEST)/fake_iio/iio_libiio.o $(HAL_TEST)/fake_iio/fake_iio.o
+$(HAL_TEST)/iio_real: $(call obj,hal/iio_libiio.c tests/hal/iio_sys.c)
+$(HAL_TEST)/iio_real: LIBIIO = $(IIO_LIB)
+$(HAL_TEST)/iio_fake $(HAL_TEST)/iio_real: $(IIO_TEST) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBIIO) -lm
 $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir,--wrap=fdatasync -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir,--wrap=fdatasync,--wrap=iomap_read -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
@@ -255,10 +268,10 @@ $(SICK_DISK): $(LADDERD) $(DRIVERS) $(call obj,tests/hal/disk_fake.c) $(BUILD)/l
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 HAL_KINDS := v1 v2 uapi
-HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/channel_map $(HAL_TEST)/channels $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
+HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/iio_fake $(if $(IIO_LIB),$(HAL_TEST)/iio_real) $(HAL_TEST)/channel_map $(HAL_TEST)/channels $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES) $(SICK_DISK)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
-	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/guard.t tests/hal/retain.t
+	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/channels.t tests/hal/guard.t tests/hal/retain.t
 check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
 	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
 .PHONY: check-retain

@@ -252,6 +252,52 @@ static void test_told_quality(void)
 	field_end(&f);
 }
 
+/* A gateway's thread puts and gets while scans run, outputs become safe and are released. */
+static void *be_gateway(void *of)
+{
+	struct channels *channels = of;
+	uint32_t serial, last = 0;
+	intptr_t wrong = 0;
+
+	for (int i = 1; i <= 20000; i++) {
+		const int64_t value = channels_get(channels, 1, &serial).i;
+
+		channels_put(channels, 0, INT(i % 1000), true, now());
+		channels_put(channels, 1, INT(0), true, 0);
+		wrong += serial < last || value < -1 || value > 999;
+		last = serial;
+	}
+	return (void *)wrong;
+}
+
+static void test_gateway_beside(void)
+{
+	struct field f;
+	pthread_t gateway;
+	void *wrong = NULL;
+	int bad = 0;
+	uint32_t serial;
+
+	field_begin(&f);
+	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT);
+	field_add(&f, "%QW0", DRIVER_modbus, IEC_INT)->safe.i = -1;
+	CHECK(field_open(&f));
+	pthread_create(&gateway, NULL, be_gateway, f.hal.channels);
+	for (int i = 0; i < 5000; i++) {
+		field_set(&f, 1, INT(i % 1000));
+		bad += !field_scan(&f, now()) || field_get(&f, 0).i < 0 || field_get(&f, 0).i > 999;
+		if (i % 100 == 50)
+			hal_write_safe(&f.hal);
+		else if (i % 100 == 60)
+			hal_release(&f.hal);
+	}
+	pthread_join(gateway, &wrong);
+	CHECK(!bad && !wrong && channels_get(f.hal.channels, 1, &serial).i == 999);
+	hal_write_safe(&f.hal);
+	CHECK(channels_get(f.hal.channels, 1, &serial).i == -1);
+	field_end(&f);
+}
+
 /* ---- another map ---- */
 
 static void test_exchange(void)
@@ -718,6 +764,7 @@ int main(void)
 	test_outputs_of_a_gateway();
 	test_simulated();
 	test_told_quality();
+	test_gateway_beside();
 	test_exchange();
 	test_w1();
 	test_slow_device();

@@ -1,0 +1,201 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# channels.t - ladderd with analog values, from outside: a program that copies a temperature to a pulse width, with
+# files in place of the kernel's. What goes wrong with a device is no fault of the program, and the pulse width is
+# safe after each way out of RUN.
+use strict;
+use warnings;
+use Test::More;
+use File::Path qw(make_path remove_tree);
+use File::Temp qw(tempdir);
+use FindBin;
+use POSIX qw(:sys_wait_h mkfifo);
+use Time::HiRes qw(sleep time);
+use lib "$FindBin::Bin/..";
+use Files;
+
+my $build = $ENV{BUILD} || 'build';
+my $ladderd = "$build/tests/hal/ladderd_v2";
+my $dir = tempdir(CLEANUP => 1);
+my $sys = "$dir/sys";
+delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
+$ENV{FAKE_SYS} = $sys;
+
+sub put { return spew("$dir/$_[0]", $_[1]) }
+sub get { return slurp("$dir/$_[0]") // '' }
+
+# A file of the kernel.
+sub show {
+	my ($name, $text) = @_;
+	(my $folder = "$sys/$name") =~ s{/[^/]*$}{};
+	make_path($folder);
+	spew("$sys/$name", $text);
+}
+
+my $sensor = 'bus/w1/devices/28-1/temperature';
+sub make_devices {
+	remove_tree($sys);
+	show($sensor, "21437\n");
+	show('class/pwm/pwmchip0/npwm', "1\n");
+	show('class/pwm/pwmchip0/export', '');
+	show("class/pwm/pwmchip0/pwm0/$_", '0') for qw(period duty_cycle enable);
+}
+# A number that was written over a longer one keeps the end of it: these all have the same length.
+sub duty { return 0 + (get('sys/class/pwm/pwmchip0/pwm0/duty_cycle') || 0) }
+
+my $rung = put('copy.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Copy"
+
+VAR_GLOBAL
+  Warm  AT %AIW0  : INT;
+  Power AT %AQW0  : INT;
+  Good  AT %IX9.0 : BOOL;
+  Lamp  AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | MOVE IN:=Warm OUT=>Power |
+RUNG
+  | NO Good | COIL Lamp |
+END_PROGRAM
+END
+my $map = put('copy.io', <<'END');
+BOARD "Copy"
+%AIW0  w1  sensor=28-1 poll=20ms stale=500ms substitute=1000
+%AQW0  pwm chip=pwmchip0 channel=0 period=20ms range=0..10000 at 0%..100% safe=4500
+%IX9.0 quality of=%AIW0
+%QX0.0 sim safe=0
+END
+my $safe = 9_000_000;
+
+sub start {
+	my (@args) = @_;
+	unlink "$dir/out", "$dir/err";
+	my $pid = fork;
+	die "fork: $!" unless defined $pid;
+	if (!$pid) {
+		open STDOUT, '>>', "$dir/out" or die;
+		open STDERR, '>>', "$dir/err" or die;
+		open STDIN, '<', '/dev/null' or die;
+		exec $ladderd, $rung, '--io', $map, @args;
+		die "exec: $!";
+	}
+	return $pid;
+}
+
+# The limit is long and reached only by a hang.
+sub until_true {
+	my ($test) = @_;
+	for (1 .. 1500) {
+		return 1 if $test->();
+		sleep 0.02;
+	}
+	return 0;
+}
+
+sub finish {
+	my ($pid) = @_;
+	my $ended = until_true(sub { waitpid($pid, WNOHANG) == $pid });
+	return $? & 127 ? 'signal ' . ($? & 127) : $? >> 8 if $ended;
+	kill 'KILL', $pid;
+	waitpid $pid, 0;
+	return 'hangs';
+}
+
+# Asks for the status until it matches.
+sub status_has {
+	my ($pid, $want) = @_;
+	return until_true(sub {
+		put('out', '');
+		kill 'USR1', $pid;
+		return until_true(sub { get('out') =~ /^io: /m }) && get('out') =~ $want;
+	});
+}
+
+# A temperature of 21.43 °C is 2144 hundredths, 21.44 % of 20 ms.
+make_devices();
+my $pid = start();
+ok(until_true(sub { duty() == 4_288_000 }), 'what the program writes is at the output') or diag get('err');
+ok(status_has($pid, qr/^io: good.*\nchannels: 3 good, 0 stale, 0 in fault$/m), 'the status counts qualities')
+	or diag get('out');
+show($sensor, "38000\n");
+ok(until_true(sub { duty() == 7_600_000 }), 'it follows the input');
+show($sensor, "wrong\n");
+ok(until_true(sub { duty() == 2_000_000 }), 'a sensor that answers nonsense has its substitute');
+ok(status_has($pid, qr/^state: RUN\n.*^io: fault.*^channels: 2 good, 0 stale, 1 in fault$/ms),
+	'the status says so, and the program runs') or diag get('out');
+show($sensor, "30000\n");
+ok(until_true(sub { duty() == 6_000_000 }), 'and it comes back');
+unlink "$sys/$sensor";
+mkfifo("$sys/$sensor", 0644) or die;
+ok(until_true(sub { duty() == 2_000_000 }), 'one that does not answer is stale');
+my ($before) = get('out') =~ /^scans: (\d+)/m;
+ok(status_has($pid, qr/^io: stale/m), 'the status says so, too');
+sleep 0.2;
+ok(status_has($pid, qr/^io: stale/m) && get('out') =~ /^scans: (\d+)/m && $1 > $before + 10, 'the scans go on');
+kill 'TERM', $pid;
+is(finish($pid), 0, 'SIGTERM ends it, though a thread hangs in its device');
+is(duty(), $safe, '… with the safe value');
+
+for my $case (['SIGSEGV', sub { kill 'SEGV', $_[0] }, 'signal 11'], ['SIGINT', sub { kill 'INT', $_[0] }, 0],
+	      ['SIGABRT', sub { kill 'ABRT', $_[0] }, 'signal 6']) {
+	my ($name, $act, $end) = @$case;
+	make_devices();
+	$pid = start();
+	ok(until_true(sub { duty() == 4_288_000 }), "before $name it writes");
+	$act->($pid);
+	is(finish($pid), $end, $name);
+	is(duty(), $safe, "after $name the output has its safe value");
+}
+
+# A loop without an end is a fault, then the outputs are safe until a reset.
+$rung = put('loop.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Loop"
+
+VAR_GLOBAL
+  Warm  AT %AIW0  : INT;
+  Power AT %AQW0  : INT;
+  Slow : TON;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | MOVE IN:=Warm OUT=>Power |
+RUNG
+  | [ Warm < 3000 ] | RET |
+RUNG Again
+  | NO SYS_ALWAYS_ON | JMP Again |
+END_PROGRAM
+END
+make_devices();
+$pid = start();
+ok(until_true(sub { duty() == 4_288_000 }), 'before a fault it writes');
+show($sensor, "35000\n");
+ok(until_true(sub { duty() == $safe }), 'a fault of the program makes the output safe');
+ok(status_has($pid, qr/^state: FAULT/m), 'the state is FAULT');
+show($sensor, "20000\n");
+sleep 0.2;
+kill 'HUP', $pid;
+ok(until_true(sub { duty() == 4_000_000 }), 'after a reset it writes again');
+kill 'TERM', $pid;
+is(finish($pid), 0, 'it ends');
+
+# All lines of a wrong map are told, and nothing is driven.
+$map = put('wrong.io', <<'END');
+BOARD "Wrong"
+%AIW0  w1  sensor=28-2
+%AQW0  pwm chip=pwmchip0 channel=0 period=20ms safe=4500
+%AQW2  pwm chip=pwmchip9 channel=0 period=20ms safe=4500
+%AIW4  hwmon device=cpu_thermal channel=temp1
+END
+make_devices();
+is(finish(start()), 1, 'a map with devices that are not there is refused');
+like(get('err'), qr/:2:1: error LD550: "28-2": this machine has no such device; it has 28-1$/m, 'the sensor');
+like(get('err'), qr/:4:1: error LD550: "pwmchip9": this machine has no such device; it has pwmchip0$/m, 'the chip');
+like(get('err'), qr/:5:1: error LD550: "cpu_thermal": this machine has no such device$/m, 'the device');
+is(duty(), 0, 'nothing is driven');
+done_testing();

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iio - the tests of the driver iio. They run with a fake of libiio, and with the library itself where it is
+ * installed; both see a folder in place of /sys.
+ */
+#include "tests/hal/field.h"
+
+#include <math.h>
+
+#define DEVICES "bus/iio/devices/"
+
+extern int fake_iio_contexts;
+
+static bool near(double a, double b)
+{
+	return fabs(a - b) < 1e-4;
+}
+
+static void make_devices(void)
+{
+	sys_remove("bus");
+	sys_put(DEVICES "iio:device0/name", "ads1115\n");
+	sys_put(DEVICES "iio:device0/label", "tank\n");
+	sys_put(DEVICES "iio:device0/in_voltage0_raw", "20000\n");
+	sys_put(DEVICES "iio:device0/in_voltage0_scale", "0.125000000\n");
+	sys_put(DEVICES "iio:device0/in_voltage3_raw", "-8000\n");
+	sys_put(DEVICES "iio:device0/in_voltage3_scale", "0.250000000\n");
+	sys_put(DEVICES "iio:device1/name", "mcp4725\n");
+	sys_put(DEVICES "iio:device1/out_voltage0_raw", "0\n");
+	sys_put(DEVICES "iio:device1/out_voltage0_scale", "0.800000000\n");
+	sys_put(DEVICES "iio:device1/out_voltage0_powerdown", "1\n");
+	sys_put(DEVICES "iio:device2/name", "chip\n");
+	sys_put(DEVICES "iio:device2/in_temp_raw", "2000\n");
+	sys_put(DEVICES "iio:device2/in_temp_offset", "-700\n");
+	sys_put(DEVICES "iio:device2/in_temp_scale", "20\n");
+	sys_put(DEVICES "iio:device2/in_current1_raw", "400\n");
+	sys_put(DEVICES "iio:device2/in_current_scale", "0.030000\n");
+	sys_put(DEVICES "iio:device3/name", "chip\n");
+	sys_put(DEVICES "iio:device3/in_temp_input", "21500\n");
+}
+
+static struct io_channel *add(struct field *f, const char *address, const char *device, const char *name,
+			      enum io_unit unit)
+{
+	struct io_channel *channel = field_add(f, address, DRIVER_iio,
+					       strchr(address, 'D') ? IEC_REAL : IEC_INT);
+
+	channel->device = device, channel->name = name, channel->unit = unit;
+	return channel;
+}
+
+static void test_inputs(void)
+{
+	struct field f;
+	struct io_channel *channel;
+
+	make_devices();
+	field_begin(&f);
+	add(&f, "%ID0", "ads1115", "voltage0", UNIT_VOLT);
+	add(&f, "%ID4", "tank", "voltage3", UNIT_VOLT);
+	channel = add(&f, "%IW8", "iio:device0", "voltage0", UNIT_VOLT);
+	channel->scaled = true, channel->value_high = 27648, channel->at_high = 10;
+	add(&f, "%IW10", "ads1115", "voltage3", UNIT_VOLT);
+	add(&f, "%ID12", "iio:device2", "temp", UNIT_CELSIUS);
+	add(&f, "%ID16", "iio:device2", "current1", UNIT_AMPERE);
+	add(&f, "%ID20", "iio:device3", "temp", UNIT_CELSIUS);
+	CHECK(field_open(&f) && field_scan(&f, now()));
+	CHECK_AS(near(field_get(&f, 0).r, 2.5) && near(field_get(&f, 1).r, -2),
+		 "the number times its scale, in V; by name and by label");
+	CHECK(field_get(&f, 2).i == 6912);
+	CHECK_AS(field_get(&f, 3).i == -8000, "without a range it is the number of the converter");
+	CHECK_AS(near(field_get(&f, 4).r, 26) && near(field_get(&f, 5).r, 0.012), "with an offset, in °C and A");
+	CHECK_AS(near(field_get(&f, 6).r, 21.5), "a channel that the kernel has scaled already");
+	CHECK(hal_worst(&f.hal) == QUALITY_GOOD);
+	sys_remove(DEVICES "iio:device0");
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_FAULT, 1500) && near(field_get(&f, 0).r, 2.5));
+	CHECK(field_quality(&f, 6) == QUALITY_GOOD);
+	sys_put(DEVICES "iio:device7/in_voltage0_scale", "0.125\n");
+	sys_put(DEVICES "iio:device7/in_voltage0_raw", "8000\n");
+	sys_put(DEVICES "iio:device7/name", "ads1115\n");
+	CHECK_AS(UNTIL(&f, near(field_get(&f, 0).r, 1), 2000), "it comes back with another number");
+	field_end(&f);
+}
+
+static void test_broken_wire(void)
+{
+	struct field f;
+	struct io_channel *channel;
+
+	make_devices();
+	field_begin(&f);
+	channel = add(&f, "%IW0", "iio:device2", "current1", UNIT_AMPERE);
+	channel->scaled = true, channel->value_high = 27648;
+	channel->at_low = 0.004, channel->at_high = 0.020;
+	channel->limited = true, channel->least = 0.0036, channel->most = 0.021;
+	channel->substituted = true, channel->substitute.i = -1;
+	CHECK(field_open(&f) && field_scan(&f, now()));
+	CHECK(field_get(&f, 0).i == 13824);
+	sys_put(DEVICES "iio:device2/in_current1_raw", "3\n");
+	CHECK_AS(UNTIL(&f, field_get(&f, 0).i == -1, 500) && field_quality(&f, 0) == QUALITY_FAULT,
+		 "4..20 mA without a current: the wire is broken");
+	sys_put(DEVICES "iio:device2/in_current1_raw", "400\n");
+	CHECK(UNTIL(&f, field_get(&f, 0).i == 13824, 500) && field_quality(&f, 0) == QUALITY_GOOD);
+	field_end(&f);
+}
+
+static void test_output(void)
+{
+	struct field f;
+	struct io_channel *channel;
+	const char *raw = DEVICES "iio:device1/out_voltage0_raw";
+
+	make_devices();
+	sys_put(raw, "0000\n");
+	field_begin(&f);
+	channel = add(&f, "%QW0", "mcp4725", "voltage0", UNIT_VOLT);
+	channel->scaled = true, channel->value_high = 27648, channel->at_high = 3.2;
+	channel->safe.i = 13824;
+	CHECK(field_open(&f));
+	CHECK_AS(sys_get(raw) == 2000, "it begins with its safe value: 1.6 V");
+	CHECK_AS(sys_get(DEVICES "iio:device1/out_voltage0_powerdown") == 0, "and is not powered down");
+	field_set(&f, 0, INT(20736));
+	CHECK(UNTIL(&f, sys_get(raw) == 3000, 500));
+	CHECK(hal_write_safe(&f.hal) && sys_get(raw) == 2000);
+	hal_release(&f.hal);
+	CHECK(UNTIL(&f, sys_get(raw) == 3000, 500));
+	field_end(&f);
+	CHECK(sys_get(raw) == 2000);
+}
+
+static void test_errors(void)
+{
+	struct field f;
+	char text[300];
+	static const char *const want[] = {
+		"test.io:2:1: error LD550: \"ads1015\": this machine has no such device; it has tank, mcp4725, ",
+		"test.io:3:1: error LD552: \"ads1115\" has no channel voltage9; it has voltage",
+		"test.io:4:1: error LD554: \"ads1115 voltage0\" can only be read",
+		"test.io:5:1: error LD555: \"mcp4725 voltage0\" can only be written",
+		"test.io:6:1: error LD553: \"chip\": several devices have this name; write one of iio:device2, iio:device3",
+		"test.io:8:1: error LD507: \"iio:device1\" is used twice in the map, first for %QW2",
+	};
+	const int errors = (int)(sizeof(want) / sizeof(want[0]));
+
+	make_devices();
+	field_begin(&f);
+	add(&f, "%IW0", "ads1015", "voltage0", UNIT_VOLT);
+	add(&f, "%IW2", "ads1115", "voltage9", UNIT_VOLT);
+	add(&f, "%QW0", "ads1115", "voltage0", UNIT_VOLT);
+	add(&f, "%IW4", "mcp4725", "voltage0", UNIT_VOLT);
+	add(&f, "%ID8", "chip", "temp", UNIT_CELSIUS);
+	add(&f, "%QW2", "mcp4725", "voltage0", UNIT_VOLT);
+	add(&f, "%QW4", "iio:device1", "voltage0", UNIT_VOLT);
+	CHECK(!hal_check(&f.map, &f.arena, &f.diags));
+	CHECK_AS(f.diags.errors == errors, "all lines are checked in the same run");
+	for (int i = 0; i < errors && i < f.diags.count; i++) {
+		diag_print(&f.diags.diag[i], text, sizeof(text));
+		if (!CHECK_AS(strncmp(text, want[i], strlen(want[i])) == 0, "the message"))
+			printf("# got:  %s\n# want: %s\n", text, want[i]);
+	}
+	CHECK_AS(sys_get(DEVICES "iio:device1/out_voltage0_powerdown") == 1, "nothing is driven");
+	field_end(&f);
+}
+
+static int seen;
+
+static void see(void *context, const struct device_seen *at)
+{
+	(void)context;
+	seen++;
+	if (strcmp(at->device, "ads1115") == 0 && strcmp(at->channel, "voltage3") == 0)
+		CHECK(at->driver == DRIVER_iio && strcmp(at->label, "tank") == 0 && !at->output &&
+		      at->has_value && near(at->value, -2) && at->unit == UNIT_VOLT);
+	if (strcmp(at->device, "mcp4725") == 0)
+		CHECK(at->output && at->unit == UNIT_VOLT);
+}
+
+int main(void)
+{
+	if (!sys_begin() || setenv("FAKE_SYS", field_sys, 1) != 0)
+		return 1;
+	test_inputs();
+	test_broken_wire();
+	test_output();
+	test_errors();
+	make_devices();
+	channels_list(field_sys, see, NULL);
+	CHECK(seen == 6);
+	CHECK_AS(fake_iio_contexts == 0, "all contexts of the library are freed");
+	sys_remove("");
+	return tap_done();
+}
