@@ -22,8 +22,8 @@
 #define STACK_LEAST (128 * 1024)  /* a library lists its devices on it       */
 #define SEARCH_NS   500000000     /* between two searches for a device that is gone */
 #define RETRY_NS    100000000     /* … two tries to write                    */
-#define FIRST_MS    1000          /* for the first values                    */
-#define END_MS      2000          /* for a thread to end                     */
+#define FIRST_NS    1000000000    /* for the first values                    */
+#define END_NS      2000000000    /* for a thread to end                     */
 
 static int64_t clock_now(void)
 {
@@ -33,11 +33,11 @@ static int64_t clock_now(void)
 	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
 }
 
-static void nap_ms(long ms)
+static void nap(void)
 {
-	const struct timespec nap = { ms / 1000, ms % 1000 * 1000000 };
+	const struct timespec ms = { 0, 1000000 };
 
-	nanosleep(&nap, NULL);
+	nanosleep(&ms, NULL);
 }
 
 /* ---- for drivers ---- */
@@ -534,7 +534,9 @@ static bool open_output(struct cell *cell, const struct iomap *map, struct diag_
 /* A device that does not answer at once is stale in the first scan. */
 static void await_first(const struct channels *channels)
 {
-	for (int ms = 0; ms < FIRST_MS; ms++) {
+	const int64_t end_ns = clock_now() + FIRST_NS;
+
+	for (;;) {
 		bool all = true;
 
 		for (int i = 0; i < channels->count; i++) {
@@ -543,9 +545,9 @@ static void await_first(const struct channels *channels)
 			all = all && (!cell->driver || cell->point.output ||
 				      atomic_load_explicit(&cell->tries, memory_order_acquire));
 		}
-		if (all)
+		if (all || clock_now() >= end_ns)
 			return;
-		nap_ms(1);
+		nap();
 	}
 }
 
@@ -585,6 +587,8 @@ static void stop_outputs(struct channels *channels)
 
 void channels_close(struct channels *channels)
 {
+	const int64_t end_ns = clock_now() + END_NS;
+
 	if (!channels)
 		return;
 	atomic_store(&channels->ending, true);
@@ -594,8 +598,8 @@ void channels_close(struct channels *channels)
 				channels_wake(channels, &channels->cell[k]);
 				break;
 			}
-	for (int ms = 0; ms < END_MS && atomic_load(&channels->users) > 1; ms++)
-		nap_ms(1);
+	while (atomic_load(&channels->users) > 1 && clock_now() < end_ns)
+		nap();
 	stop_outputs(channels);
 	leave(channels);
 }

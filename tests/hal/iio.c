@@ -71,14 +71,14 @@ static void test_inputs(void)
 	CHECK_AS(field_get(&f, 3).i == -8000, "without a range it is the number of the converter");
 	CHECK_AS(near(field_get(&f, 4).r, 26) && near(field_get(&f, 5).r, 0.012), "with an offset, in °C and A");
 	CHECK_AS(near(field_get(&f, 6).r, 21.5), "a channel that the kernel has scaled already");
-	CHECK(hal_worst(&f.hal) == QUALITY_GOOD);
+	CHECK(UNTIL(&f, hal_worst(&f.hal) == QUALITY_GOOD, 9000));
 	sys_remove(DEVICES "iio:device0");
-	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_FAULT, 1500) && near(field_get(&f, 0).r, 2.5));
-	CHECK(field_quality(&f, 6) == QUALITY_GOOD);
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_FAULT, 9000) && near(field_get(&f, 0).r, 2.5));
+	CHECK(UNTIL(&f, field_quality(&f, 6) == QUALITY_GOOD, 9000));
 	sys_put(DEVICES "iio:device7/in_voltage0_scale", "0.125\n");
 	sys_put(DEVICES "iio:device7/in_voltage0_raw", "8000\n");
 	sys_put(DEVICES "iio:device7/name", "ads1115\n");
-	CHECK_AS(UNTIL(&f, near(field_get(&f, 0).r, 1), 2000), "it comes back with another number");
+	CHECK_AS(UNTIL(&f, near(field_get(&f, 0).r, 1), 9000), "it comes back with another number");
 	field_end(&f);
 }
 
@@ -97,10 +97,11 @@ static void test_broken_wire(void)
 	CHECK(field_open(&f) && field_scan(&f, now()));
 	CHECK(field_get(&f, 0).i == 13824);
 	sys_put(DEVICES "iio:device2/in_current1_raw", "3\n");
-	CHECK_AS(UNTIL(&f, field_get(&f, 0).i == -1, 500) && field_quality(&f, 0) == QUALITY_FAULT,
+	CHECK_AS(UNTIL(&f, field_get(&f, 0).i == -1, 9000) && field_quality(&f, 0) == QUALITY_FAULT,
 		 "4..20 mA without a current: the wire is broken");
 	sys_put(DEVICES "iio:device2/in_current1_raw", "400\n");
-	CHECK(UNTIL(&f, field_get(&f, 0).i == 13824, 500) && field_quality(&f, 0) == QUALITY_GOOD);
+	CHECK(UNTIL(&f, field_get(&f, 0).i == 13824, 9000) &&
+	      UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD, 9000));
 	field_end(&f);
 }
 
@@ -120,10 +121,10 @@ static void test_output(void)
 	CHECK_AS(sys_get(raw) == 2000, "it begins with its safe value: 1.6 V");
 	CHECK_AS(sys_get(DEVICES "iio:device1/out_voltage0_powerdown") == 0, "and is not powered down");
 	field_set(&f, 0, INT(20736));
-	CHECK(UNTIL(&f, sys_get(raw) == 3000, 500));
+	CHECK(UNTIL(&f, sys_get(raw) == 3000, 9000));
 	CHECK(hal_write_safe(&f.hal) && sys_get(raw) == 2000);
 	hal_release(&f.hal);
-	CHECK(UNTIL(&f, sys_get(raw) == 3000, 500));
+	CHECK(UNTIL(&f, sys_get(raw) == 3000, 9000));
 	field_end(&f);
 	CHECK(sys_get(raw) == 2000);
 }
