@@ -201,7 +201,8 @@ $(BUILD)/ladder-modbus: $(MODBUS_O) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/lib
 
 # All gpio drivers with fakes of libgpiod and the kernel: one suite, built three times.
 HAL_TEST := $(BUILD)/tests/hal
-HAL_FAKE  = $(call obj,$(HAL_CORE)) $(HAL_TEST)/$(1)/$(2).o \
+HAL_FAKE  = $(call obj,$(filter-out hal/iio_none.c,$(HAL_CORE))) $(HAL_TEST)/fake_iio/iio_libiio.o \
+            $(HAL_TEST)/fake_iio/fake_iio.o $(HAL_TEST)/$(1)/$(2).o \
             $(HAL_TEST)/$(1)/gpio_find.o $(HAL_TEST)/$(1)/fake_$(1).o $(HAL_TEST)/fake.o
 $(HAL_TEST)/v1/%.o: hal/%.c Makefile
 	@mkdir -p $(@D)

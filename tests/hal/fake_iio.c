@@ -116,12 +116,13 @@ struct iio_context *iio_create_local_context(void)
 {
 	struct iio_context *context = calloc(1, sizeof(*context));
 	struct dirent **entry;
+	const char *sys = getenv("FAKE_SYS");
 	char devices[200];
 	int count;
 
 	if (!context)
 		return NULL;
-	snprintf(devices, sizeof(devices), "%.150s/bus/iio/devices", getenv("FAKE_SYS"));
+	snprintf(devices, sizeof(devices), "%.150s/bus/iio/devices", sys ? sys : "/sys");
 	count = scandir(devices, &entry, NULL, versionsort);
 	for (int i = 0; i < count; i++) {
 		add_device(context, devices, entry[i]->d_name);
