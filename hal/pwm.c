@@ -3,7 +3,8 @@
  * pwm - pulse width by the kernel's files. The value is the part of the period in percent.
  *
  * A channel that is exported stays so, also after the end: its pin then shows the safe value. The chip is named
- * as in /sys/class/pwm, or by its device: pwmchip0, or fe20c000.pwm, which is the same after each start.
+ * as in /sys/class/pwm (pwmchip0), or, which is the same after each start, by the folder of its device
+ * (fe20c000.pwm, 1-0040), the name of the device (pca9685) or that of its driver (pca9685-pwm).
  */
 #include "hal/device.h"
 #include "hal/sysfs.h"
@@ -21,15 +22,15 @@ struct chip_search {
 	int count;
 };
 
-/* The device is the folder above that of the chip: …/fe20c000.pwm/pwm/pwmchip0, or a link to it. */
-static void device_name(const char *class, const char *chip, char *out, size_t size)
+/* The end of what a link of a chip leads to; "": there is none. */
+static void link_name(const char *class, const char *chip, const char *link, char *out, size_t size)
 {
 	char path[DEVICE_PATH], to[DEVICE_PATH];
 	const char *name;
 	ssize_t len;
 
 	out[0] = '\0';
-	if (!sysfs_path(path, sizeof(path), class, chip, "/device"))
+	if (!sysfs_path(path, sizeof(path), class, chip, link))
 		return;
 	len = readlink(path, to, sizeof(to) - 1);
 	if (len <= 0)
@@ -37,6 +38,29 @@ static void device_name(const char *class, const char *chip, char *out, size_t s
 	to[len] = '\0';
 	name = strrchr(to, '/');
 	snprintf(out, size, "%.*s", (int)size - 1, name ? name + 1 : to);
+}
+
+/* The folder of the chip's device: …/fe20c000.pwm, …/i2c-1/1-0040. */
+static void device_name(const char *class, const char *chip, char *out, size_t size)
+{
+	link_name(class, chip, "/device", out, size);
+}
+
+/* By the name of the chip, of its device's folder, of the device, or of its driver. */
+static bool is_named(const char *class, const char *chip, const char *wanted)
+{
+	char path[DEVICE_PATH], name[SYSFS_TEXT];
+
+	if (strcmp(chip, wanted) == 0)
+		return true;
+	device_name(class, chip, name, sizeof(name));
+	if (strcmp(name, wanted) == 0)
+		return true;
+	link_name(class, chip, "/device/driver", name, sizeof(name));
+	if (strcmp(name, wanted) == 0)
+		return true;
+	return sysfs_path(path, sizeof(path), class, chip, "/device/name") &&
+	       sysfs_read(path, name, sizeof(name)) == 0 && strcmp(name, wanted) == 0;
 }
 
 static bool match_chip(void *context, const char *name)
@@ -48,7 +72,7 @@ static bool match_chip(void *context, const char *name)
 		return true;
 	device_name(search->class, name, device, sizeof(device));
 	device_known(search->known, sizeof(search->known), *device ? device : name);
-	if (strcmp(search->wanted, name) != 0 && strcmp(search->wanted, device) != 0)
+	if (!is_named(search->class, name, search->wanted))
 		return true;
 	snprintf(search->found, sizeof(search->found), "%s", name);
 	search->count++;

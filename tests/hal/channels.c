@@ -468,7 +468,7 @@ static void test_hung_device(void)
 	CHECK_AS(now() - began_ns < 9000 * MS, "… nor the end");
 	writer = open(sys_path(SENSOR "/temperature"), O_WRONLY);
 	close(writer);
-	nap(50); /* its thread frees what it holds */
+	nap(500); /* its thread frees what it holds */
 	sys_remove(SENSOR);
 }
 
@@ -543,6 +543,27 @@ static void test_pwm(void)
 	hal_close(&f.hal);
 	CHECK_AS(duty() == 10000000, "at the end it has its safe value");
 	arena_free(&f.arena);
+}
+
+/* As of a PCA9685 on I2C. */
+static void test_pwm_names(void)
+{
+	static const char *const names[] = { "pwmchip0", "1-0040", "pca9685", "pca9685-pwm" };
+
+	make_chip();
+	sys_put("devices/1-0040/name", "pca9685\n");
+	sys_put("bus/i2c/drivers/pca9685-pwm/bind", "");
+	CHECK(symlink("../../../devices/1-0040", sys_path(CHIP "/device")) == 0);
+	CHECK(symlink("../../bus/i2c/drivers/pca9685-pwm", sys_path("devices/1-0040/driver")) == 0);
+	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+		struct field f;
+
+		field_begin(&f);
+		add_pwm(&f, "%QW0", 1)->device = names[i];
+		CHECK_AS(hal_check(&f.map, &f.arena, &f.diags), names[i]);
+		field_end(&f);
+	}
+	sys_remove("devices");
 }
 
 /* The kernel makes the folder of a channel when it is exported. */
@@ -768,6 +789,7 @@ int main(void)
 	test_slow_device();
 	test_hung_device();
 	test_pwm();
+	test_pwm_names();
 	test_pwm_export();
 	test_pwm_goes_on();
 	test_hwmon();
