@@ -5,6 +5,7 @@
 #include "editor-gtk/iomap/iomap_view.h"
 
 #include "editor-gtk/document/panel_cells.h"
+#include "editor-gtk/iomap/iomap_live.h"
 #include "editor-gtk/iomap/iomap_rows.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/diag_said.h"
@@ -28,6 +29,7 @@ struct _LadderIomapView {
 	GtkWidget *stack, *tools, *columns, *kinds, *board, *pages, *lacks, *lacks_label, *message;
 	struct page page[IOMAP_PAGES];
 	enum iomap_page now;    /* the visible page                            */
+	struct iomap_live live;
 	struct panel_watch *watch;
 	struct io_machine machine;
 	struct io_uses uses;
@@ -687,6 +689,7 @@ static void ladder_iomap_view_dispose(GObject *object)
 	g_clear_object(&view->buffer);
 	for (int i = 0; i < IOMAP_PAGES; i++)
 		panel_list_clear(&view->page[i].list);
+	iomap_live_clear(&view->live);
 	G_OBJECT_CLASS(ladder_iomap_view_parent_class)->dispose(object);
 }
 
@@ -802,7 +805,7 @@ static void let_leave(struct page *page, enum iomap_page number)
 	gtk_box_append(GTK_BOX(page->columns), button);
 }
 
-static void add_columns(struct page *page, enum iomap_page number)
+static void add_columns(struct page *page, enum iomap_page number, struct iomap_live *live)
 {
 	const bool points = number < IOMAP_BUSES;
 
@@ -819,8 +822,10 @@ static void add_columns(struct page *page, enum iomap_page number)
 	}
 	for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
 		panel_cells_add(&page->list, &page->cells, i, 0, width_of(iomap_column(number, i)));
-		if (i == 0 && points)
+		if (i == 0 && points) {
 			panel_list_column(&page->list, _("Symbol"), IOMAP_SYMBOL, 0, 105);
+			iomap_live_add(live, &page->list);
+		}
 	}
 	panel_list_column(&page->list, _("State"), IOMAP_STATE, PANEL_EXPAND, 150);
 }
@@ -867,7 +872,7 @@ static void add_page(LadderIomapView *view, enum iomap_page number)
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), table);
 	page->tab = gtk_stack_add_titled(GTK_STACK(view->pages), scroller, NULL, iomap_page_name(number));
 	panel_list_init(&page->list, GTK_COLUMN_VIEW(table));
-	add_columns(page, number);
+	add_columns(page, number, &view->live);
 	let_leave(page, number);
 	add_keys(table);
 	panel_list_follow(&page->list, G_CALLBACK(show_message), view);
@@ -922,6 +927,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);
+	iomap_live_init(&view->live);
 	for (int i = 0; i < IOMAP_PAGES; i++)
 		add_page(view, (enum iomap_page)i);
 	g_signal_connect_object(view->pages, "notify::visible-child", G_CALLBACK(turn), view,
@@ -938,6 +944,11 @@ static void shown_page(LadderIomapView *view)
 	gtk_widget_set_sensitive(view->tools, !view->as_text);
 	tell(view, NULL);
 	g_signal_emit(view, turned, 0);
+}
+
+void ladder_iomap_view_follow(LadderIomapView *view, LadderSim *sim)
+{
+	iomap_live_follow(&view->live, sim, G_OBJECT(view));
 }
 
 bool ladder_iomap_view_is_text(LadderIomapView *view)

@@ -10,6 +10,7 @@
 #define EDITOR_IOMAP_VIEW_H
 
 #include "editor-gtk/document/side_file.h"
+#include "editor-gtk/sim/sim.h"
 
 #define LADDER_TYPE_IOMAP_VIEW (ladder_iomap_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, LADDER, IOMAP_VIEW, GtkBox)
@@ -17,6 +18,8 @@ G_DECLARE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, LADDER, IOMAP_VIEW, Gtk
 /** ladder_iomap_view_new - a table of @file. @text: the widget that shows it as text, on the
  * other page of the table. */
 GtkWidget *ladder_iomap_view_new(LadderSideFile *file, GtkWidget *text);
+/** ladder_iomap_view_follow - shows the present values of @sim while it is on, once. */
+void ladder_iomap_view_follow(LadderIomapView *view, LadderSim *sim);
 /** ladder_iomap_view_is_text - does it show the text, not the table? Signal "turned" when
  * that changes. */
 bool ladder_iomap_view_is_text(LadderIomapView *view);

@@ -122,6 +122,8 @@ void page_follow(struct core *core, AdwTabPage *page)
 	GtkTextBuffer *buffer = buffer_of(page);
 
 	if (table_of(page))
+		ladder_iomap_view_follow(table_of(page), core->sim);
+	if (table_of(page))
 		core_connect(core, table_of(page), "turned", G_CALLBACK(changed), core,
 			     G_CONNECT_SWAPPED);
 	if (buffer)

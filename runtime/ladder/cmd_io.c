@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_io - `ladder io`: lists the lines of this machine, checks a map against them, shows
+ * cmd_io - `ladder io`: lists the lines and analog devices of this machine, checks a map against them, shows
  * their state with the names of a program. It requests no line and changes none.
  */
+#include "ladder/devices.h"
 #include "ladder/picture.h"
 #include "ladder/tty.h"
 
@@ -43,6 +44,8 @@ static void json_picture(const struct call *call,
 		picture_json(picture, i, out);
 	}
 	sink_text(out, picture_rows(picture) ? "\n],\n" : "],\n");
+	if (!picture->map)
+		devices_json(out);
 	sink_text(out, "\"diagnostics\": ");
 	report_json_diags(diags, out);
 	sink_text(out, "}\n");
@@ -70,6 +73,8 @@ static enum status show(struct call *call, struct picture *picture,
 		if (!picture->map && !picture->count && good)
 			sink_printf(&call->out, "no GPIO lines here (libgpiod: "
 				    "%s)\n", gpio_version());
+		if (!picture->map)
+			devices_print(&call->out);
 	}
 	if (good && picture_is_whole(picture))
 		status = STATUS_GOOD;

@@ -246,26 +246,44 @@ static enum level picture_level(const struct picture *picture, int row)
 
 #define NAME_ROOM (LIMIT_NAME + 16)
 
+/* Which element of a variable is at an address, 0 if it is no array; UINT32_MAX: none. Bits count from the
+ * start of their area, other values are at a byte of the memory. */
+static uint32_t element_at(const struct program *program, struct iec_addr addr,
+			   const struct declared_name *name)
+{
+	const bool bit = name->at.type == IEC_BOOL && name->at.area;
+	const uint32_t size = iec_type_row(name->at.type)->size;
+	const uint32_t at = bit ? addr.byte * 8 + addr.bit : areas_byte(&program->areas, addr);
+	const uint32_t step = bit ? 1 : name->stride ? name->stride : size;
+
+	if (bit ? name->at.area != addr.area || addr.bits != 1 :
+		  name->at.area != AREA_NONE || !size || 8 * size != addr.bits)
+		return UINT32_MAX;
+	if (at < name->at.where || (at - name->at.where) % step)
+		return UINT32_MAX;
+	return (at - name->at.where) / step;
+}
+
 /* The variable at an address, "" if there is none. The name of an array element is written
  * to @room. */
 static const char *variable_at(const struct picture *picture,
 			       struct iec_addr addr, char room[NAME_ROOM])
 {
-	uint32_t bit = addr.byte * 8 + addr.bit;
 	struct declared_cursor cursor = { 0 };
 	struct declared_name name;
 
 	while (picture->program &&
 	       image_next_declared(picture->program, &cursor, &name)) {
-		uint32_t count = name.array.count ? name.array.count : 1;
+		const uint32_t count = name.array.count ? name.array.count : 1;
+		const uint32_t number = name.at.type == IEC_NONE ? count :
+			element_at(picture->program, addr, &name);
 
-		if (name.at.type != IEC_BOOL || name.at.area != addr.area ||
-		    bit - name.at.where >= count)
+		if (number >= count)
 			continue;
 		if (!name.array.count)
 			return name.name;
 		snprintf(room, NAME_ROOM, "%.*s[%lld]", (int)name.array.head,
-			 name.name, (long long)name.array.low + bit - name.at.where);
+			 name.name, (long long)name.array.low + number);
 		return room;
 	}
 	return "";
@@ -344,12 +362,14 @@ void picture_row(const struct picture *picture, int row,
 	cell(out, text, 8);
 	cell(out, variable_at(picture, point->addr, name), 16);
 	io_line_print(point, text, sizeof(text));
-	cell(out, point->line || point->chip ? text : "", 20);
+	cell(out, point->line || point->chip || driver_row(point->driver)->by_channel ? text : "", 20);
 	if (line)
 		line_cells(line, out);
 	else
 		sink_text(out, driver_row(point->driver)->needs_line ?
-				       "not on this machine" : "simulated");
+				       "not on this machine" :
+			       point->driver == DRIVER_sim ? "simulated" :
+							     driver_row(point->driver)->word);
 }
 
 static void json_line(const struct picture_line *line, const struct sink *out)

@@ -105,6 +105,7 @@ def pages(screen):
         cell(editor, name)
         editor.shot('pages-%d' % number)
         put(editor, name, value)
+    assert not editor.all(', Value:')
     saved(editor, io, MAP.replace('debounce=5ms', 'debounce=7ms').replace('0V..10V ', '0V..5V  ').replace('coil=16', 'coil=17')
           .replace('name=Level', 'name=Depth').replace('10.0.0.20:502', '10.0.0.21').replace('Level, Running every', 'Level every'))
 
@@ -146,6 +147,39 @@ def lines(screen):
     shows(editor, '%QX2.0, Numbers', '16..23')
 
 
+def values(screen):
+    """while the program is simulated each point shows its value; one is forced, set and released from the table"""
+    path, _ = plant(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+t')
+    editor.says('PAUSE')
+    open_map(editor)
+    editor.tab('Analog (3)')
+    editor.click(editor.find('%AIW0, Value: 0', 'push button'))
+    editor.focus_on(role='text')
+    editor.keys('ctrl+a')
+    editor.type('70000')
+    editor.keys('Return')
+    editor.find('"70000": constant is out of range')
+    editor.keys('ctrl+a')
+    editor.type('7000')
+    shows(editor, 'New value', '7000')
+    editor.find('Force', 'push button').press()
+    editor.find('%AIW0, Value: 7000, forced')
+    editor.shot('pages-test')
+    editor.find('Release force', 'push button').press()
+    until(lambda: not editor.all('%AIW0, Value: 7000, forced'), 'the force to be gone')
+    editor.keys('Escape')
+    until(lambda: not editor.all('Release force', 'push button'), 'the test to be gone')
+    editor.shot('pages-live')
+    editor.tab('Modbus and modules (3)')
+    editor.find('%IW100..106, Value: 0 0 0 0', 'push button')
+    editor.click(editor.find('%XIB0..2, Value: 0', 'push button'))
+    editor.find('Test of %XIB0..2', 'label')
+    editor.shot('pages-module')
+
+
 def small(screen):
     """1024 x 700 in Chinese: the pages fit, each can be reached"""
     path, _ = plant(screen)
@@ -160,4 +194,4 @@ def small(screen):
 
 small.size = '1024x700x24'
 pages.quick = 'editor-gtk/iomap'
-main([pages, lines, small])
+main([pages, lines, values, small])
