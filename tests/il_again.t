@@ -38,6 +38,15 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 	ok($? == 0 && $tap =~ /^ok/m, "$name: its scenarios hold") or diag($tap);
 }
 
+# Golden cases of Structured Text and of blocks, with the variables that their stimulus prints.
+for my $case (qw(st-case-labels st-splits st-calls st-main-none st-stored-values st-at-copies st-jumps
+		any-bounds-everywhere edges-of-inputs word-bytes-and-letters)) {
+	my $from = "$tests/golden/$case";
+	spew("$dir/case.rung", scalar `$ladder il '$from/main.rung' 2>/dev/null`);
+	is(scalar `cd $dir && $ladder trace case.rung '$from/stimulus' 2>/dev/null`, slurp("$from/expected.trace"),
+	   "$case: its lists do the same");
+}
+
 # Random programs. Only names of both programs are compared, so temporaries do not count.
 sub names_of {
 	my ($text) = @_;

@@ -293,6 +293,18 @@ static bool read_function(struct reader *r, const struct token *word,
 	return read_more_operands(r, word, &line);
 }
 
+/* What CAL calls: an instance, also one in a structure, or a subroutine. */
+static bool read_called(struct reader *r, const struct token *word, uint32_t *id)
+{
+	if (!memchr(r->lex.token.text, '.', r->lex.token.len))
+		return reader_instance(r, id);
+	buffer_clear(&r->text);
+	if (!reader_value(r, false, word))
+		return false;
+	*id = buffer_take(r, &r->text);
+	return true;
+}
+
 static bool read_label_operand(struct reader *r, const struct token *word,
 			       struct il_line line)
 {
@@ -301,7 +313,7 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
 				   word->len);
 	line.col = column_of(r->lex.token.column);
-	if (!(line.op == OP_CAL ? reader_instance(r, &line.operand) :
+	if (!(line.op == OP_CAL ? read_called(r, word, &line.operand) :
 				  reader_name(r, "name", &line.operand)))
 		return false;
 	if (line.op == OP_CAL && reader_peek(r, "(")) {

@@ -212,7 +212,7 @@ static bool add_eno(struct reader *r, struct var_table *table, int line)
 /* May the heading of a function end here, without the type of a result? */
 static bool may_lack_result(const struct reader *r)
 {
-	return lex_is(&r->lex, "ST") ||
+	return lex_is(&r->lex, "ST") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "IL") ||
 	       (r->plain && (r->lex.token.kind == TOKEN_NEWLINE || reader_is_vars(r)));
 }
 
