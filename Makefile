@@ -342,6 +342,21 @@ install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-att
 	sed $(SMALL:1=-e 's|/usr/bin/ladder-guard.* -- ||' -e 's|=/usr/bin/ladder-guard |=|') -e 's|/usr/bin/ladder|$(prefix)/bin/ladder|g' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
 	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
+# The page of ladder-modbus is made from its --help, too.
+$(BUILD)/man/ladder-modbus.8: $(HERE)/ladder-modbus
+	@mkdir -p $(@D)
+	@{ printf '.TH LADDER-MODBUS 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-modbus \\- devices with Modbus for ladderd\n'; \
+	  printf '.SH SYNOPSIS\n.B ladder-modbus\n[OPTION]...\n.SH DESCRIPTION\n.nf\n'; \
+	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
+man: $(if $(MODBUS),$(BUILD)/man/ladder-modbus.8)
+# A gateway is a service of its own, which a person starts.
+install: $(if $(MODBUS),install-modbus)
+install-modbus: $(BUILD)/ladder-modbus $(BUILD)/man/ladder-modbus.8
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man8 $(DESTDIR)$(unitdir)
+	install -m 755 $(BUILD)/ladder-modbus $(DESTDIR)$(prefix)/bin/
+	install -m 644 $(BUILD)/man/ladder-modbus.8 $(DESTDIR)$(prefix)/share/man/man8/
+	sed 's|/usr/bin/ladder|$(prefix)/bin/ladder|g' packaging/ladder-modbus.service >$(DESTDIR)$(unitdir)/ladder-modbus.service
+.PHONY: install-modbus
 cli-tests: $(BUILD)/ladder ## the command line from outside
 	LADDER=$(BUILD)/ladder prove tests/cli.t
 .PHONY: man install install-ladder install-ladderd cli-tests
@@ -711,9 +726,11 @@ bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with c
 	@BUILD=$(BUILD) tests/bench/rt.sh
 bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## measure the link to desks: reading, watching, downloads
 	@BUILD=$(BUILD) tests/bench/online.py
+bench-field: $(BUILD)/ladderd $(BUILD)/ladder-modbus ## measure ladder-modbus: a serial line, 10,000 registers over TCP, reaction; it fails beyond its limits
+	@BUILD=$(BUILD) tests/bench/field.py
 bench-jitter: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## two minutes: how late scans begin while eight desks watch and all processors are busy; as root it fails beyond 1 ms
 	@BUILD=$(BUILD) JITTER=60 /usr/bin/python3 tests/online/stress.py test_desks_and_busy_processors_delay_no_scan
-.PHONY: install-board push-tests bench-rt bench-online bench-jitter
+.PHONY: install-board push-tests bench-rt bench-online bench-field bench-jitter
 # ---- end of board ----
 
 # ---- small ----
@@ -734,6 +751,7 @@ ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
+TESTS_T  += tests/modbus/field.py
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/

@@ -28,7 +28,7 @@ user=
 [ "$(id -u)" = 0 ] || user='--map-root-user --map-auto'
 
 # What the editor and the command line are linked with; dpkg-shlibdeps asks the packages.
-libraries='libadwaita-1-0 libavahi-client3 libcrypt1 libgtk-4-1 libgtksourceview-5-0 libmd4c0'
+libraries='libadwaita-1-0 libavahi-client3 libcrypt1 libgtk-4-1 libgtksourceview-5-0 libmd4c0 libmodbus5'
 control=packaging/debian/control
 
 # Makes the Debian for architecture $1 if it is not in the cache, and sets root. It is the release
@@ -72,7 +72,7 @@ root_cross() {
 		mmtarfilter --path-exclude='/*' --path-include='/usr/include/*' --path-include='/usr/share/pkgconfig/*' \
 			--path-include="/usr/lib/$2/*" >"$work/dev.tar" &&
 		mmdebstrap --variant=apt --format=tar --architectures="$here,$1" \
-			--include="crossbuild-essential-$1,debhelper,gettext,libgtk-4-dev,pkg-config,$(
+			--include="crossbuild-essential-$1,debhelper,gettext,libgtk-4-dev,libmodbus-dev,pkg-config,$(
 			printf "%s:$1," $libraries)" \
 			--customize-hook="tar-in $work/dev.tar /" $suite "$root.new" ${archive:+"$archive"}
 }

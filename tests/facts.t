@@ -413,8 +413,8 @@ like(slurp('packaging/ladderd.default'), qr/--retain /, 'packaging/ladderd.defau
 # ---- options, make targets, files ----
 my @help = map { scalar `$ladder help $_` } split ' ', `$ladder help --names`;
 my $usages = join "\n", @help, $help,
-	map { slurp($_) } 'runtime/guard/main.c', 'editor-gtk/window/usage.c', 'editor-gtk/render/render.c';
-my %foreign = map { $_ => 1 } qw(--system --reload --subsystem-match --write --print-architecture); # of other programs
+	map { slurp($_) } 'runtime/guard/main.c', 'runtime/modbus/main.c', 'editor-gtk/window/usage.c', 'editor-gtk/render/render.c';
+my %foreign = map { $_ => 1 } qw(--system --reload --now --subsystem-match --write --print-architecture); # of other programs
 for my $path (@documents) {
 	my @unknown = grep { !$foreign{$_} && $usages !~ /\Q$_\E\b/ } $prose{$path} =~ /(?<![\w-])(--[a-z][a-z-]+)/g;
 	is("@unknown", '', "$path: options");

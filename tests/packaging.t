@@ -29,6 +29,14 @@ SKIP: {
 	ok($exposure <= 1.5, "the unit is exposed by $exposure, at most 1.5");
 }
 is_deeply([$unit =~ /^RestrictAddressFamilies=(.*)$/mg], ['AF_UNIX'], 'sockets of this machine only');
+# ladder-modbus has the network and serial lines, and nothing else that ladderd has not.
+my $modbus = get('packaging/ladder-modbus.service');
+is_deeply([$modbus =~ /^(ExecStart|SupplementaryGroups|CapabilityBoundingSet|RestrictAddressFamilies)=(.*)$/mg],
+	['ExecStart', '/usr/bin/ladder-modbus', 'SupplementaryGroups', 'ladder-io dialout', 'CapabilityBoundingSet', 'CAP_NET_BIND_SERVICE',
+	'RestrictAddressFamilies', 'AF_UNIX AF_INET AF_INET6'], 'what ladder-modbus may do');
+my %own = map { $_ => 1 } qw(PrivateNetwork=yes NotifyAccess=main PrivateUsers=no);
+is_deeply([grep { !$own{$_} && index($modbus, "\n$_\n") < 0 } $unit =~ /^((?:No|Private|Protect|Restrict[NS]|RemoveIPC|LockP|MemoryDeny|DynamicUser)\w*=(?:yes|strict|invisible))$/mg],
+	[], 'and it is shut in as ladderd is');
 # Libraries may be executed, nothing else: also a libgpiod that was built on the board.
 is_deeply([$unit =~ /^NoExecPaths=(.*)\n/mg, map { split } $unit =~ /^ExecPaths=(.*)$/mg],
 	[qw(/ /usr/bin/ladder-guard /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');

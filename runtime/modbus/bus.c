@@ -19,6 +19,8 @@ static bool is_bits(enum io_table table)
 bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field *field,
 	      struct wire wire)
 {
+	const int64_t late_ns = UNIT_LATE * map->net->bus[number].timeout_ns;
+
 	memset(bus, 0, sizeof(*bus));
 	bus->map = map;
 	bus->number = number;
@@ -33,8 +35,10 @@ bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field
 		bus_close(bus);
 		return false;
 	}
-	for (int i = 0; i < 256; i++)
+	for (int i = 0; i < 256; i++) {
 		bus->unit[i].id = (uint8_t)i;
+		bus->unit[i].late_ns = wire.numbered ? 0 : late_ns > UNIT_LATE_NS ? late_ns : UNIT_LATE_NS;
+	}
 	for (int i = 0; i < bus->plan.asks; i++) {
 		bus->has[bus->plan.ask[i].unit] = true;
 		bus->ask[i].refresh_ns = INT64_MAX;
@@ -65,8 +69,7 @@ static void put_bad(struct bus *bus, int from, int to)
 
 	pthread_mutex_lock(&bus->field->lock);
 	for (int i = from; i < to; i++)
-		if (!bus->plan.item[i].output)
-			field_put(bus->field, bus->plan.item[i].point, none, false);
+		field_put(bus->field, bus->plan.item[i].point, none, false);
 	pthread_mutex_unlock(&bus->field->lock);
 	field_wake(bus->field);
 }
@@ -74,7 +77,7 @@ static void put_bad(struct bus *bus, int from, int to)
 static void put_unit_bad(struct bus *bus, uint8_t unit)
 {
 	for (int i = 0; i < bus->plan.asks; i++)
-		if (bus->plan.ask[i].unit == unit && !bus->plan.ask[i].output)
+		if (bus->plan.ask[i].unit == unit)
 			put_bad(bus, bus->plan.ask[i].from, bus->plan.ask[i].to);
 }
 
@@ -107,6 +110,19 @@ static void wake_others(struct bus *bus, int64_t now_ns)
 	for (int i = 0; i < 256; i++)
 		if (unit_is_away(&bus->unit[i]))
 			bus->unit[i].again_ns = now_ns;
+}
+
+/* Whether another read of the unit has answers of the same form. */
+static bool has_twin(const struct bus *bus, const struct pdu *request, uint8_t unit)
+{
+	for (int i = 0; i < bus->plan.asks; i++) {
+		const struct plan_ask *ask = &bus->plan.ask[i];
+
+		if (ask->unit == unit && !ask->output &&
+		    unit_is_twin(request, ask->table, ask->first, ask->count))
+			return true;
+	}
+	return false;
 }
 
 /* What one request came to. */
@@ -144,15 +160,24 @@ static enum result ask_unit(struct bus *bus, uint8_t id, const struct pdu *reque
 	failed = fit == PDU_WRONG || (fit == PDU_EXCEPTION && (*exception == 5 || *exception == PDU_BUSY ||
 		 *exception == PDU_NO_PATH || *exception == PDU_NO_TARGET));
 	if (failed) {
-		unit_silent(unit, fit == PDU_WRONG && !bus->wire.numbered ? request : NULL, sent_ns, now_ns);
+		unit_silent(unit, fit == PDU_WRONG ? request : NULL, sent_ns, now_ns);
 		if (unit_is_bad(unit))
 			put_unit_bad(bus, id);
 		return FAILED;
 	}
 	if (is_alone(bus))
 		wake_others(bus, now_ns);
-	if (!unit_answered(unit, request, answer, bus->wire.numbered, sent_ns, now_ns))
+	switch (unit_answered(unit, request, answer, sent_ns, now_ns)) {
+	case TRUST_NOTHING:
 		return FAILED;
+	case TRUST_IT:
+		/* Others would wait as long as this one is asked again and again. */
+		if (has_twin(bus, request, id))
+			unit->again_ns = sent_ns + unit->late_ns;
+		break;
+	case TRUST_ALL:
+		break;
+	}
 	unit->counts.answers += fit == PDU_FITS;
 	return fit == PDU_FITS ? GOOD : REFUSED;
 }
@@ -352,6 +377,20 @@ static void plan_writes(struct bus *bus, int number)
 	pthread_mutex_unlock(&bus->field->lock);
 }
 
+/* Also what is refused counts as written: it is tried again at the next change or refresh. */
+static void take_written(struct bus *bus, int from, int to, const struct load *load, int64_t now_ns,
+			 bool good)
+{
+	pthread_mutex_lock(&bus->field->lock);
+	for (int i = from; i < to; i++) {
+		bus->sent[i] = (struct bus_sent){ load->serial[i - from], now_ns };
+		field_put(bus->field, bus->plan.item[i].point, bus->field->place[bus->plan.item[i].point].output,
+			  good);
+	}
+	pthread_mutex_unlock(&bus->field->lock);
+	field_wake(bus->field);
+}
+
 static void do_write(struct bus *bus, int number)
 {
 	static _Thread_local struct load load;
@@ -373,10 +412,9 @@ static void do_write(struct bus *bus, int number)
 		result = write_row(bus, &ask, &bus->plan.item[from], &load, &exception);
 		if (result == REFUSED && is_of_address(exception) && split(bus, number))
 			return;
-		for (int i = from; result != FAILED && i < to; i++)
-			bus->sent[i] = (struct bus_sent){ load.serial[i - from], row.now_ns };
 		if (result == FAILED)
 			return;
+		take_written(bus, from, to, &load, row.now_ns, result == GOOD);
 	}
 	plan_writes(bus, number);
 }
@@ -388,9 +426,14 @@ static int64_t due_of(const struct bus *bus, int number, int64_t now_ns, bool al
 	const struct plan_ask *ask = &bus->plan.ask[number];
 	const struct bus_ask *state = &bus->ask[number];
 	const int64_t own = !ask->output ? state->due_ns : state->changed ? now_ns : state->refresh_ns;
-	const int64_t unit = unit_due_ns(&bus->unit[ask->unit], alone);
+	const struct unit *unit = &bus->unit[ask->unit];
+	const int64_t unit_ns = unit_due_ns(unit, alone);
+	int64_t due_ns = own > unit_ns ? own : unit_ns, clear_ns;
 
-	return own > unit ? own : unit;
+	if (ask->output || !unit->late_ns || due_ns > now_ns)
+		return due_ns;
+	clear_ns = unit_clear_ns(unit, ask->table, ask->first, ask->count);
+	return clear_ns > due_ns ? clear_ns : due_ns;
 }
 
 struct choice {

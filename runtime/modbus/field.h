@@ -13,7 +13,7 @@
 #include <pthread.h>
 
 struct field_place {
-	union iec_value input; /* read from the wire                           */
+	union iec_value input; /* read from the wire; of an output: written     */
 	bool good;
 	bool fresh;            /* not yet taken                                */
 	union iec_value output; /* to be written                               */
@@ -32,7 +32,7 @@ struct field {
 /** field_open - places for @count points. Owns: field_close(). Fails: false: no memory. */
 bool field_open(struct field *field, int count);
 void field_close(struct field *field);
-/** field_put - an input was read; field->lock is held. field_wake() once after some of them. */
+/** field_put - an input was read, or an output written; field->lock is held. field_wake() once after some of them. */
 void field_put(struct field *field, int point, union iec_value value, bool good);
 void field_wake(struct field *field);
 struct field_fresh {

@@ -20,6 +20,7 @@
 #define DRAIN_NS    20000000 /* a line is quiet after this time without a byte */
 #define DRAIN_MOST  10       /* … but it is not waited for longer than so many of them */
 #define BROADCAST_NS 100000000 /* units need this after a request to all     */
+#define SILENT_MOST 3        /* requests without an answer; then TCP connects anew */
 #define MBAP        7        /* bytes before a PDU in TCP                     */
 
 int64_t line_now(void)
@@ -84,6 +85,7 @@ static void hang_up(struct line *line)
 	if (line->open)
 		modbus_close(line->modbus);
 	line->open = line->used = false;
+	line->silent = 0;
 }
 
 void line_close(struct line *line)
@@ -292,6 +294,10 @@ enum heard line_ask(struct line *line, uint8_t unit, const struct pdu *request, 
 	/* Many devices end a connection that was idle for some seconds. */
 	if (heard == HEARD_NO_LINE && used && is_tcp(line) && line_open(line))
 		heard = ask_once(line, unit, request, answer, counts);
+	line->silent = heard == HEARD_NOTHING ? line->silent + 1 : 0;
+	/* The far end may have forgotten this connection. */
+	if (line->silent >= SILENT_MOST && is_tcp(line))
+		hang_up(line);
 	return heard;
 }
 

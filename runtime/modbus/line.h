@@ -15,6 +15,7 @@ struct line {
 	void *modbus;          /* modbus_t of libmodbus                        */
 	bool open;
 	bool used;             /* an answer came through this connection        */
+	int silent;            /* requests in a row without an answer           */
 	uint16_t number;       /* of the last request (TCP)                      */
 	int64_t quiet_ns;      /* between two frames                             */
 	int64_t free_ns;       /* the line is quiet from then on                 */

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * main - ladder-modbus: examines the buses of an I/O map, and finds the units that answer.
+ * main - ladder-modbus: serves the points of an I/O map that are on Modbus, for ladderd.
+ *
+ * It reads the map that ladderd runs, asks and writes units on its buses, and answers other masters if the
+ * map says so. A scan never waits for it.
  */
 #include "modbus/check.h"
 #include "modbus/find.h"
+#include "modbus/session.h"
 
 #include "engine/base/file.h"
 #include "engine/base/version.h"
+#include "online/stream.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,10 +20,13 @@
 #define MAP_BYTES (4u << 20)
 
 static const char help[] =
-	"usage: ladder-modbus --check MAP\n"
+	"usage: ladder-modbus [--link SOCKET]\n"
+	"       ladder-modbus --check MAP\n"
 	"       ladder-modbus scan BUS MAP [--json]\n"
 	"       ladder-modbus scan --port DEVICE [OPTION]...\n"
 	"       ladder-modbus scan --host HOST [OPTION]...\n"
+	"Serves the inputs and outputs of an I/O map that are on Modbus, for ladderd.\n"
+	"  --link SOCKET    where ladderd listens (/run/rungboard/link)\n"
 	"  --check MAP      print what this machine lacks for the buses and servers of a map\n"
 	"  --version        print the version\n"
 	"  --help           print this\n"
@@ -31,6 +39,7 @@ static const char help[] =
 	"  --timeout MS     how long an answer may take (100; 300 with --host)\n"
 	"  --from N --to N  numbers of units (1 and 247)\n"
 	"  --json           print one JSON object\n"
+	"SIGUSR1 prints the counters of each unit. docs/modbus.md tells more.\n"
 	"Exit status: 0 good; 1 something is wrong or no unit answers; 2 wrong usage.\n";
 
 static int wrong(const char *what, const char *why)
@@ -41,7 +50,7 @@ static int wrong(const char *what, const char *why)
 
 /* What the command line says. */
 struct request {
-	const char *check, *bus_name, *map;
+	const char *link, *check, *bus_name, *map;
 	struct io_bus bus;
 	char host[256];
 	bool scan, json;
@@ -128,7 +137,9 @@ static int read_option(struct request *out, int argc, char **argv, int *i)
 	if (*i + 1 == argc)
 		return wrong(word, "is no option, or needs a value");
 	(*i)++;
-	if (!out->scan && strcmp(word, "--check") == 0)
+	if (!out->scan && strcmp(word, "--link") == 0)
+		out->link = argv[*i];
+	else if (!out->scan && strcmp(word, "--check") == 0)
 		out->check = argv[*i];
 	else if (!out->scan || !scan_option(out, word, argv[*i]))
 		return wrong(word, "is no option here, or its value is wrong");
@@ -224,7 +235,7 @@ static int do_scan(struct request *request)
 
 int main(int argc, char **argv)
 {
-	struct request request = { .from = 1, .to = 247,
+	struct request request = { .link = STREAM_SOCKET, .from = 1, .to = 247,
 				   .bus = { .name = "bus", .kind = BUS_MODBUS_RTU, .baud = 19200, .parity = 'E',
 					    .stop_bits = 1 } };
 	int i = 1;
@@ -238,5 +249,5 @@ int main(int argc, char **argv)
 	}
 	if (request.scan)
 		return do_scan(&request);
-	return request.check ? check_map(request.check) : wrong("ladder-modbus", "needs --check or scan");
+	return request.check ? check_map(request.check) : session_run(request.link);
 }

@@ -19,6 +19,7 @@
 #define MBAP     7
 #define IDLE_NS  30000000000 /* a connection that was idle so long makes room for a new one */
 #define QUIET_NS 30000000    /* on a serial line: what has come is a frame or nothing */
+#define AGAIN_NS 1000000000  /* a serial line that was lost is opened again     */
 #define BURST_NS 1000000000  /* requests of this time may come at once        */
 
 /* ---- serial lines ---- */
@@ -390,6 +391,20 @@ static void hear(struct serve *serve, struct serve_client *client, int fd, int64
 		line_close(&serve->place[client->serve].line);
 }
 
+/* An adapter that was pulled may be back. */
+static void open_again(struct serve *serve, struct serve_client *client, int64_t now_ns)
+{
+	struct line *line = &serve->place[client->serve].line;
+
+	if (line->open || now_ns - client->heard_ns < AGAIN_NS)
+		return;
+	client->heard_ns = now_ns;
+	client->len = 0;
+	line_close(line);
+	if (line_init(line, &serve->net->serve[client->serve].at))
+		line_open(line);
+}
+
 static int fd_of(struct serve *serve, const struct serve_client *client)
 {
 	const struct line *line = &serve->place[client->serve].line;
@@ -411,7 +426,9 @@ int64_t serve_poll(struct serve *serve, int64_t now_ns)
 		serve->ready[n++] = (struct pollfd){
 			.fd = ns <= now_ns && client->len < SERVE_FRAME ? fd_of(serve, client) : -1,
 			.events = POLLIN };
-		if (client->len && is_serial(serve, client))
+		if (is_serial(serve, client) && !serve->place[client->serve].line.open)
+			then_ns = client->heard_ns + AGAIN_NS;
+		else if (client->len && is_serial(serve, client))
 			then_ns = client->heard_ns + QUIET_NS > ns ? client->heard_ns + QUIET_NS : ns;
 		else if (client->fd >= 0 && ns > now_ns)
 			then_ns = ns;
@@ -431,10 +448,12 @@ void serve_step(struct serve *serve, int64_t now_ns)
 
 		if (serve->ready[i].fd >= 0 && serve->ready[i].revents)
 			hear(serve, client, serve->ready[i].fd, now_ns);
-		if (is_serial(serve, client))
+		if (is_serial(serve, client)) {
+			open_again(serve, client, now_ns);
 			serve_serial(serve, client, now_ns);
-		else if (client->fd >= 0)
+		} else if (client->fd >= 0) {
 			serve_tcp(serve, client, now_ns);
+		}
 	}
 	for (int i = 0; serve->net && i < serve->net->serve_count; i++)
 		if (serve->ready[serve->clients + i].revents)

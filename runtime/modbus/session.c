@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * session - one loop for ladderd, for what the buses have read, and for servers.
+ */
+#define _DEFAULT_SOURCE
+#include "modbus/session.h"
+
+#include "modbus/check.h"
+#include "modbus/status.h"
+#include "online/gateway.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#define AGAIN_LEAST_MS 250  /* until ladderd is asked again                */
+#define AGAIN_MOST_MS  2000
+#define LACKS_MS       2000 /* until this machine is examined again         */
+#define POLL_MOST      1040 /* 16 servers with 64 connections each           */
+#define REPORT_NS      1000000000
+#define FLUSH_NS       1000000 /* values that come within it go together        */
+
+static struct {
+	struct gateway gateway;
+	struct gateway_report report;
+	struct diag_list diags;
+	struct arena arena;
+	struct iomap map;
+	char *text;            /* of it                                        */
+	size_t text_len;
+	struct field field;
+	struct field_fresh *fresh;
+	struct masters masters;
+	struct serve serve;
+	bool runs;             /* masters and servers have begun                */
+	bool stop;
+	bool told_away;        /* it has been said that there is no ladderd      */
+	enum desk_end end;
+	int signal_fd;
+	int64_t report_ns, flush_ns;
+} session;
+
+static void keep_end(enum desk_end end)
+{
+	if (end != DESK_GOOD)
+		session.end = end;
+}
+
+static void print_diags(void)
+{
+	char line[1024];
+
+	for (int i = 0; i < session.diags.count; i++) {
+		diag_print(&session.diags.diag[i], line, sizeof(line));
+		fprintf(stderr, "ladder-modbus: %s\n", line);
+	}
+}
+
+static void read_signals(void)
+{
+	struct signalfd_siginfo info;
+
+	while (read(session.signal_fd, &info, sizeof(info)) == (ssize_t)sizeof(info)) {
+		if (info.ssi_signo == SIGUSR1)
+			status_print(&session.masters, &session.serve, stdout);
+		else
+			session.stop = true;
+	}
+}
+
+/* Waits for a signal, or for @fd if it is one. */
+static void pause_for(int fd, int ms)
+{
+	struct pollfd ready[2] = { { .fd = session.signal_fd, .events = POLLIN }, { .fd = fd, .events = POLLIN } };
+
+	poll(ready, 2, ms);
+	read_signals();
+}
+
+/* ---- values ---- */
+
+static bool is_ours(const struct io_point *point)
+{
+	return point->driver == DRIVER_modbus || point->driver == DRIVER_module;
+}
+
+static void on_output(void *context, uint32_t point, enum iec_type type, union iec_value value)
+{
+	(void)context;
+	(void)type;
+	if (session.runs && point < (uint32_t)session.map.count && is_ours(&session.map.point[point]))
+		masters_output(&session.masters, (int)point, value);
+}
+
+static void send_values(void)
+{
+	const int count = field_take(&session.field, session.fresh);
+
+	for (int i = 0; i < count; i++)
+		keep_end(gateway_put(&session.gateway, (uint32_t)session.fresh[i].point,
+				     session.map.point[session.fresh[i].point].channel->raw,
+				     session.fresh[i].value, session.fresh[i].good));
+	if (count)
+		keep_end(gateway_flush(&session.gateway));
+}
+
+static bool of_coils(int window)
+{
+	const enum io_table table = session.map.net->window[window].table;
+
+	return table == TABLE_COIL || table == TABLE_DISCRETE_INPUT;
+}
+
+static bool read_window(void *context, int window, uint32_t first, int count, uint16_t *value)
+{
+	enum desk_end end;
+
+	(void)context;
+	end = gateway_window_read(&session.gateway, (uint32_t)window, first, (uint16_t)count, value);
+	if (end != DESK_REFUSED)
+		keep_end(end);
+	return end == DESK_GOOD;
+}
+
+static bool write_window(void *context, int window, uint32_t first, int count, const uint16_t *value)
+{
+	enum desk_end end;
+
+	(void)context;
+	end = gateway_window_write(&session.gateway, (uint32_t)window, of_coils(window), first,
+				   (uint16_t)count, value);
+	if (end != DESK_REFUSED)
+		keep_end(end);
+	return end == DESK_GOOD;
+}
+
+/* ---- a map ---- */
+
+static bool begin_servers(void)
+{
+	static const struct io_net none = { .serve_count = 0 };
+	const struct answer_image image = { .read = read_window, .write = write_window };
+	int bad, why;
+
+	if (serve_open(&session.serve, session.map.net ? session.map.net : &none, image, &bad))
+		return true;
+	why = errno;
+	if (bad >= 0)
+		check_serve(&session.map, &session.map.net->serve[bad], why, &session.diags);
+	return false;
+}
+
+static void end_map(void)
+{
+	masters_stop(&session.masters);
+	serve_close(&session.serve);
+	if (session.fresh)
+		field_close(&session.field);
+	free(session.fresh);
+	session.fresh = NULL;
+	arena_free(&session.arena);
+	free(session.text);
+	session.text = NULL;
+	session.runs = false;
+}
+
+/* Another program with the same map: buses and connections go on. */
+static bool is_same_map(void)
+{
+	return session.runs && session.text_len == session.gateway.text_len &&
+	       (!session.text_len || memcmp(session.text, session.gateway.text, session.text_len) == 0);
+}
+
+/* All is examined before anything is driven. False: something is not right, which is told. */
+static bool begin_map(void)
+{
+	bool good;
+
+	arena_init(&session.arena);
+	diag_init(&session.diags);
+	session.map = (struct iomap){ .count = 0 };
+	session.text_len = session.gateway.text_len;
+	session.text = malloc(session.text_len + 1);
+	if (!session.text)
+		return false;
+	if (session.text_len)
+		memcpy(session.text, session.gateway.text, session.text_len);
+	session.text[session.text_len] = '\0';
+	good = !session.text_len || iomap_read(&session.map, &session.arena, "map of the board", session.text,
+					       session.text_len, &session.diags);
+	good = good && check_machine(&session.map, &session.diags);
+	session.fresh = good ? calloc((size_t)session.map.count + 1, sizeof(*session.fresh)) : NULL;
+	if (session.fresh && !field_open(&session.field, session.map.count)) {
+		free(session.fresh);
+		session.fresh = NULL;
+	}
+	session.runs = session.fresh && begin_servers() &&
+		       masters_start(&session.masters, &session.map, &session.field);
+	return session.runs;
+}
+
+/* Nothing is driven; ladderd and the log are told why, and in a while all is examined again. */
+static void tell_lack(void)
+{
+	struct gateway_report *report = &session.report;
+
+	print_diags();
+	report->count = 0;
+	report->text[0] = '\0';
+	if (session.diags.count)
+		diag_print(&session.diags.diag[0], report->text, sizeof(report->text));
+	keep_end(gateway_report(&session.gateway, report));
+	for (int64_t until_ns = line_now() + LACKS_MS * INT64_C(1000000);
+	     line_now() < until_ns && !session.stop && !session.gateway.changed && session.end == DESK_GOOD;) {
+		pause_for(gateway_fd(&session.gateway), 100);
+		keep_end(gateway_listen(&session.gateway, 0));
+	}
+}
+
+/* ---- the loop ---- */
+
+static int wait_ms(int64_t until_ns, int64_t now_ns)
+{
+	if (until_ns <= now_ns)
+		return 0;
+	return until_ns - now_ns > REPORT_NS ? (int)(REPORT_NS / 1000000) :
+	       (int)((until_ns - now_ns + 999999) / 1000000);
+}
+
+static void wait_for_it(void)
+{
+	static struct pollfd ready[3 + POLL_MOST];
+	const int64_t now_ns = line_now();
+	const bool flush = now_ns >= session.flush_ns;
+	int64_t until_ns = serve_poll(&session.serve, now_ns);
+	const int servers = session.serve.readies;
+	const int some = servers < POLL_MOST ? servers : POLL_MOST;
+
+	ready[0] = (struct pollfd){ .fd = session.signal_fd, .events = POLLIN };
+	ready[1] = (struct pollfd){ .fd = gateway_fd(&session.gateway), .events = POLLIN };
+	ready[2] = (struct pollfd){ .fd = flush ? session.field.wake_fd : -1, .events = POLLIN };
+	memcpy(ready + 3, session.serve.ready, (size_t)some * sizeof(*ready));
+	if (session.report_ns < until_ns)
+		until_ns = session.report_ns;
+	if (!flush && session.flush_ns < until_ns)
+		until_ns = session.flush_ns;
+	poll(ready, (nfds_t)(3 + some), wait_ms(until_ns, now_ns));
+	memcpy(session.serve.ready, ready + 3, (size_t)some * sizeof(*ready));
+	if (ready[0].revents)
+		read_signals();
+	if (ready[2].revents) {
+		send_values();
+		session.flush_ns = line_now() + FLUSH_NS;
+	}
+}
+
+static void report(int64_t now_ns)
+{
+	if (now_ns < session.report_ns)
+		return;
+	session.report_ns = now_ns + REPORT_NS;
+	status_report(&session.masters, &session.serve, &session.report);
+	keep_end(gateway_report(&session.gateway, &session.report));
+}
+
+static void move_values(void)
+{
+	while (!session.stop && !session.gateway.changed && session.end == DESK_GOOD) {
+		wait_for_it();
+		keep_end(gateway_listen(&session.gateway, 0));
+		serve_step(&session.serve, line_now());
+		report(line_now());
+	}
+}
+
+/* While ladderd is there. */
+static void serve_board(void)
+{
+	while (!session.stop && session.end == DESK_GOOD) {
+		keep_end(gateway_begin(&session.gateway, "modbus"));
+		if (session.end != DESK_GOOD)
+			break;
+		if (!is_same_map()) {
+			end_map();
+			if (!begin_map()) {
+				tell_lack();
+				end_map();
+				continue;
+			}
+		}
+		move_values();
+	}
+	/* Without ladderd nobody says what an output shall be: it is not written any more, and the far end's
+	 * own watchdog decides. */
+	end_map();
+}
+
+static void tell_away(void)
+{
+	const struct desk *desk = &session.gateway.desk;
+
+	if (session.told_away)
+		return;
+	session.told_away = true;
+	if (session.end == DESK_REFUSED)
+		fprintf(stderr, "ladder-modbus: ladderd refuses%s%s; is this user in the group ladder-io, and does "
+			"no other ladder-modbus run?\n", desk->detail[0] ? ": " : "", desk->detail);
+	else
+		fprintf(stderr, "ladder-modbus: no ladderd answers; it is asked again\n");
+}
+
+static bool hear_signals(void)
+{
+	sigset_t signals;
+
+	sigemptyset(&signals);
+	sigaddset(&signals, SIGTERM);
+	sigaddset(&signals, SIGINT);
+	sigaddset(&signals, SIGUSR1);
+	pthread_sigmask(SIG_BLOCK, &signals, NULL);
+	signal(SIGPIPE, SIG_IGN);
+	session.signal_fd = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+	return session.signal_fd >= 0;
+}
+
+int session_run(const char *socket)
+{
+	int again_ms = AGAIN_LEAST_MS;
+
+	if (!hear_signals()) {
+		fprintf(stderr, "ladder-modbus: no signals: %s\n", strerror(errno));
+		return 1;
+	}
+	while (!session.stop) {
+		session.end = gateway_open(&session.gateway, socket, "ladder-modbus");
+		if (session.end == DESK_GOOD) {
+			session.gateway.output = on_output;
+			session.told_away = false;
+			again_ms = AGAIN_LEAST_MS;
+			serve_board();
+		}
+		if (!session.stop)
+			tell_away();
+		gateway_close(&session.gateway);
+		if (!session.stop)
+			pause_for(-1, again_ms);
+		again_ms = again_ms * 2 < AGAIN_MOST_MS ? again_ms * 2 : AGAIN_MOST_MS;
+	}
+	return 0;
+}

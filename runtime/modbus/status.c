@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * status - counters as a report and as lines.
+ */
+#include "modbus/status.h"
+
+/* Each unit of each bus, until @visit has enough. */
+static void each_unit(const struct masters *masters,
+		      bool (*visit)(void *context, const struct master *master, const struct unit *unit),
+		      void *context)
+{
+	for (int i = 0; masters->of && i < masters->count; i++)
+		for (int u = 0; masters->of[i] && u < 256; u++)
+			if (masters->of[i]->bus.has[u] &&
+			    !visit(context, masters->of[i], &masters->of[i]->bus.unit[u]))
+				return;
+}
+
+static bool is_silent(const struct master *master, const struct unit *unit)
+{
+	return master->bus.broken || unit_is_bad(unit);
+}
+
+static uint32_t exceptions_of(const struct unit *unit)
+{
+	uint32_t all = 0;
+
+	for (int i = 0; i < PDU_EXCEPTIONS; i++)
+		all += unit->counts.exceptions[i];
+	return all;
+}
+
+struct tally {
+	struct gateway_report *report;
+	bool silent;           /* those that do not answer, or the others        */
+	int units, away;
+};
+
+static bool add_unit(void *context, const struct master *master, const struct unit *unit)
+{
+	struct tally *tally = context;
+	struct gateway_unit *out;
+
+	if (is_silent(master, unit) != tally->silent)
+		return true;
+	tally->units++;
+	tally->away += tally->silent;
+	if (tally->report->count == REPORT_UNITS)
+		return true;
+	out = &tally->report->unit[tally->report->count++];
+	snprintf(out->name, sizeof(out->name), "%s/%d", master->line.at->name, unit->id);
+	out->requests = unit->counts.requests;
+	out->errors = (uint64_t)unit->counts.crc + unit->counts.wrong + unit->counts.late + exceptions_of(unit);
+	out->timeouts = unit->counts.timeouts;
+	return true;
+}
+
+void status_report(const struct masters *masters, const struct serve *serve, struct gateway_report *out)
+{
+	struct tally tally = { .report = out, .silent = true };
+	int buses = 0, clients = 0;
+
+	*out = (struct gateway_report){ .count = 0 };
+	each_unit(masters, add_unit, &tally);
+	tally.silent = false;
+	each_unit(masters, add_unit, &tally);
+	for (int i = 0; masters->of && i < masters->count; i++)
+		buses += masters->of[i] != NULL;
+	for (int i = 0; serve->net && i < serve->net->serve_count; i++)
+		clients += serve->place[i].clients;
+	snprintf(out->text, sizeof(out->text), "buses: %d, units: %d, silent: %d, masters connected: %d", buses,
+		 tally.units, tally.away, clients);
+}
+
+static bool print_unit(void *context, const struct master *master, const struct unit *unit)
+{
+	FILE *out = context;
+	const struct unit_counts *counts = &unit->counts;
+
+	fprintf(out, "%s/%d: %s, requests %u, answers %u, time-outs %u, wrong checks %u, wrong frames %u, late %u",
+		master->line.at->name, unit->id, is_silent(master, unit) ? "silent" : "answers", counts->requests,
+		counts->answers, counts->timeouts, counts->crc, counts->wrong, counts->late);
+	for (int i = 1; i < PDU_EXCEPTIONS; i++)
+		if (counts->exceptions[i])
+			fprintf(out, ", exception %d: %u", i, counts->exceptions[i]);
+	if (counts->exceptions[0])
+		fprintf(out, ", other exceptions: %u", counts->exceptions[0]);
+	fputc('\n', out);
+	return true;
+}
+
+void status_print(const struct masters *masters, const struct serve *serve, FILE *out)
+{
+	each_unit(masters, print_unit, out);
+	for (int i = 0; serve->net && i < serve->net->serve_count; i++)
+		fprintf(out, "%s: masters connected: %d\n", serve->net->serve[i].at.name, serve->place[i].clients);
+	if (serve->net && serve->net->serve_count)
+		fprintf(out, "requests answered: %llu, refused: %llu\n", (unsigned long long)serve->answers,
+			(unsigned long long)serve->refusals);
+	fflush(out);
+}

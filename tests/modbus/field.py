@@ -1,0 +1,643 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""field - ladder-modbus against programs of others: pymodbus and mbpoll, as units and as masters.
+
+Serial lines are pseudo-terminals; a relay between them damages, delays and halves frames. All addresses are of this
+machine. A test waits for what must come, never for a time.
+"""
+import json
+import os
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import traceback
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from board import MODBUS, Board, crc, free_port, until  # noqa: E402
+if not os.access(MODBUS, os.X_OK):
+    print('1..0 # SKIP ladder-modbus is not built: it needs libmodbus')
+    sys.exit(0)
+try:
+    import logging
+    import far
+    from far import Units, Wire
+    from pymodbus.client import ModbusTcpClient
+    logging.getLogger('pymodbus').setLevel(logging.CRITICAL)
+    logging.getLogger('asyncio').setLevel(logging.CRITICAL)
+except ImportError:
+    print('1..0 # SKIP python3-pymodbus is not here')
+    sys.exit(0)
+
+COPY = '''RUNGBOARD 1
+PROJECT "Copy"
+
+VAR
+  In AT %IW0 : INT;
+  Out AT %QW0 : INT;
+  Switch AT %IX10.0 : BOOL;
+  Lamp AT %QX10.0 : BOOL;
+  Real1 AT %ID20 : REAL;
+  Real2 AT %QD20 : REAL;
+  Long1 AT %ID24 : DINT;
+  Long2 AT %QD24 : DINT;
+  Bit1 AT %IX30.0 : BOOL;
+  Bit2 AT %QX30.0 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Out := In;
+  Lamp := Switch;
+  Real2 := Real1;
+  Long2 := Long1;
+  Bit2 := Bit1;
+END_PROGRAM
+'''
+
+
+def run(*words, **options):
+    return subprocess.run([MODBUS, *words], text=True, capture_output=True, timeout=60, check=False, **options)
+
+
+def test_values_of_two_buses_go_both_ways():
+    """A TCP bus and a serial one at once: bits, words, two registers in both orders, a bit of a register."""
+    port = free_port()
+    wire = Wire()
+    plant, serial = Units([1, 2]).tcp(port), Units([3]).rtu(wire.theirs)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
+BUS rs485 modbus-rtu port={wire.ours} timeout=200ms
+%IW0 modbus bus=plant unit=1 input-register=5 poll=20ms
+%QW0 modbus bus=rs485 unit=3 holding-register=7 safe=-1
+%IX10.0 modbus bus=rs485 unit=3 discrete-input=9 poll=20ms
+%QX10.0 modbus bus=plant unit=2 coil=17 safe=0
+%ID20 modbus bus=plant unit=1 holding-register=10 as=REAL word-order=little poll=20ms
+%QD20 modbus bus=plant unit=2 holding-register=20 as=REAL safe=0
+%ID24 modbus bus=rs485 unit=3 input-register=30 poll=20ms
+%QD24 modbus bus=plant unit=2 holding-register=30 byte-order=little safe=0
+%IX30.0 modbus bus=plant unit=1 holding-register=40 bit=3 poll=20ms
+%QX30.0 modbus bus=plant unit=2 holding-register=40 bit=9 safe=0
+'''
+    plant.set(2, 'holding-register', 40, 0x0101)
+    with Board(COPY, board) as it:
+        for value in (1, -2, 32767):
+            plant.set(1, 'input-register', 5, value & 0xffff)
+            assert until(lambda: serial.get(3, 'holding-register', 7) == value & 0xffff)
+        for value in (1, 0, 1):
+            serial.set(3, 'discrete-input', 9, value)
+            assert until(lambda: plant.get(2, 'coil', 17) == value)
+        high, low = struct.unpack('>HH', struct.pack('>f', -1.5))
+        plant.set(1, 'holding-register', 10, low, high)
+        assert until(lambda: plant.get(2, 'holding-register', 20, 2) == [high, low])
+        serial.set(3, 'input-register', 30, 0x1234, 0x5678)
+        assert until(lambda: plant.get(2, 'holding-register', 30, 2) == [0x3412, 0x7856])
+        plant.set(1, 'holding-register', 40, 8)
+        assert until(lambda: plant.get(2, 'holding-register', 40) == 0x0301)
+        plant.set(1, 'holding-register', 40, 0xfff7)
+        assert until(lambda: plant.get(2, 'holding-register', 40) == 0x0101)
+        status = it.status()
+        assert 'plant/1: answers' in status and 'rs485/3: answers' in status, status
+        assert until(lambda: 'plant/1' in it.command('status')), it.command('status')
+        # ladderd stops: safe values go out.
+        it.ladderd.send_signal(signal.SIGTERM)
+        it.ladderd.wait(60)
+    for units in (plant, serial):
+        units.close()
+    wire.close()
+
+
+def test_safe_values_come_when_the_program_stops():
+    port = free_port()
+    plant = Units([1]).tcp(port)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port}
+%IW0 modbus bus=plant unit=1 input-register=0 poll=20ms
+%QW0 modbus bus=plant unit=1 holding-register=1 safe=77 refresh=50ms
+%QX10.0 modbus bus=plant unit=1 coil=2 safe=1
+'''
+    plant.set(1, 'input-register', 0, 5)
+    with Board(COPY, board) as it:
+        assert until(lambda: plant.get(1, 'holding-register', 1) == 5 and plant.get(1, 'coil', 2) == 0)
+        it.command('stop')
+        assert until(lambda: plant.get(1, 'holding-register', 1) == 77 and plant.get(1, 'coil', 2) == 1), it.command('status')
+        it.command('run')
+        assert until(lambda: plant.get(1, 'holding-register', 1) == 5 and plant.get(1, 'coil', 2) == 0)
+        # ladderd is killed: nothing is refreshed any more, so that a watchdog of the far end can act.
+        it.ladderd.kill()
+        it.ladderd.wait(60)
+        assert until(lambda: 'no ladderd answers' in it.read('modbus.out'))
+        block = plant.block[1]['holding-register']
+        before = block.writes
+        assert not until(lambda: block.writes != before, 0.3)
+        it.start_ladderd()
+        assert until(lambda: block.writes > before and plant.get(1, 'holding-register', 1) == 5)
+        # The gateway is killed: the board goes on, and a new one takes over.
+        it.modbus.kill()
+        it.modbus.wait(60)
+        plant.set(1, 'input-register', 0, 6)
+        it.start_modbus()
+        assert until(lambda: plant.get(1, 'holding-register', 1) == 6)
+    plant.close()
+
+
+def late(frame):
+    return [(0.15, frame)]
+
+
+def half(frame):
+    return [(0, frame[:len(frame) // 2])]
+
+
+def two_halves(frame):
+    return [(0, frame[:3]), (0.3, frame[3:])]
+
+
+def wrong_check(frame):
+    return [(0, frame[:-1] + bytes([frame[-1] ^ 1]))]
+
+
+def other_unit(frame):
+    return [(0, bytes([frame[0] + 1]) + frame[1:-2] + crc(bytes([frame[0] + 1]) + frame[1:-2]))]
+
+
+def with_noise(frame):
+    return [(0, b'\xff\x00' + frame)]
+
+
+def short(frame):
+    return [(0, frame[:-4] + crc(frame[:-4]))]
+
+
+def nothing(_frame):
+    return []
+
+
+def test_damaged_frames_are_never_taken_for_values():
+    """Two registers of one unit in two requests of the same form, and each kind of damage to half of the frames."""
+    wire = Wire()
+    serial = Units([3, 4]).rtu(wire.theirs)
+    board = f'''BOARD "on a table"
+BUS rs485 modbus-rtu port={wire.ours} timeout=100ms
+%IW0 modbus bus=rs485 unit=3 input-register=0 poll=10ms
+%IW2 modbus bus=rs485 unit=3 input-register=150 poll=10ms
+%IW4 modbus bus=rs485 unit=4 input-register=0 poll=10ms
+%QW0 sim
+%QW2 sim
+SERVE look modbus-tcp listen=127.0.0.1:{{port}}
+WINDOW look holding-register=0..9 %MW0 read-write
+'''
+    program = '''RUNGBOARD 1
+PROJECT "Mixed"
+
+VAR
+  A AT %IW0 : INT;
+  B AT %IW2 : INT;
+  C AT %IW4 : INT;
+  Wrong AT %MW0 : INT;
+  Fresh AT %MW2 : INT;
+END_VAR
+
+PROGRAM Main ST
+  IF A <> 0 AND A <> 1111 AND A <> 1112 OR B <> 0 AND B <> 2222 OR C <> 0 AND C <> 3333 THEN
+    Wrong := Wrong + 1;
+  END_IF;
+  Fresh := A;
+END_PROGRAM
+'''
+    port = free_port()
+    serial.set(3, 'input-register', 0, 1111)
+    serial.set(3, 'input-register', 150, 2222)
+    serial.set(4, 'input-register', 0, 3333)
+    with Board(program, board.replace('{port}', str(port))) as it:
+        client = ModbusTcpClient('127.0.0.1', port=port)
+
+        def word(at):
+            answer = client.read_holding_registers(at, 1, slave=1) if client.connect() else None
+            return answer.registers[0] if answer and not answer.isError() else None
+
+        assert until(lambda: word(1) == 1111), word(1)
+        for damage in (late, half, two_halves, wrong_check, other_unit, with_noise, short, nothing):
+            seen = wire.seen
+            wire.damage = lambda frame, damage=damage: damage(frame) if wire.seen % 2 else [(0, frame)]
+            assert until(lambda: wire.seen > seen + 12), damage.__name__
+            wire.damage = None
+            serial.set(3, 'input-register', 0, 1112)
+            assert until(lambda: word(1) == 1112, 5), damage.__name__
+            serial.set(3, 'input-register', 0, 1111)
+            assert until(lambda: word(1) == 1111, 5), (damage.__name__, word(1), word(0), it.status(), wire.seen)
+        assert word(0) == 0, word(0)
+        status = it.status()
+        for counted in ('time-outs 0', 'wrong checks 0', 'wrong frames 0'):
+            assert counted not in status.split('rs485/4')[0], status
+        # The cable is out: bad within three polls, and good again within two seconds.
+        wire.down = True
+        assert until(lambda: 'rs485/3: silent' in it.status())
+        wire.down = False
+        began = time.monotonic()
+        serial.set(3, 'input-register', 0, 1112)
+        assert until(lambda: word(1) == 1112)
+        assert time.monotonic() - began < 10, time.monotonic() - began
+        assert word(0) == 0
+        client.close()
+    serial.close()
+    wire.close()
+
+
+def test_a_silent_unit_and_a_missing_register_harm_no_other():
+    port = free_port()
+    plant = Units([1, 2]).tcp(port)
+    plant.block[1]['input-register'].missing.add(3)
+    wire = Wire()
+    serial = Units([5]).rtu(wire.theirs)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
+BUS rs485 modbus-rtu port={wire.ours} timeout=150ms
+%IW0..12 modbus bus=plant unit=1 input-register=0 poll=20ms
+%QW0 modbus bus=plant unit=2 holding-register=1 safe=0
+%IW20 modbus bus=rs485 unit=5 input-register=0 poll=20ms
+%IW22 modbus bus=rs485 unit=6 input-register=0 poll=20ms
+%IW24 modbus bus=rs485 unit=7 input-register=0 poll=20ms
+'''
+    plant.set(1, 'input-register', 0, 10)
+    with Board(COPY, board) as it:
+        assert until(lambda: plant.get(2, 'holding-register', 1) == 10)
+        plant.set(1, 'input-register', 0, 11)
+        assert until(lambda: plant.get(2, 'holding-register', 1) == 11)
+        assert until(lambda: 'rs485/6: silent' in it.status() and 'rs485/7: silent' in it.status())
+        reads = serial.block[5]['input-register'].reads
+        assert until(lambda: serial.block[5]['input-register'].reads > reads + 50)
+        status = it.status()
+        assert 'rs485/5: answers' in status and 'exception 2: ' in status, status
+        # The host goes away and comes back.
+        plant.stop()
+        assert until(lambda: 'plant/1: silent' in it.status())
+        plant.tcp(port)
+        plant.set(1, 'input-register', 0, 12)
+        began = time.monotonic()
+        assert until(lambda: plant.get(2, 'holding-register', 1) == 12)
+        assert time.monotonic() - began < 10
+    plant.close()
+    serial.close()
+    wire.close()
+
+
+PUMP = '''RUNGBOARD 1
+PROJECT "Pump"
+
+VAR
+  Level AT %IW0 : INT;
+  Pump AT %QX0.0 : BOOL;
+  Wanted AT %MW0 : INT;
+  Secret AT %MW20 : INT := 4711;
+END_VAR
+
+PROGRAM Main ST
+  Pump := Wanted > 5;
+END_PROGRAM
+'''
+
+
+def pump_map(port):
+    return f'''BOARD "Pump house"
+SERVE plc modbus-tcp listen=127.0.0.1:{port} unit=1 connections=2
+WINDOW plc coil=0..7 %QX0.0 read-only
+WINDOW plc holding-register=0..3 %MW0 read-write
+WINDOW plc input-register=0..3 %IW0 read-only
+%QX0.0 sim safe=0
+%IW0 sim
+'''
+
+
+def exchange(stream, pdu, unit=1):
+    """One request of TCP as bytes; the PDU that comes back."""
+    stream.sendall(struct.pack('>HHHB', 7, 0, len(pdu) + 1, unit) + pdu)
+    head = b''
+    while len(head) < 7:
+        head += stream.recv(7 - len(head))
+    number, protocol, length, answered = struct.unpack('>HHHB', head)
+    assert (number, protocol, answered) == (7, 0, unit)
+    body = b''
+    while len(body) < length - 1:
+        body += stream.recv(length - 1 - len(body))
+    return body
+
+
+def test_masters_see_and_change_what_the_map_declares():
+    """pymodbus and mbpoll as masters; then all functions at sampled addresses: only the window changes."""
+    port = free_port()
+    with Board(PUMP, pump_map(port)) as it:
+        client = ModbusTcpClient('127.0.0.1', port=port)
+        assert until(client.connect), it.read('modbus.out')
+        assert client.read_coils(0, 8, slave=1).bits == [False] * 8
+        assert not client.write_register(0, 9, slave=1).isError()
+        assert until(lambda: client.read_coils(0, 8, slave=1).bits[0])
+        assert client.read_holding_registers(0, 4, slave=1).registers == [9, 0, 0, 0]
+        assert not client.write_registers(1, [7, 8], slave=1).isError()
+        assert not client.mask_write_register(1, 0xfff0, 5, slave=1).isError()
+        assert client.read_holding_registers(0, 4, slave=1).registers == [9, 5, 8, 0]
+        answer = client.readwrite_registers(read_address=1, read_count=2, write_address=3, write_registers=[3], slave=1)
+        assert answer.registers == [5, 8]
+        assert client.write_coil(0, True, slave=1).exception_code == 2
+        assert client.read_holding_registers(3, 2, slave=1).exception_code == 2
+        assert client.read_discrete_inputs(0, 1, slave=1).exception_code == 2
+        assert client.read_holding_registers(0, 1, slave=9).exception_code == 11
+        if shutil.which('mbpoll'):
+            done = subprocess.run(['mbpoll', '-1', '-0', '-a', '1', '-t', '4', '-r', '0', '-c', '3', '-p', str(port),
+                                   '127.0.0.1'], text=True, capture_output=True, timeout=60, check=False)
+            assert '[0]: \t9' in done.stdout and '[2]: \t8' in done.stdout, done.stdout + done.stderr
+            done = subprocess.run(['mbpoll', '-1', '-0', '-a', '1', '-t', '4', '-r', '0', '-p', str(port), '127.0.0.1', '--', '4'],
+                                  text=True, capture_output=True, timeout=60, check=False)
+            assert until(lambda: client.read_holding_registers(0, 1, slave=1).registers == [4]), done.stdout + done.stderr
+        client.close()
+        contain(port)
+        limits(port)
+
+
+def contain(port):
+    with socket.create_connection(('127.0.0.1', port)) as stream:
+        stream.settimeout(20)
+        before = exchange(stream, b'\x03\x00\x00\x00\x04')
+        changed = 0
+        for function in list(range(1, 128)):
+            for at in (0, 1, 3, 4, 7, 8, 9, 255, 4096, 65534, 65535):
+                known = function in (1, 2, 3, 4, 5, 6, 15, 16, 22, 23)
+                place = struct.pack('>H', at)
+                body = {5: place + b'\xff\x00', 6: place + b'\x12\x34', 15: place + b'\x00\x02\x01\x03',
+                        16: place + b'\x00\x02\x04\x00\x01\x00\x02', 22: place + b'\x00\x00\x12\x34',
+                        23: b'\x00\x00\x00\x01' + place + b'\x00\x01\x02\x12\x34'}.get(function, place + b'\x00\x01')
+                answer = exchange(stream, bytes([function]) + body)
+                if not known:
+                    assert answer == bytes([function | 128, 1]), (function, at, answer)
+                    continue
+                last = at + (1 if function in (15, 16) else 0)
+                may = {1: last < 8, 3: last < 4, 4: last < 4, 6: last < 4, 16: last < 4, 22: last < 4, 23: last < 4}.get(function)
+                assert answer[0] == (function if may else function | 128), (function, at, answer)
+                assert may or answer[1] == 2, (function, at, answer)
+                changed += bool(may) and function in (6, 16, 22, 23)
+        assert changed > 8
+        # What no window shows is as it was; the window itself can be set back.
+        registers = before[2:]
+        assert exchange(stream, b'\x10\x00\x00\x00\x04\x08' + registers) == b'\x10\x00\x00\x00\x04'
+        assert exchange(stream, b'\x03\x00\x00\x00\x04') == before
+
+
+def limits(port):
+    """More connections than the map allows, bytes that are no Modbus, and a frame that comes byte by byte."""
+    with socket.create_connection(('127.0.0.1', port)) as one, socket.create_connection(('127.0.0.1', port)) as two:
+        assert exchange(one, b'\x03\x00\x00\x00\x01') and exchange(two, b'\x03\x00\x00\x00\x01')
+        with socket.create_connection(('127.0.0.1', port)) as three:
+            three.settimeout(20)
+            try:
+                assert three.recv(1) == b''
+            except ConnectionResetError:
+                pass
+        for byte in struct.pack('>HHHB', 7, 0, 6, 1) + b'\x03\x00\x00\x00':
+            two.sendall(bytes([byte]))
+        assert exchange(one, b'\x03\x00\x00\x00\x01')
+        two.sendall(b'\x01')
+        assert len(two.recv(100)) == 11
+        two.sendall(b'GET / HTTP/1.0\r\n\r\n')
+        two.settimeout(20)
+        assert two.recv(1) == b''
+
+
+def test_other_programs_and_other_maps():
+    """A download of a program with the same map cuts no connection; one with another map begins anew."""
+    port = free_port()
+    with Board(PUMP, pump_map(port), '--slots', '.') as it:
+        def connect():
+            try:
+                return socket.create_connection(('127.0.0.1', port))
+            except OSError:
+                return None
+
+        stream = until(connect)
+        stream.settimeout(20)
+        exchange(stream, b'\x06\x00\x00\x00\x04')
+        assert exchange(stream, b'\x01\x00\x00\x00\x01') == b'\x01\x01\x00'
+        it.write('other.rung', PUMP.replace('Wanted > 5', 'Wanted > 3'))
+        said = it.command('download', 'other.rung', 'board.io', '--yes')
+        assert until(lambda: exchange(stream, b'\x01\x00\x00\x00\x01') == b'\x01\x01\x01'), said
+        it.write('wide.io', pump_map(port).replace('holding-register=0..3', 'holding-register=0..4'))
+        said = it.command('download', 'other.rung', 'wide.io', '--yes')
+        assert until(lambda: stream.recv(1) == b''), said
+        stream.close()
+        stream = until(connect)
+        assert exchange(stream, b'\x03\x00\x04\x00\x01')[0] == 3
+        stream.close()
+
+
+def test_a_gateway_that_is_killed_again_and_again():
+    port = free_port()
+    plant = Units([1]).tcp(port)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port}
+%IW0 modbus bus=plant unit=1 input-register=0 poll=5ms
+%QW0 modbus bus=plant unit=1 holding-register=0 safe=0
+'''
+    with Board(COPY, board) as it:
+        for value in range(1, 31):
+            plant.set(1, 'input-register', 0, value)
+            assert until(lambda: plant.get(1, 'holding-register', 0) == value), it.read('modbus.out')
+            it.modbus.kill()
+            it.modbus.wait(60)
+            it.start_modbus()
+        assert 'fault: none' in it.command('status')
+    plant.close()
+
+
+def test_a_server_on_a_serial_line():
+    """The map of a board as unit 5 of a line that other units share."""
+    wire = Wire()
+    board = f'''BOARD "Pump house"
+SERVE old modbus-rtu port={wire.ours} baud=19200 unit=5
+WINDOW old holding-register=0..3 %MW0 read-write
+%QX0.0 sim safe=0
+%IW0 sim
+'''
+    with Board(PUMP, board):
+        line = os.open(wire.theirs, os.O_RDWR | os.O_NOCTTY)
+
+        def ask(*pdu, unit=5, answers=True):
+            frame = bytes([unit, *pdu])
+            os.write(line, frame + crc(frame))
+            got = b''
+            end = time.monotonic() + (1 if answers else 0.15)
+            while time.monotonic() < end and not (len(got) > 4 and crc(got[:-2]) == got[-2:]):
+                if far.select.select([line], [], [], 0.02)[0]:
+                    got += os.read(line, 256)
+            return got[1:-2]
+
+        assert until(lambda: ask(3, 0, 0, 0, 2) == b'\x03\x04\0\0\0\0')
+        assert ask(6, 0, 1, 0x12, 0x34) == b'\x06\0\x01\x12\x34'
+        assert ask(3, 0, 0, 0, 2, unit=6, answers=False) == b''
+        assert ask(3, 4, 1, 2, 3, 4, unit=6, answers=False) == b''
+        assert ask(3, 0, 0, 0, 2) == b'\x03\x04\0\0\x12\x34'
+        assert ask(3, 0, 3, 0, 2) == b'\x83\x02'
+        assert ask(8, 0, 0, 1, 2) == b'\x88\x01'
+        assert ask(6, 0, 1, 0x43, 0x21, unit=0, answers=False) == b''
+        assert ask(3, 0, 1, 0, 1) == b'\x03\x02\x43\x21'
+        os.close(line)
+    wire.close()
+
+
+def test_adapters_are_pulled_and_come_back():
+    """The devices of two serial lines vanish, that of a bus and that of a server, and others take their names."""
+    folder = tempfile.mkdtemp()
+
+    def plug(name):
+        wire = Wire()
+        os.symlink(wire.ours, f'{folder}/new')
+        os.rename(f'{folder}/new', f'{folder}/{name}')
+        return wire
+
+    bus, panel = plug('bus'), plug('panel')
+    serial = Units([3]).rtu(bus.theirs)
+    serial.set(3, 'input-register', 0, 3)
+    board = f'''BOARD "Pump house"
+BUS rs485 modbus-rtu port={folder}/bus timeout=200ms
+SERVE old modbus-rtu port={folder}/panel unit=5
+WINDOW old input-register=0..0 %IW0 read-only
+%IW0 modbus bus=rs485 unit=3 input-register=0 poll=20ms substitute=99 stale=300ms
+%QX0.0 sim safe=0
+'''
+
+    def level(wire):
+        line = os.open(wire.theirs, os.O_RDWR | os.O_NOCTTY)
+        frame = b'\x05\x04\0\0\0\x01'
+        os.write(line, frame + crc(frame))
+        got = os.read(line, 256) if far.select.select([line], [], [], 0.3)[0] else b''
+        os.close(line)
+        return got[3] << 8 | got[4] if len(got) == 7 else None
+
+    with Board(PUMP, board) as it:
+        assert until(lambda: level(panel) == 3), level(panel)
+        serial.close()
+        bus.close()
+        assert until(lambda: level(panel) == 99), level(panel)
+        panel.close()
+        bus, panel = plug('bus'), plug('panel')
+        serial = Units([3]).rtu(bus.theirs)
+        serial.set(3, 'input-register', 0, 4)
+        assert until(lambda: level(panel) == 4), it.status()
+    serial.close()
+    bus.close()
+    panel.close()
+    shutil.rmtree(folder)
+
+
+def test_what_a_machine_lacks_is_told():
+    wire = Wire()
+    folder = tempfile.mkdtemp()
+    busy = socket.create_server(('127.0.0.1', 0))
+    holder = os.open(wire.theirs, os.O_RDWR | os.O_NOCTTY)
+    far.tty.setraw(holder)
+    import fcntl
+    fcntl.flock(holder, fcntl.LOCK_EX)
+    os.symlink(wire.ours, folder + '/adapter')
+    with open(folder + '/board.io', 'w', encoding='utf-8') as out:
+        out.write(f'''BOARD "on a table"
+BUS a modbus-rtu port=/dev/no-such-line
+BUS b modbus-rtu port={wire.ours}
+BUS c modbus-rtu port={folder}/adapter
+BUS d modbus-rtu port={wire.theirs}
+BUS e modbus-rtu port={folder}/board.io
+BUS f modbus-tcp host=no-such-host.invalid
+SERVE g modbus-tcp listen=127.0.0.1:{busy.getsockname()[1]}
+SERVE h modbus-tcp listen=192.0.2.1:1502
+SERVE i modbus-tcp listen=127.0.0.1:1
+''')
+    user = {'user': 65534, 'group': 65534, 'extra_groups': []} if os.getuid() == 0 else {}
+    os.chmod(folder, 0o755)
+    os.chmod(wire.ours, 0o666)
+    os.chmod(wire.theirs, 0o666)
+    os.chmod(folder + '/board.io', 0o666)
+    done = run('--check', folder + '/board.io', **user)
+    lines = [line.split(': ')[0].split('/')[-1] + ' ' + line.split('error ')[1].split(':')[0] for line in done.stderr.splitlines()]
+    unprivileged = int(open('/proc/sys/net/ipv4/ip_unprivileged_port_start', encoding='ascii').read()) > 1
+    wanted = ['board.io:2:1 LD560', 'board.io:4:1 LD564', 'board.io:5:1 LD565', 'board.io:6:1 LD566', 'board.io:7:1 LD562',
+              'board.io:8:1 LD563', 'board.io:9:1 LD568'] + ['board.io:10:1 LD567'] * unprivileged
+    assert lines == wanted and done.returncode == 1, done.stderr
+    if user:
+        os.chmod(wire.ours, 0o600)
+        with open(folder + '/board.io', 'w', encoding='utf-8') as out:
+            out.write(f'BOARD "on a table"\nBUS b modbus-rtu port={wire.ours}\n')
+        done = run('--check', folder + '/board.io', **user)
+        assert 'board.io:2:1: error LD561' in done.stderr and 'dialout' in done.stderr, done.stderr
+    done = run('--check', folder + '/board.io')
+    assert not user or (done.returncode == 0 and done.stdout.endswith('board.io: good\n')), done.stderr
+    os.close(holder)
+    busy.close()
+    wire.close()
+    shutil.rmtree(folder)
+
+
+def test_nothing_is_driven_until_all_is_right():
+    """A port that is taken: neither bus nor server begins, and the reason is told; then all of it begins."""
+    port, busy = free_port(), socket.create_server(('127.0.0.1', 0))
+    taken = busy.getsockname()[1]
+    plant = Units([1]).tcp(port)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port}
+SERVE plc modbus-tcp listen=127.0.0.1:{taken}
+%IW0 modbus bus=plant unit=1 input-register=0 poll=20ms
+%QW0 modbus bus=plant unit=1 holding-register=1 safe=0
+'''
+    with Board(COPY, board) as it:
+        assert until(lambda: 'LD563' in it.read('modbus.out')), it.read('modbus.out')
+        assert until(lambda: 'LD563' in it.command('status')), it.command('status')
+        blocks = plant.block[1]
+        assert blocks['input-register'].reads == 0 and blocks['holding-register'].writes == 0
+        busy.close()
+        assert until(lambda: blocks['input-register'].reads > 0 and blocks['holding-register'].writes > 0)
+    plant.close()
+
+
+def test_units_are_found():
+    port = free_port()
+    plant = Units([3, 9]).tcp(port)
+    done = run('scan', '--host', f'127.0.0.1:{port}', '--to', '12', '--json', '--timeout', '200')
+    assert [unit['unit'] for unit in json.loads(done.stdout)['units']] == [3, 9], done.stdout + done.stderr
+    wire = Wire()
+    serial = Units([2, 4]).rtu(wire.theirs)
+    serial.block[4]['holding-register'].missing.add(0)
+    folder = tempfile.mkdtemp()
+    with open(folder + '/board.io', 'w', encoding='utf-8') as out:
+        out.write(f'BOARD "x"\nBUS rs485 modbus-rtu port={wire.ours} timeout=60ms\n')
+    done = run('scan', 'rs485', folder + '/board.io', '--to', '5')
+    assert [line.split()[1] for line in done.stdout.splitlines()] == ['2', '4'] and 'exception 2' in done.stdout, done.stdout + done.stderr
+    done = run('scan', 'other', folder + '/board.io')
+    assert done.returncode == 2 and 'is no bus' in done.stderr
+    shutil.rmtree(folder)
+    serial.close()
+    plant.close()
+    wire.close()
+
+
+def main():
+    tests = [(name, test) for name, test in globals().items() if name.startswith('test_')]
+    if len(sys.argv) > 1:
+        tests = [(name, test) for name, test in tests if name in sys.argv[1:]]
+    print(f'1..{len(tests)}', flush=True)
+    failed = 0
+    for number, (name, test) in enumerate(tests, 1):
+        began = time.monotonic()
+        try:
+            test()
+            print(f'ok {number} - {name[5:].replace("_", " ")}', flush=True)
+        except Exception:  # pylint: disable=broad-except
+            failed += 1
+            print(f'not ok {number} - {name[5:].replace("_", " ")}')
+            print('# ' + traceback.format_exc().replace('\n', '\n# '), flush=True)
+        if os.environ.get('TIMES'):
+            print(f'# {time.monotonic() - began:.1f} s', flush=True)
+    os._exit(failed != 0)
+
+
+if __name__ == '__main__':
+    main()
