@@ -49,7 +49,8 @@ measure() {
 # 14 KB for the lines of an I/O map that are values, buses, modules and windows.
 # 4 KB for SPLIT_DATE and its kind, bytes the other way round, letters by numbers, labels in CASE, and edges in lists.
 # 13 KB for channels of analog values and the drivers pwm, w1 and hwmon.
-measure 'ladderd' 498688 '' CFLAGS=-O2
+# 5 KB for gateways: their services, and their points in the map.
+measure 'ladderd' 503808 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
