@@ -54,6 +54,21 @@ static void test_scaling(void)
 	CHECK(channel_raw(&channel, INT(-1)) == 18446744073709551616.0);
 }
 
+/* A file of the kernel that takes numbers up to 1000, as one of a converter does. */
+static void test_highest_step(void)
+{
+	struct cell cell = { .file = open("/proc/self/oom_score_adj", O_WRONLY) };
+
+	if (cell_write(&cell, 1000) != 0) {
+		printf("ok %d # SKIP no file that refuses a number\n", ++tap_count);
+		return;
+	}
+	CHECK_AS(cell_write(&cell, 1001) == 0, "one more than the highest step is that step");
+	CHECK_AS(cell_write(&cell, 1002) == -EINVAL, "two more are refused");
+	cell_write(&cell, 0);
+	close(cell.file);
+}
+
 /* ---- inputs of a gateway, in virtual time ---- */
 
 static void test_quality(void)
@@ -778,6 +793,7 @@ int main(void)
 	if (!sys_begin())
 		return 1;
 	test_scaling();
+	test_highest_step();
 	test_quality();
 	test_filter_and_threshold();
 	test_outputs_of_a_gateway();
