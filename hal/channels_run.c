@@ -46,10 +46,17 @@ bool device_denied(struct trouble *why, const char *name, const char *path)
 {
 	struct stat about;
 	struct group *group = NULL;
+	const char *end = path + strlen(path);
 
+	/* A message has no room for more than file and folder. */
+	for (int slashes = 0; end > path; end--) {
+		slashes += end[-1] == '/';
+		if (slashes == 2)
+			break;
+	}
 	if (stat(path, &about) == 0)
 		group = getgrgid(about.st_gid);
-	return trouble_set(why, DIAG_IO_DEVICE_DENIED, "%.30s" DIAG_AND "%s" DIAG_AND "%s", name, path,
+	return trouble_set(why, DIAG_IO_DEVICE_DENIED, "%.20s" DIAG_AND "%.28s" DIAG_AND "%s", name, end,
 			   group ? group->gr_name : "");
 }
 

@@ -751,7 +751,7 @@ static void test_denied(void)
 	chmod(sys_path(CHIP "/pwm1/duty_cycle"), 0444);
 	field_begin(&f);
 	add_pwm(&f, "%QW0", 1);
-	CHECK(!field_open(&f) && strstr(f.text, "LD551: \"pwmchip0\": no permission to use "));
+	CHECK(!field_open(&f) && strstr(f.text, "LD551: \"pwmchip0\": no permission to use pwm1/duty_cycle; its group is "));
 	field_end(&f);
 }
 
