@@ -521,8 +521,31 @@ static void offer_names(const struct io_uses *uses, GPtrArray *choices)
 			offer(choices, uses->use[i].name, "");
 }
 
+/* Devices of the driver of the row, each once; or the channels of its device. */
+static void offer_devices(const struct io_devices *devices, const struct io_text *io, int row, bool channels,
+			  GPtrArray *choices)
+{
+	char *of = row < 0 ? g_strdup("") : iomap_field(io, row, IO_DEVICE);
+	const char *last = NULL;
+
+	for (int i = 0; i < devices->count; i++) {
+		const struct io_device *device = &devices->device[i];
+
+		if (row >= 0 && !word_is(io, row, IO_WORD_DRIVER, device->driver))
+			continue;
+		if (channels ? *device->channel && (!*of || strcmp(device->device, of) == 0) :
+			       !last || strcmp(last, device->device) != 0)
+			offer(choices, channels ? device->channel : device->device, device->about);
+		last = device->device;
+	}
+	if (!choices->len)
+		offer(choices, "", _("this machine has none"));
+	g_free(of);
+}
+
 GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *machine,
-			 const struct io_text *io, int row, enum io_field field)
+			 const struct io_devices *devices, const struct io_text *io, int row,
+			 enum io_field field)
 {
 	GPtrArray *choices = g_ptr_array_new_with_free_func(g_free);
 	const char *const *word = io_text_choices(field);
@@ -531,6 +554,8 @@ GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *ma
 	case IO_ADDRESS: offer_addresses(uses, io, row, choices); break;
 	case IO_LINE: offer_lines(machine, choices); break;
 	case IO_DRIVER: offer_drivers(io, row, choices); break;
+	case IO_DEVICE: offer_devices(devices, io, row, false, choices); break;
+	case IO_CHANNEL: offer_devices(devices, io, row, true, choices); break;
 	case IO_BUS: offer_buses(io, row, choices); break;
 	case IO_TYPE: offer_modules(io, choices); break;
 	case IO_AS: offer_types(io, row, false, choices); break;
@@ -707,15 +732,56 @@ static bool make_pin(struct iomap_line *out, const struct io_text *io, const str
 	return true;
 }
 
-static bool make_analog(struct iomap_line *out, const struct io_text *io,
-			const struct io_check *check, int row, const char **why)
+static bool is_mapped(const struct io_text *io, const struct io_device *device)
 {
+	bool is = false;
+
+	for (int i = 0; i < io->count && !is; i++) {
+		char *name = iomap_field(io, i, IO_DEVICE), *channel = iomap_field(io, i, IO_CHANNEL);
+
+		is = word_is(io, i, IO_WORD_DRIVER, device->driver) && strcmp(name, device->device) == 0 &&
+		     strcmp(channel, device->channel) == 0;
+		g_free(name);
+		g_free(channel);
+	}
+	return is;
+}
+
+/* The first channel of this machine that no line has; NULL: none. */
+static const struct io_device *free_device(const struct io_devices *devices, const struct io_text *io,
+					   bool output)
+{
+	for (int i = 0; i < devices->count; i++)
+		if (devices->device[i].output == output && !strpbrk(devices->device[i].device, " \"") &&
+		    !is_mapped(io, &devices->device[i]))
+			return &devices->device[i];
+	return NULL;
+}
+
+static char *words_for(const struct io_device *device)
+{
+	if (strcmp(device->driver, "pwm") == 0)
+		return g_strdup_printf("chip=%s channel=%s period=20ms", device->device, device->channel);
+	if (strcmp(device->driver, "w1") == 0)
+		return g_strdup_printf("sensor=%s", device->device);
+	return g_strdup_printf("device=%s channel=%s", device->device, device->channel);
+}
+
+static bool make_analog(struct iomap_line *out, const struct io_text *io,
+			const struct io_check *check, const struct io_devices *devices, int row,
+			const char **why)
+{
+	const struct io_device *device;
+	struct io_values values;
 	char address[24];
 
 	*why = no_room();
 	if (!free_address(io, check, row, AREA_AI, 16, address, sizeof(address)))
 		return false;
-	line_set(out, row >= 0 ? row : last_on(io, IOMAP_ANALOG, AREA_NONE), address, "sim", g_strdup(""));
+	device = free_device(devices, io, io_values_read(address, strlen(address), &values) &&
+			     iec_area_row(values.first.area)->access == ACCESS_WRITE);
+	line_set(out, row >= 0 ? row : last_on(io, IOMAP_ANALOG, AREA_NONE), address,
+		 device ? device->driver : "sim", device ? words_for(device) : g_strdup(""));
 	return true;
 }
 
@@ -971,11 +1037,12 @@ static bool make_other(struct iomap_line *out, const struct io_uses *uses, const
 
 bool iomap_line_make(struct iomap_line *out, const struct io_uses *uses, const struct io_text *io,
 		     const struct io_check *check, const struct io_machine *machine,
-		     enum iomap_page page, enum io_kind kind, int row, const char **why)
+		     const struct io_devices *devices, enum iomap_page page, enum io_kind kind,
+		     int row, const char **why)
 {
 	*out = (struct iomap_line){ .behind = -1 };
 	switch (page) {
-	case IOMAP_ANALOG: return make_analog(out, io, check, row, why);
+	case IOMAP_ANALOG: return make_analog(out, io, check, devices, row, why);
 	case IOMAP_MODBUS: return make_modbus(out, io, check, row, why);
 	case IOMAP_PEERS: return make_peer(out, io, check, row, why);
 	case IOMAP_BUSES: case IOMAP_SERVED:

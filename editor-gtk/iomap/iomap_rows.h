@@ -9,6 +9,7 @@
 
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/document/iomap_check.h"
+#include "editor-gtk/document/iomap_devices.h"
 #include "editor-gtk/document/iomap_text.h"
 #include "editor-gtk/document/iomap_uses.h"
 #include "editor-gtk/kit/panel_row.h"
@@ -56,7 +57,8 @@ char *iomap_first_doubt(const struct io_check *check);
 /** iomap_choices - the values of a field to choose from: pairs of a text and its description.
  * @row: that the field is of; -1: of any. Caller: g_ptr_array_unref. */
 GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *machine,
-			 const struct io_text *io, int row, enum io_field field);
+			 const struct io_devices *devices, const struct io_text *io, int row,
+			 enum io_field field);
 
 /* ---- lines to add ---- */
 
@@ -73,7 +75,8 @@ struct iomap_line {
  */
 bool iomap_line_make(struct iomap_line *out, const struct io_uses *uses, const struct io_text *io,
 		     const struct io_check *check, const struct io_machine *machine,
-		     enum iomap_page page, enum io_kind kind, int row, const char **why);
+		     const struct io_devices *devices, enum iomap_page page, enum io_kind kind,
+		     int row, const char **why);
 /** iomap_line_for - the line of an address that the program uses. */
 void iomap_line_for(struct iomap_line *out, const struct io_text *io,
 		    const struct io_machine *machine, struct iec_addr addr);

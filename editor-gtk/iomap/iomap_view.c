@@ -32,6 +32,8 @@ struct _LadderIomapView {
 	struct iomap_live live;
 	struct panel_watch *watch;
 	struct io_machine machine;
+	struct io_devices devices;
+	bool looked;            /* for devices                                 */
 	struct io_uses uses;
 	guint64 version;        /* of the document that @uses is of, + 1; 0: none */
 	char *refused;          /* the last refusal; NULL: none                */
@@ -321,8 +323,8 @@ static void add_kind(LadderIomapView *view, enum io_kind kind)
 	bool good;
 
 	io_text_read(&io, text, strlen(text));
-	good = iomap_line_make(&line, &view->uses, &io, check, &view->machine, view->now, kind,
-			       selected(view), &why);
+	good = iomap_line_make(&line, &view->uses, &io, check, &view->machine, &view->devices,
+			       view->now, kind, selected(view), &why);
 	io_text_free(&io);
 	io_check_free(check);
 	g_free(text);
@@ -453,6 +455,55 @@ static void move_down(GtkWidget *widget, const char *action, GVariant *unused)
 	move(LADDER_IOMAP_VIEW(widget), 1);
 }
 
+static void devices_drop(gpointer data)
+{
+	struct io_devices *devices = data;
+
+	io_devices_free(devices);
+	g_free(devices);
+}
+
+static void look_thread(GTask *task, gpointer source, gpointer data, GCancellable *stop)
+{
+	struct io_devices *devices = g_new0(struct io_devices, 1);
+
+	(void)source, (void)data, (void)stop;
+	io_devices_look(devices, NULL);
+	g_task_return_pointer(task, devices, devices_drop);
+}
+
+static void looked(GObject *source, GAsyncResult *result, gpointer data)
+{
+	GWeakRef *ref = data;
+	LadderIomapView *view = g_weak_ref_get(ref);
+	struct io_devices *devices = g_task_propagate_pointer(G_TASK(result), NULL);
+
+	(void)source;
+	if (view && devices) {
+		io_devices_free(&view->devices);
+		view->devices = *devices;
+		g_free(devices);
+	} else if (devices) {
+		devices_drop(devices);
+	}
+	g_clear_object(&view);
+	g_weak_ref_clear(ref);
+	g_free(ref);
+}
+
+/* A sensor may take a second to answer. */
+static void look_for_devices(LadderIomapView *view)
+{
+	GWeakRef *ref = g_new0(GWeakRef, 1);
+	GTask *task;
+
+	g_weak_ref_init(ref, view);
+	view->looked = true;
+	task = g_task_new(NULL, NULL, looked, ref);
+	g_task_run_in_thread(task, look_thread);
+	g_object_unref(task);
+}
+
 static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
@@ -461,6 +512,7 @@ static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
 	(void)unused;
 	io_machine_free(&view->machine);
 	io_machine_look(&view->machine, NULL);
+	look_for_devices(view);
 	tell(view, NULL);
 }
 
@@ -670,7 +722,7 @@ static GPtrArray *choices_of(GObject *owner, int column)
 	io_text_read(&io, text, strlen(text));
 	if (row >= io.count)
 		row = -1;
-	choices = iomap_choices(&view->uses, &view->machine, &io, row,
+	choices = iomap_choices(&view->uses, &view->machine, &view->devices, &io, row,
 				iomap_column(view->now, column));
 	io_text_free(&io);
 	g_free(text);
@@ -698,6 +750,7 @@ static void ladder_iomap_view_finalize(GObject *object)
 	LadderIomapView *view = LADDER_IOMAP_VIEW(object);
 
 	io_machine_free(&view->machine);
+	io_devices_free(&view->devices);
 	io_uses_free(&view->uses);
 	g_free(view->refused);
 	g_free(view->said);
@@ -774,7 +827,7 @@ static bool has_choices(enum io_field field)
 static void let_leave(struct page *page, enum iomap_page number)
 {
 	static const enum io_field stay[] = { IO_ADDRESS, IO_DRIVER, IO_LINE, IO_DEVICE, IO_CHANNEL,
-					      IO_BUS, IO_UNIT, IO_TABLE, IO_NUMBER, IO_NAMES };
+					      IO_BUS, IO_UNIT, IO_TYPE, IO_TABLE, IO_NUMBER, IO_NAMES };
 	static const enum io_field pins[] = { IO_DRIVE, IO_PULL, IO_DEBOUNCE, IO_ACTIVE_LOW,
 					      IO_COMMENT, IO_SAFE };
 	GtkWidget *button = gtk_menu_button_new();
@@ -815,7 +868,8 @@ static void add_columns(struct page *page, enum iomap_page number, struct iomap_
 	for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
 		const enum io_field field = iomap_column(number, i);
 
-		if (has_choices(field) && !(field == IO_ADDRESS && !points))
+		if ((has_choices(field) && !(field == IO_ADDRESS && !points)) ||
+		    (number == IOMAP_ANALOG && (field == IO_DEVICE || field == IO_CHANNEL)))
 			page->cells.choosable |= 1u << i;
 		if (field == IO_ACTIVE_LOW || field == IO_ON_CHANGE)
 			page->cells.checks |= 1u << i;
@@ -917,6 +971,8 @@ static void turn(LadderIomapView *view)
 			view->now = (enum iomap_page)i;
 	}
 	show_kinds(view);
+	if (view->now == IOMAP_ANALOG && !view->looked)
+		look_for_devices(view);
 	tell(view, NULL);
 }
 
@@ -925,6 +981,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 
 	arena_init(&view->uses.arena);
+	arena_init(&view->devices.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);
 	iomap_live_init(&view->live);
