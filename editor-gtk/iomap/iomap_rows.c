@@ -168,11 +168,11 @@ static char *spoken(const LadderPanelRow *row, enum iomap_page page)
 		const char *part = is_check(columns[page][i]) && *panel_row_text(row, i) ?
 			io_field_name(columns[page][i]) : panel_row_text(row, i);
 
-		if (i == IO_DRIVER && *panel_row_text(row, IOMAP_SYMBOL))
-			g_string_append_printf(text, ", %s", panel_row_text(row, IOMAP_SYMBOL));
 		if (*part)
 			g_string_append_printf(text, "%s%s", i ? ", " : text->len ? " " : "", part);
 	}
+	if (*panel_row_text(row, IOMAP_SYMBOL))
+		g_string_append_printf(text, ", %s", panel_row_text(row, IOMAP_SYMBOL));
 	if (*panel_row_text(row, IOMAP_STATE))
 		g_string_append_printf(text, ". %s", panel_row_text(row, IOMAP_STATE));
 	return g_string_free(text, FALSE);
