@@ -159,8 +159,9 @@ bool iomap_check_program(const struct iomap *map, const struct program *program,
 	const struct areas *areas = &program->areas;
 	struct cover cover = { map, program, diags, arena_alloc(arena, areas->size),
 			       arena_alloc(arena, areas->size) };
+	const bool fits = iomap_fits(map, areas, diags);
 
-	if (!iomap_fits(map, areas, diags) | !check_net(map, program, arena, diags))
+	if (!check_net(map, program, arena, diags) || !fits)
 		return false;
 	if (!cover.mapped || !cover.named)
 		return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,

@@ -45,10 +45,13 @@ log=$tmp/log
 trap 'rm -rf "$tmp"' EXIT
 status=0
 # The gpio drivers are compiled against both libgpiods by the HAL tests.
+pkg-config --exists libmodbus && modbus= || modbus='runtime/modbus/*'
+pkg-config --exists libiio && iio= || iio=iio_libiio.c
+libraries=$(pkg-config --cflags libmodbus libiio 2>/dev/null || pkg-config --cflags libmodbus 2>/dev/null)
 # shellcheck disable=SC2086
-if find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' \
+if find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' ! -path "$modbus" ! -name "$iio" \
 	! -path 'tests/editor/*' ! -path 'tests/bench/editor*' ! -name 'gpio_find.c' ! -name room.c ! -name '*_small.c' -print0 |
-		all_at_once $cc $flags >"$log" 2>&1 &&
+		all_at_once $cc $flags $libraries >"$log" 2>&1 &&
 	find runtime -name '*_small.c' -print0 |
 		xargs -0 $cc -fsyntax-only $flags -DRUNGBOARD_SMALL >>"$log" 2>&1 &&
 	editor $cc >>"$log" 2>&1; then

@@ -29,7 +29,7 @@ sub errors_of {
 	my ($path) = @_;
 	my $json = `$ladder io --json '$path' 2>&1`;
 	my $said = eval { decode_json($json) } or return $json;
-	ok(scalar @{$said->{points}}, basename($path) . ': has points') or diag $json;
+	ok(@{$said->{points}} || slurp($path) =~ /^SERVE/m, basename($path) . ': has points') or diag $json;
 	return join ' ', map "$_->{code}:$_->{line}", grep { !$not_here{$_->{code}} } @{$said->{diagnostics}};
 }
 
