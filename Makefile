@@ -192,7 +192,7 @@ $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 MODBUS_LIB := $(if $(MODBUS),$(shell $(PKG_CONFIG) --libs libmodbus) -pthread)
 MODBUS_O := $(if $(MODBUS),$(call obj,$(wildcard runtime/modbus/*.c)))
 $(MODBUS_O): WARN += $(FRAME)
-$(MODBUS_O): CPPFLAGS += $(if $(MODBUS),$(shell $(PKG_CONFIG) --cflags libmodbus))
+$(MODBUS_O): override CPPFLAGS += $(if $(MODBUS),$(shell $(PKG_CONFIG) --cflags libmodbus))
 all: $(if $(MODBUS),$(BUILD)/ladder-modbus,$(if $(CROSS)$(filter 1,$(SMALL) $(STATIC)),,no-modbus))
 no-modbus: ; @echo "make: ladder-modbus is left out: it needs libmodbus" >&2
 .PHONY: no-modbus

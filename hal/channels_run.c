@@ -4,11 +4,11 @@
  */
 #define _GNU_SOURCE /* eventfd, PTHREAD_STACK_MIN */
 #include "hal/channel_cell.h"
+#include "hal/group.h"
 #include "hal/sysfs.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <grp.h>
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
@@ -45,7 +45,7 @@ static void nap(void)
 bool device_denied(struct trouble *why, const char *name, const char *path)
 {
 	struct stat about;
-	struct group *group = NULL;
+	char group[40] = "";
 	const char *end = path + strlen(path);
 
 	/* A message has no room for more than file and folder. */
@@ -55,9 +55,9 @@ bool device_denied(struct trouble *why, const char *name, const char *path)
 			break;
 	}
 	if (stat(path, &about) == 0)
-		group = getgrgid(about.st_gid);
+		group_print(about.st_gid, group, sizeof(group));
 	return trouble_set(why, DIAG_IO_DEVICE_DENIED, "%.20s" DIAG_AND "%.28s" DIAG_AND "%s", name, end,
-			   group ? group->gr_name : "");
+			   group);
 }
 
 void device_known(char *out, size_t size, const char *name)

@@ -5,9 +5,8 @@
  * up each time.
  */
 #include "hal/gpio.h"
+#include "hal/group.h"
 
-#include "engine/base/ascii.h"
-#include "engine/base/file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -26,7 +25,6 @@
 #define NO_GROUP    UINT_MAX /* this and UNSEEN are no group ids             */
 #define UNSEEN      (UINT_MAX - 1)
 #define GROUP_OPENS (S_IRGRP | S_IWGRP)
-#define GROUPS_MOST (1u << 20) /* bytes of /etc/group                           */
 
 /* "/dev/gpiochip3". */
 static void gpio_path(const char *dev, int chip, char *out, size_t size)
@@ -106,45 +104,6 @@ static int chip_after(const char *dev, int last)
 	}
 	closedir(folder);
 	return best;
-}
-
-/* Whether "gpio:x:993:user" is the line of group @id; cuts it to "gpio". */
-static bool is_group(char *line, unsigned int id)
-{
-	char *end = strchr(line, ':'), *at;
-	unsigned int number = 0;
-
-	if (!end)
-		return false;
-	*end = 0;
-	at = strchr(end + 1, ':');
-	if (!at || !ascii_digit(at[1]))
-		return false;
-	for (at++; ascii_digit(*at); at++)
-		number = number * 10 + (unsigned int)(*at - '0');
-	return number == id;
-}
-
-/* getgrgid() needs the shared C library even in a static program. */
-static void group_print(unsigned int id, char *out, size_t size)
-{
-	size_t len;
-	char *groups = file_read("/etc/group", GROUPS_MOST, &len, NULL);
-	char *line = groups, *found = NULL;
-
-	while (line && *line && !found) {
-		char *end = strchr(line, '\n');
-
-		if (end)
-			*end = '\0';
-		found = is_group(line, id) ? line : NULL;
-		line = end ? end + 1 : NULL;
-	}
-	if (found)
-		snprintf(out, size, "(%.31s)", found);
-	else
-		snprintf(out, size, "(%u)", id);
-	free(groups);
 }
 
 /* Chips without permission, sorted by group; chips that no group may open are last. */
