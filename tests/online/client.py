@@ -294,7 +294,7 @@ class Client:
         found['speed'] = it.number('I')
         found['began'] = it.number('B'), it.number('H'), it.number('I')
         found['gateways'] = {}
-        for _ in range(it.number('B')):
+        for _ in range(it.number('B') if it.rest() else 0):  # a small board has none
             driver = it.text()
             found['gateways'][driver] = {
                 'runs': it.number('B') == 1, 'points': it.number('I'), 'user': it.text(), 'text': it.text(),

@@ -248,5 +248,5 @@ enum fn_status fn_LETTER_NUMBER(struct fn_args *args)
 	for (uint32_t i = 1; i < len; i++)
 		number = number << 6 | ((uint8_t)s->text[i] & 0x3f);
 	args->out.i = number;
-	return number >> (8 * iec_type_row(args->result)->size - 1) > 1 ? FN_FAILED : FN_OK;
+	return (uint64_t)number >> (8 * iec_type_row(args->result)->size - 1) > 1 ? FN_FAILED : FN_OK;
 }
