@@ -594,10 +594,11 @@ static void stop_outputs(struct channels *channels)
 
 void channels_close(struct channels *channels)
 {
-	const int64_t end_ns = clock_now() + END_NS;
+	int64_t end_ns;
 
 	if (!channels)
 		return;
+	end_ns = clock_now() + END_NS;
 	atomic_store(&channels->ending, true);
 	for (int i = 0; i < channels->runner_count; i++)
 		for (int k = 0; k < channels->count; k++)
