@@ -313,18 +313,41 @@ WINDOW plc input-register=0..3 %IW0 read-only
 '''
 
 
+def take(stream, count):
+    got = b''
+    while len(got) < count:
+        more = stream.recv(count - len(got))
+        if not more:
+            raise ConnectionResetError('the server has closed the connection')
+        got += more
+    return got
+
+
 def exchange(stream, pdu, unit=1):
     """One request of TCP as bytes; the PDU that comes back."""
     stream.sendall(struct.pack('>HHHB', 7, 0, len(pdu) + 1, unit) + pdu)
-    head = b''
-    while len(head) < 7:
-        head += stream.recv(7 - len(head))
-    number, protocol, length, answered = struct.unpack('>HHHB', head)
+    number, protocol, length, answered = struct.unpack('>HHHB', take(stream, 7))
     assert (number, protocol, answered) == (7, 0, unit)
-    body = b''
-    while len(body) < length - 1:
-        body += stream.recv(length - 1 - len(body))
-    return body
+    return take(stream, length - 1)
+
+
+def joined(port):
+    """A connection that is served. One that was closed a moment ago may still count."""
+    def connect():
+        stream = None
+        try:
+            stream = socket.create_connection(('127.0.0.1', port))
+            stream.settimeout(20)
+            exchange(stream, b'\x03\x00\x00\x00\x01')
+            return stream
+        except OSError:
+            if stream:
+                stream.close()
+            return None
+
+    stream = until(connect)
+    assert stream, 'no connection is served'
+    return stream
 
 
 def test_masters_see_and_change_what_the_map_declares():
@@ -359,8 +382,7 @@ def test_masters_see_and_change_what_the_map_declares():
 
 
 def contain(port):
-    with socket.create_connection(('127.0.0.1', port)) as stream:
-        stream.settimeout(20)
+    with joined(port) as stream:
         before = exchange(stream, b'\x03\x00\x00\x00\x04')
         changed = 0
         for function in list(range(1, 128)):
@@ -388,7 +410,7 @@ def contain(port):
 
 def limits(port):
     """More connections than the map allows, bytes that are no Modbus, and a frame that comes byte by byte."""
-    with socket.create_connection(('127.0.0.1', port)) as one, socket.create_connection(('127.0.0.1', port)) as two:
+    with joined(port) as one, joined(port) as two:
         assert exchange(one, b'\x03\x00\x00\x00\x01') and exchange(two, b'\x03\x00\x00\x00\x01')
         with socket.create_connection(('127.0.0.1', port)) as three:
             three.settimeout(20)
@@ -410,14 +432,7 @@ def test_other_programs_and_other_maps():
     """A download of a program with the same map cuts no connection; one with another map begins anew."""
     port = free_port()
     with Board(PUMP, pump_map(port), '--slots', '.') as it:
-        def connect():
-            try:
-                return socket.create_connection(('127.0.0.1', port))
-            except OSError:
-                return None
-
-        stream = until(connect)
-        stream.settimeout(20)
+        stream = joined(port)
         exchange(stream, b'\x06\x00\x00\x00\x04')
         assert exchange(stream, b'\x01\x00\x00\x00\x01') == b'\x01\x01\x00'
         it.write('other.rung', PUMP.replace('Wanted > 5', 'Wanted > 3'))
@@ -427,7 +442,7 @@ def test_other_programs_and_other_maps():
         said = it.command('download', 'other.rung', 'wide.io', '--yes')
         assert until(lambda: stream.recv(1) == b''), said
         stream.close()
-        stream = until(connect)
+        stream = joined(port)
         assert exchange(stream, b'\x03\x00\x04\x00\x01')[0] == 3
         stream.close()
 
