@@ -108,6 +108,17 @@ struct io_window {
 	int text_line, text_column;
 };
 
+/* DEVICE plant unit=3 read-registers=50 write-registers=20 gap=0 together
+ * What a device takes in one request, if it is less than Modbus allows. 0: as Modbus allows. */
+struct io_takes {
+	int bus;
+	uint16_t unit_id;      /* 0 … 247                                      */
+	uint16_t read_words, write_words, read_bits, write_bits;
+	int16_t gap_words;     /* registers that nobody wants and that a read takes along; -1: as usual */
+	bool together;         /* function 23 reads and writes in one request  */
+	int text_line, text_column;
+};
+
 /* PUBLISH pump-house Level, Running every=100ms bus=yard */
 struct io_publish {
 	int bus;
@@ -124,6 +135,8 @@ struct io_net {
 	int bus_count;
 	struct io_serve *serve;
 	int serve_count;
+	struct io_takes *takes;
+	int takes_count;
 	struct io_window *window;
 	int window_count;
 	struct io_publish *publish;

@@ -9,6 +9,7 @@
 #include "engine/base/literal.h"
 #include "engine/scan/image.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -566,6 +567,85 @@ static void read_publish_line(struct reader *reader, const struct map_word *firs
 	}
 }
 
+/* ---- DEVICE ---- */
+
+static const struct {
+	const char *name, *form;
+	uint32_t most, least;
+	size_t at;            /* of its number in struct io_takes               */
+} device_options[] = {
+	{ "unit", "unit=3", 247, 0, offsetof(struct io_takes, unit_id) },
+	{ "read-registers", "read-registers=50", 125, 1, offsetof(struct io_takes, read_words) },
+	{ "write-registers", "write-registers=20", 123, 1, offsetof(struct io_takes, write_words) },
+	{ "read-coils", "read-coils=256", 2000, 1, offsetof(struct io_takes, read_bits) },
+	{ "write-coils", "write-coils=16", 1968, 1, offsetof(struct io_takes, write_bits) },
+	{ "gap", "gap=0", 124, 0, offsetof(struct io_takes, gap_words) },
+};
+enum { DEVICE_OPTIONS = sizeof(device_options) / sizeof(*device_options) };
+
+static void read_device_word(struct reader *reader, struct io_takes *device,
+			     const struct option_word *option, unsigned *seen)
+{
+	uint16_t number;
+	uint32_t count;
+	int i = 0;
+
+	while (i < DEVICE_OPTIONS && !option_is(option, device_options[i].name))
+		i++;
+	if (i == DEVICE_OPTIONS && !(option_is(option, "together") && !option->value))
+		complain_form(reader, &option->word, "unit=3, read-registers=50, write-registers=20, "
+			      "read-coils=256, write-coils=16, gap=0 or together");
+	else if (*seen & 1u << i)
+		complain(reader, DIAG_IO_OPTION_TWICE, &option->word);
+	else if (i == DEVICE_OPTIONS)
+		device->together = true;
+	else if (!option->value || !read_count(option->value, option->len, device_options[i].most, &count) ||
+		 count < device_options[i].least)
+		complain_form(reader, &option->word, device_options[i].form);
+	else {
+		number = (uint16_t)count;
+		memcpy((char *)device + device_options[i].at, &number, sizeof(number));
+	}
+	*seen |= 1u << i;
+}
+
+static bool device_is_twice(const struct io_net *net, const struct io_takes *device)
+{
+	for (int i = 0; i < net->takes_count; i++)
+		if (net->takes[i].bus == device->bus && net->takes[i].unit_id == device->unit_id)
+			return true;
+	return false;
+}
+
+static void read_device_line(struct reader *reader, const struct map_word *first)
+{
+	struct io_net *net = &reader->net->net;
+	struct io_takes device = { .gap_words = -1, .text_line = first->line, .text_column = first->column };
+	struct io_takes *kept;
+	struct map_word bus = { "", 0, 0, 0, false };
+	struct option_word option;
+	const int before = reader->errors;
+	unsigned seen = 0;
+
+	if (next_word(reader, &bus))
+		device.bus = find_bus(net, bus.text, bus.len);
+	while (next_option(reader, &option))
+		read_device_word(reader, &device, &option, &seen);
+	if (reader->errors != before)
+		return;
+	if (!bus.len || !(seen & 1u))
+		complain_form(reader, first, "DEVICE plant unit=3 read-registers=50");
+	else if (device.bus < 0 || net->bus[device.bus].kind == BUS_PEER)
+		complain_about(reader, DIAG_IO_NO_BUS, &bus, "BUS");
+	else if (device_is_twice(net, &device))
+		complain(reader, DIAG_IO_BUS_TWICE, first);
+	else {
+		kept = arena_push(reader->arena, &net->takes, &net->takes_count, sizeof(*kept));
+		if (kept)
+			*kept = device;
+	}
+}
+
 /* ---- MODULE ---- */
 
 static const struct module_type known_modules[] = {
@@ -640,7 +720,7 @@ bool read_statement(struct reader *reader, const struct map_word *word)
 		void (*read)(struct reader *reader, const struct map_word *first);
 	} statements[] = {
 		{ "BUS", read_bus_line }, { "SERVE", read_serve_line }, { "WINDOW", read_window_line },
-		{ "PUBLISH", read_publish_line }, { "MODULE", read_module_line },
+		{ "DEVICE", read_device_line }, { "PUBLISH", read_publish_line }, { "MODULE", read_module_line },
 	};
 
 	for (size_t i = 0; i < sizeof(statements) / sizeof(*statements); i++) {

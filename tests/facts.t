@@ -465,6 +465,10 @@ for (['value', $channel_options], ['bus', $bus_options]) {
 	my %row = map { $_ => 1 } $rows =~ /\{ "([a-z-]+)",/g;
 	list_is("docs/field.md: the options of a $kind", [keys %said], [keys %row]);
 }
+my ($takes_options) = slurp('hal/iomap_net.c') =~ /^\} device_options\[\] = \{(.*?)^\};/ms;
+my ($takes_table) = $text{'docs/field.md'} =~ /^\| option of a device \|.*?\n(.*?)\n\n/ms;
+list_is('docs/field.md: the options of a device', [map { s/=.*//r } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $takes_table],
+	['together', $takes_options =~ /\{ "([a-z-]+)",/g]);
 my ($modules) = $text{'docs/field.md'} =~ /^\| type \| digital inputs.*?\n(.*?)\n\n/ms;
 is(join(' ', $modules =~ /^\| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \|/mg),
 	join(' ', slurp('hal/modules.def') =~ /^MODULE\((\w+), (\d+), (\d+), (\d+), 0\)/mg), 'docs/field.md: the modules');

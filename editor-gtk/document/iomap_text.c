@@ -80,6 +80,10 @@ static const struct { const char *name; enum io_word word; bool has_value; } opt
 	{ "timeout", IO_WORD_TIMEOUT, true }, { "every", IO_WORD_EVERY, true },
 	{ "bus", IO_WORD_BUS, true }, { "unit", IO_WORD_UNIT, true },
 	{ "connections", IO_WORD_CONNECTIONS, true }, { "rate", IO_WORD_RATE, true },
+	{ "read-registers", IO_WORD_READ_REGISTERS, true },
+	{ "write-registers", IO_WORD_WRITE_REGISTERS, true },
+	{ "read-coils", IO_WORD_READ_COILS, true }, { "write-coils", IO_WORD_WRITE_COILS, true },
+	{ "gap", IO_WORD_GAP, true }, { "together", IO_WORD_TOGETHER, false },
 	{ "type", IO_WORD_TYPE, true }, { "di", IO_WORD_DI, true }, { "dq", IO_WORD_DQ, true },
 	{ "ai", IO_WORD_AI, true }, { "aq", IO_WORD_AQ, true },
 	{ "coil", IO_WORD_COIL, true }, { "discrete-input", IO_WORD_DISCRETE_INPUT, true },
@@ -110,7 +114,7 @@ static enum io_word kind_of(const struct word *word)
 const char *io_kind_word(enum io_kind kind)
 {
 	static const char *const words[IO_KINDS] = { "", "BUS", "SERVE", "WINDOW", "PUBLISH",
-						     "MODULE" };
+						     "MODULE", "DEVICE" };
 
 	return words[kind];
 }
@@ -136,6 +140,7 @@ static enum io_word fixed_word(enum io_kind kind, int number)
 		[IO_KIND_WINDOW] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
 		[IO_KIND_PUBLISH] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
 		[IO_KIND_MODULE] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
+		[IO_KIND_DEVICE] = { IO_WORD_STATEMENT, IO_WORD_ADDRESS, IO_WORDS },
 	};
 
 	return number < FIXED ? words[kind][number] : IO_WORDS;
@@ -454,6 +459,12 @@ static const struct field_row {
 	[IO_FIRST_DQ] = { N_("First DQ"), IO_WORD_COIL, "coil=" },
 	[IO_FIRST_AI] = { N_("First AI"), IO_WORD_INPUT_REGISTER, "input-register=" },
 	[IO_FIRST_AQ] = { N_("First AQ"), IO_WORD_HOLDING_REGISTER, "holding-register=" },
+	[IO_READ_REGISTERS] = { N_("Registers a read"), IO_WORD_READ_REGISTERS, "read-registers=" },
+	[IO_WRITE_REGISTERS] = { N_("Registers a write"), IO_WORD_WRITE_REGISTERS, "write-registers=" },
+	[IO_READ_COILS] = { N_("Coils a read"), IO_WORD_READ_COILS, "read-coils=" },
+	[IO_WRITE_COILS] = { N_("Coils a write"), IO_WORD_WRITE_COILS, "write-coils=" },
+	[IO_GAP] = { N_("Gap"), IO_WORD_GAP, "gap=" },
+	[IO_TOGETHER] = { N_("Together"), IO_WORD_TOGETHER, "together" },
 	[IO_COMMENT] = { N_("Comment"), IO_WORDS, "" },
 };
 
@@ -530,6 +541,8 @@ static const enum io_field *fields_of(enum io_kind kind)
 	static const enum io_field publish[] = { IO_NAMES, IO_EVERY, IO_BUS, IO_FIELDS };
 	static const enum io_field module[] = { IO_DI, IO_DQ, IO_AI, IO_AQ, IO_FIRST_DI,
 		IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ, IO_FIELDS };
+	static const enum io_field device[] = { IO_UNIT, IO_READ_REGISTERS, IO_WRITE_REGISTERS,
+		IO_READ_COILS, IO_WRITE_COILS, IO_GAP, IO_TOGETHER, IO_FIELDS };
 
 	switch (kind) {
 	case IO_KIND_BUS: return bus;
@@ -537,6 +550,7 @@ static const enum io_field *fields_of(enum io_kind kind)
 	case IO_KIND_WINDOW: return window;
 	case IO_KIND_PUBLISH: return publish;
 	case IO_KIND_MODULE: return module;
+	case IO_KIND_DEVICE: return device;
 	case IO_KIND_POINT: case IO_KINDS: break;
 	}
 	return NULL;
@@ -662,9 +676,9 @@ static size_t put_range(const struct io_text *io, const struct io_row *row, char
 	return len + 4 + at->len;
 }
 
-static bool is_flag(enum io_field field)
+bool io_field_is_flag(enum io_field field)
 {
-	return field == IO_ACTIVE_LOW || field == IO_ON_CHANGE;
+	return field == IO_ACTIVE_LOW || field == IO_ON_CHANGE || field == IO_TOGETHER;
 }
 
 /* Names stand in quotes if they must. */
@@ -680,7 +694,7 @@ static size_t put_word(const struct io_text *io, const struct io_row *row, enum 
 {
 	const struct io_span *word = &row->word[word_of(row, field)];
 
-	if (is_flag(field)) {
+	if (io_field_is_flag(field)) {
 		out[0] = '1';
 		return word->len > 0;
 	}
@@ -1099,7 +1113,7 @@ const char *const *io_text_choices(enum io_field field)
 	static const char *const access[] = { "read-only", "read-write", NULL };
 	static const char *const *const words[IO_FIELDS] = {
 		[IO_PULL] = pull, [IO_DRIVE] = drive, [IO_SAFE] = safe,
-		[IO_SUBSTITUTE] = substitute, [IO_ACTIVE_LOW] = yes, [IO_ON_CHANGE] = yes,
+		[IO_SUBSTITUTE] = substitute, [IO_ACTIVE_LOW] = yes, [IO_ON_CHANGE] = yes, [IO_TOGETHER] = yes,
 		[IO_TABLE] = table, [IO_WORD_ORDER] = order, [IO_BYTE_ORDER] = order,
 		[IO_PARITY] = parity, [IO_BAUD] = baud, [IO_STOP_BITS] = bits,
 		[IO_ACCESS] = access,
@@ -1128,7 +1142,7 @@ static bool is_strict(const struct io_text *io, const struct io_row *row, enum i
 		       io_values_read(io->text + address->at, address->len, &values) &&
 		       values.first.bits == 1;
 	return field == IO_PULL || field == IO_DRIVE || field == IO_TABLE || field == IO_ACCESS ||
-	       is_flag(field);
+	       io_field_is_flag(field);
 }
 
 static bool is_fixed(const struct io_row *row, enum io_word word)
@@ -1165,7 +1179,7 @@ static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 		return IO_BAD_NAME;
 	if (!*value && is_fixed(row, word_of(row, field)))
 		return IO_EMPTY;
-	if (*value && is_flag(field))
+	if (*value && io_field_is_flag(field))
 		snprintf(word, sizeof(word), "%s", before);
 	else if (*value && is_name(row, field)) {
 		snprintf(word, sizeof(word), "%s", before);

@@ -17,7 +17,8 @@
 /* What a line is about. */
 enum io_kind {
 	IO_KIND_POINT,   /* and whatever is none of the others                 */
-	IO_KIND_BUS, IO_KIND_SERVE, IO_KIND_WINDOW, IO_KIND_PUBLISH, IO_KIND_MODULE, IO_KINDS
+	IO_KIND_BUS, IO_KIND_SERVE, IO_KIND_WINDOW, IO_KIND_PUBLISH, IO_KIND_MODULE, IO_KIND_DEVICE,
+	IO_KINDS
 };
 
 enum io_field {
@@ -45,6 +46,8 @@ enum io_field {
 	IO_EVERY,
 	IO_DI, IO_DQ, IO_AI, IO_AQ, /* of a MODULE, and where they begin:      */
 	IO_FIRST_DI, IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ,
+	IO_READ_REGISTERS, IO_WRITE_REGISTERS, IO_READ_COILS, IO_WRITE_COILS, IO_GAP, /* of a DEVICE */
+	IO_TOGETHER,   /* "1" or ""                                            */
 	IO_COMMENT,    /* behind # or //, without blanks around it             */
 	IO_FIELDS
 };
@@ -53,7 +56,7 @@ struct io_span { size_t at, len; }; /* bytes of the text; len 0: missing        
 
 /* Words of a line that mean something, in the usual order. */
 enum io_word {
-	IO_WORD_STATEMENT, /* BUS, SERVE, WINDOW, PUBLISH, MODULE               */
+	IO_WORD_STATEMENT, /* BUS, SERVE, WINDOW, PUBLISH, MODULE, DEVICE       */
 	IO_WORD_ADDRESS,   /* or name                                          */
 	IO_WORD_DRIVER, IO_WORD_LINE, IO_WORD_CHIP, IO_WORD_OFFSET,
 	IO_WORD_PULL, IO_WORD_ACTIVE_LOW, IO_WORD_DEBOUNCE, IO_WORD_DRIVE,
@@ -61,7 +64,8 @@ enum io_word {
 	IO_WORD_PERIOD, IO_WORD_PORT, IO_WORD_BAUD, IO_WORD_PARITY, IO_WORD_STOP_BITS,
 	IO_WORD_HOST, IO_WORD_LISTEN, IO_WORD_INTERFACE, IO_WORD_GROUP, IO_WORD_TIMEOUT,
 	IO_WORD_NAMES, IO_WORD_EVERY, IO_WORD_BUS, IO_WORD_UNIT, IO_WORD_CONNECTIONS,
-	IO_WORD_RATE, IO_WORD_TYPE, IO_WORD_DI, IO_WORD_DQ, IO_WORD_AI, IO_WORD_AQ,
+	IO_WORD_RATE, IO_WORD_READ_REGISTERS, IO_WORD_WRITE_REGISTERS, IO_WORD_READ_COILS,
+	IO_WORD_WRITE_COILS, IO_WORD_GAP, IO_WORD_TOGETHER, IO_WORD_TYPE, IO_WORD_DI, IO_WORD_DQ, IO_WORD_AI, IO_WORD_AQ,
 	IO_WORD_COIL, IO_WORD_DISCRETE_INPUT, IO_WORD_INPUT_REGISTER, IO_WORD_HOLDING_REGISTER,
 	IO_WORD_SHOWN,     /* the address of a WINDOW                          */
 	IO_WORD_ACCESS, IO_WORD_BIT, IO_WORD_AS, IO_WORD_RAW, IO_WORD_WORD_ORDER,
@@ -122,6 +126,8 @@ void io_text_free(struct io_text *io);
 char *io_text_field(const struct io_text *io, int row, enum io_field field);
 /** io_field_name - title of a column, translated. */
 const char *io_field_name(enum io_field field);
+/** io_field_is_flag - it has no value: "1" or "". */
+bool io_field_is_flag(enum io_field field);
 /** io_text_board - the name of the board, without quotes. As io_text_field. */
 char *io_text_board(const struct io_text *io);
 

@@ -28,7 +28,8 @@ static const enum io_field columns[IOMAP_PAGES][IOMAP_KIND] = {
 		IO_SUBSTITUTE, IO_AS, IO_COMMENT, IO_FIELDS },
 	[IOMAP_BUSES] = { IO_ADDRESS, IO_DRIVER, IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS, IO_HOST,
 		IO_INTERFACE, IO_GROUP, IO_TIMEOUT, IO_DI, IO_DQ, IO_AI, IO_AQ, IO_FIRST_DI,
-		IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ, IO_COMMENT, IO_FIELDS },
+		IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ, IO_UNIT, IO_READ_REGISTERS, IO_WRITE_REGISTERS,
+		IO_READ_COILS, IO_WRITE_COILS, IO_GAP, IO_TOGETHER, IO_COMMENT, IO_FIELDS },
 	[IOMAP_SERVED] = { IO_ADDRESS, IO_DRIVER, IO_BUS, IO_TABLE, IO_NUMBER, IO_ACCESS, IO_NAMES,
 		IO_EVERY, IO_LISTEN, IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS, IO_UNIT,
 		IO_CONNECTIONS, IO_RATE, IO_COMMENT, IO_FIELDS },
@@ -106,7 +107,7 @@ enum iomap_page iomap_page_of(const struct io_text *io, int row)
 	static const char *const analog[] = { "iio", "pwm", "w1", "hwmon" };
 
 	switch (io->row[row].kind) {
-	case IO_KIND_BUS: case IO_KIND_MODULE: return IOMAP_BUSES;
+	case IO_KIND_BUS: case IO_KIND_MODULE: case IO_KIND_DEVICE: return IOMAP_BUSES;
 	case IO_KIND_SERVE: case IO_KIND_WINDOW: case IO_KIND_PUBLISH: return IOMAP_SERVED;
 	case IO_KIND_POINT: case IO_KINDS: break;
 	}
@@ -155,17 +156,12 @@ static void fill_note(LadderPanelRow *row, const struct diag *diag, bool warns)
 	row->tone = warns ? PANEL_WARNING : PANEL_ERROR;
 }
 
-static bool is_check(enum io_field field)
-{
-	return field == IO_ACTIVE_LOW || field == IO_ON_CHANGE;
-}
-
 static char *spoken(const LadderPanelRow *row, enum iomap_page page)
 {
 	GString *text = g_string_new(panel_row_text(row, IOMAP_KIND));
 
 	for (int i = 0; columns[page][i] != IO_FIELDS; i++) {
-		const char *part = is_check(columns[page][i]) && *panel_row_text(row, i) ?
+		const char *part = io_field_is_flag(columns[page][i]) && *panel_row_text(row, i) ?
 			io_field_name(columns[page][i]) : panel_row_text(row, i);
 
 		if (*part)
@@ -1007,6 +1003,30 @@ static bool make_publish(struct iomap_line *out, const struct io_uses *uses, con
 	return bus >= 0;
 }
 
+/* The first unit of the first bus of Modbus that has no line of its own. */
+static bool make_device(struct iomap_line *out, const struct io_text *io, const char **why)
+{
+	const int bus = bus_row(io, false);
+	char *name = bus >= 0 ? iomap_field(io, bus, IO_ADDRESS) : NULL;
+	unsigned unit = 1;
+
+	*why = _("The map has no bus for Modbus: add one on the page Buses first");
+	for (int i = 0; name && i < io->count; i++) {
+		char *of = iomap_field(io, i, IO_ADDRESS), *number = iomap_field(io, i, IO_UNIT);
+		const unsigned is = (unsigned)g_ascii_strtoull(number, NULL, 10);
+
+		if (io->row[i].kind == IO_KIND_DEVICE && strcmp(of, name) == 0 && is >= unit)
+			unit = is + 1;
+		g_free(of);
+		g_free(number);
+	}
+	if (name)
+		line_set(out, MAX(bus, last_of(io, IO_KIND_DEVICE)), "DEVICE", name,
+			 g_strdup_printf("unit=%u", MIN(unit, 247)));
+	g_free(name);
+	return bus >= 0;
+}
+
 /* What comes next on a page whose lines are no points. */
 static enum io_kind kind_for(const struct io_text *io, enum iomap_page page, int row)
 {
@@ -1029,6 +1049,7 @@ static bool make_other(struct iomap_line *out, const struct io_uses *uses, const
 		return true;
 	case IO_KIND_WINDOW: return make_window(out, io, row, why);
 	case IO_KIND_PUBLISH: return make_publish(out, uses, io, why);
+	case IO_KIND_DEVICE: return make_device(out, io, why);
 	case IO_KIND_BUS: case IO_KIND_POINT: case IO_KINDS: break;
 	}
 	make_named(out, io, IO_KIND_BUS, last_of(io, IO_KIND_BUS), "bus", "modbus-tcp  host=127.0.0.1:502");

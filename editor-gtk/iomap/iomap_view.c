@@ -818,8 +818,7 @@ static bool has_choices(enum io_field field)
 	switch ((int)field) {
 	case IO_ADDRESS: case IO_DRIVER: case IO_LINE: case IO_BUS: case IO_TYPE: case IO_AS:
 	case IO_RAW: case IO_NAMES: return true;
-	case IO_ACTIVE_LOW: case IO_ON_CHANGE: return false;
-	default: return io_text_choices(field);
+	default: return !io_field_is_flag(field) && io_text_choices(field);
 	}
 }
 
@@ -871,7 +870,7 @@ static void add_columns(struct page *page, enum iomap_page number, struct iomap_
 		if ((has_choices(field) && !(field == IO_ADDRESS && !points)) ||
 		    (number == IOMAP_ANALOG && (field == IO_DEVICE || field == IO_CHANNEL)))
 			page->cells.choosable |= 1u << i;
-		if (field == IO_ACTIVE_LOW || field == IO_ON_CHANGE)
+		if (io_field_is_flag(field))
 			page->cells.checks |= 1u << i;
 	}
 	for (int i = 0; iomap_column(number, i) != IO_FIELDS; i++) {
@@ -939,6 +938,7 @@ static void show_kinds(LadderIomapView *view)
 	static const struct { enum iomap_page page; enum io_kind kind; const char *name; } row[] = {
 		{ IOMAP_BUSES, IO_KIND_BUS, N_("Add a bus") },
 		{ IOMAP_BUSES, IO_KIND_MODULE, N_("Add a type of module") },
+		{ IOMAP_BUSES, IO_KIND_DEVICE, N_("Add what a device takes") },
 		{ IOMAP_SERVED, IO_KIND_SERVE, N_("Add a server") },
 		{ IOMAP_SERVED, IO_KIND_WINDOW, N_("Add a window of a server") },
 		{ IOMAP_SERVED, IO_KIND_PUBLISH, N_("Add variables for other boards") },

@@ -24,10 +24,9 @@ bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field
 	memset(bus, 0, sizeof(*bus));
 	bus->map = map;
 	bus->number = number;
-	bus->limits = plan_usual;
 	bus->field = field;
 	bus->wire = wire;
-	if (!plan_make(&bus->plan, map, number, &bus->limits))
+	if (!plan_make(&bus->plan, map, number, &plan_usual))
 		return false;
 	bus->ask = calloc((size_t)bus->plan.items + 1, sizeof(*bus->ask));
 	bus->sent = calloc((size_t)bus->plan.items + 1, sizeof(*bus->sent));
@@ -37,6 +36,7 @@ bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field
 	}
 	for (int i = 0; i < 256; i++) {
 		bus->unit[i].id = (uint8_t)i;
+		bus->limits[i] = plan_limits_of(&plan_usual, map->net, number, (uint8_t)i);
 		bus->unit[i].late_ns = wire.numbered ? 0 : late_ns > UNIT_LATE_NS ? late_ns : UNIT_LATE_NS;
 	}
 	for (int i = 0; i < bus->plan.asks; i++) {
@@ -225,13 +225,24 @@ static void take_answer(struct bus *bus, const struct plan_ask *ask, const struc
 	field_wake(bus->field);
 }
 
+/* @before_ns: when it was asked. */
+static void take_read(struct bus *bus, int number, const struct pdu *answer, int64_t before_ns)
+{
+	const struct plan_ask *ask = &bus->plan.ask[number];
+	struct bus_ask *state = &bus->ask[number];
+	const int64_t next_ns = state->due_ns + ask->period_ns;
+
+	take_answer(bus, ask, answer);
+	/* What is too late is left out, not caught up. */
+	state->due_ns = next_ns > before_ns ? next_ns : before_ns + (state->due_ns ? 0 : ask->period_ns);
+}
+
 static void do_read(struct bus *bus, int number)
 {
 	const struct plan_ask *ask = &bus->plan.ask[number];
 	struct bus_ask *state = &bus->ask[number];
 	const int64_t before_ns = bus->wire.now(bus->wire.context);
 	struct pdu request, answer;
-	int64_t next_ns;
 	int exception;
 
 	pdu_read(&request, ask->table, ask->first, ask->count);
@@ -239,10 +250,7 @@ static void do_read(struct bus *bus, int number)
 	case FAILED:
 		return;
 	case GOOD:
-		take_answer(bus, ask, &answer);
-		next_ns = state->due_ns + ask->period_ns;
-		/* What is too late is left out, not caught up. */
-		state->due_ns = next_ns > before_ns ? next_ns : before_ns + (state->due_ns ? 0 : ask->period_ns);
+		take_read(bus, number, &answer, before_ns);
 		return;
 	case REFUSED:
 		if (is_of_address(exception) && split(bus, number))
@@ -391,6 +399,71 @@ static void take_written(struct bus *bus, int from, int to, const struct load *l
 	field_wake(bus->field);
 }
 
+/* Whether a write may take a read along. */
+static bool may_go_together(const struct bus *bus, int number)
+{
+	const struct plan_ask *ask = &bus->plan.ask[number];
+
+	return ask->output && ask->table == TABLE_HOLDING_REGISTER && bus->plan.item[ask->from].bit < 0 &&
+	       bus->limits[ask->unit].together && !bus->unit[ask->unit].no_both && !bus->ask[number].apart;
+}
+
+/* The write of registers that takes the read @number along; -1: none is due. */
+static int write_with(const struct bus *bus, int number)
+{
+	const struct plan_ask *read = &bus->plan.ask[number];
+
+	for (int i = 0; i < bus->plan.asks && read->table == TABLE_HOLDING_REGISTER; i++)
+		if (bus->plan.ask[i].unit == read->unit && bus->ask[i].changed && may_go_together(bus, i))
+			return i;
+	return -1;
+}
+
+/* The read of registers of the unit that is due for longest, or in a quarter of its period; -1: none. */
+static int read_with(const struct bus *bus, uint8_t unit, int64_t now_ns)
+{
+	int64_t best_ns = INT64_MAX;
+	int best = -1;
+
+	for (int i = 0; i < bus->plan.asks; i++) {
+		const struct plan_ask *ask = &bus->plan.ask[i];
+		int64_t due_ns;
+
+		if (ask->unit != unit || ask->output || ask->table != TABLE_HOLDING_REGISTER)
+			continue;
+		due_ns = bus->ask[i].due_ns;
+		if (due_ns - ask->period_ns / 4 <= now_ns && due_ns < best_ns) {
+			best = i;
+			best_ns = due_ns;
+		}
+	}
+	return best;
+}
+
+/* Writes registers, and reads others in the same request (function 23). False: that is not how they are written. */
+static bool write_together(struct bus *bus, int number, const struct plan_item *first,
+			   const struct load *load, int64_t now_ns, enum result *result)
+{
+	const struct plan_ask *ask = &bus->plan.ask[number];
+	struct unit *unit = &bus->unit[ask->unit];
+	const bool may = may_go_together(bus, number) && load->count <= PDU_BOTH_WORDS;
+	const int read = may ? read_with(bus, ask->unit, now_ns) : -1;
+	struct pdu request, answer;
+	int exception;
+
+	if (read < 0)
+		return false;
+	pdu_both(&request, bus->plan.ask[read].first, bus->plan.ask[read].count, first->channel->reg,
+		 load->word, load->count);
+	*result = ask_unit(bus, ask->unit, &request, &answer, &exception);
+	if (*result == GOOD)
+		take_read(bus, read, &answer, now_ns);
+	/* Which of the two it refuses is not known: each is asked by itself from now on. */
+	unit->no_both |= *result == REFUSED && exception == PDU_NO_FUNCTION;
+	bus->ask[number].apart |= *result == REFUSED;
+	return *result != REFUSED;
+}
+
 static void do_write(struct bus *bus, int number)
 {
 	static _Thread_local struct load load;
@@ -400,7 +473,7 @@ static void do_write(struct bus *bus, int number)
 	enum result result;
 
 	pthread_mutex_lock(&bus->field->lock);
-	to = plan_run(&bus->plan, &ask, &from, is_due, &row, &bus->limits);
+	to = plan_run(&bus->plan, &ask, &from, is_due, &row, &bus->limits[ask.unit]);
 	/* One at a time for a unit that takes no more. */
 	if (bus->unit[ask.unit].no_many && to > from && bus->plan.item[from].bit < 0 &&
 	    bus->plan.item[from].words == 1)
@@ -409,7 +482,9 @@ static void do_write(struct bus *bus, int number)
 		pack(bus, from, to, &load);
 	pthread_mutex_unlock(&bus->field->lock);
 	if (to > from) {
-		result = write_row(bus, &ask, &bus->plan.item[from], &load, &exception);
+		exception = 0;
+		if (!write_together(bus, number, &bus->plan.item[from], &load, row.now_ns, &result))
+			result = write_row(bus, &ask, &bus->plan.item[from], &load, &exception);
 		if (result == REFUSED && is_of_address(exception) && split(bus, number))
 			return;
 		if (result == FAILED)
@@ -491,7 +566,9 @@ int64_t bus_step(struct bus *bus)
 		return choice.next_ns;
 	bus->since_probe++;
 	bus->wrote = bus->plan.ask[next].output;
-	if (bus->wrote)
+	if (!bus->wrote && write_with(bus, next) >= 0)
+		next = write_with(bus, next);
+	if (bus->plan.ask[next].output)
 		do_write(bus, next);
 	else
 		do_read(bus, next);

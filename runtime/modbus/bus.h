@@ -35,6 +35,7 @@ struct bus_ask {
 	int64_t due_ns;        /* of a read                                    */
 	int64_t refresh_ns;    /* of a write: when one of its items must be repeated */
 	bool changed;          /* of a write: one of its items is due           */
+	bool apart;            /* of a write: the device refused it together with a read */
 };
 
 struct bus_sent {
@@ -46,7 +47,7 @@ struct bus {
 	const struct iomap *map;
 	int number;            /* of the bus in the map                         */
 	struct plan plan;
-	struct plan_limits limits;
+	struct plan_limits limits[256]; /* by unit                               */
 	struct bus_ask *ask;   /* beside plan.ask                               */
 	struct bus_sent *sent; /* beside plan.item                              */
 	struct unit unit[256]; /* by number                                     */

@@ -63,6 +63,17 @@ void pdu_set_words(struct pdu *out, uint16_t first, const uint16_t *word, int co
 		put_word(out, word[i]);
 }
 
+void pdu_both(struct pdu *out, uint16_t first, int count, uint16_t to, const uint16_t *word, int words)
+{
+	begin(out, PDU_BOTH, first);
+	put_word(out, (uint16_t)count);
+	put_word(out, to);
+	put_word(out, (uint16_t)words);
+	out->byte[out->len++] = (uint8_t)(2 * words);
+	for (int i = 0; i < words; i++)
+		put_word(out, word[i]);
+}
+
 void pdu_mask(struct pdu *out, uint16_t reg, uint16_t mask, uint16_t bits)
 {
 	begin(out, PDU_MASK, reg);

@@ -45,6 +45,8 @@ void pdu_read(struct pdu *out, enum io_table table, uint16_t first, int count);
 void pdu_set_bits(struct pdu *out, uint16_t first, const bool *bit, int count, bool many);
 /** pdu_set_words - function 6 for one register, 16 for more; @many: 16 also for one. */
 void pdu_set_words(struct pdu *out, uint16_t first, const uint16_t *word, int count, bool many);
+/** pdu_both - function 23: writes @words registers from @to on, then reads @count from @first on. */
+void pdu_both(struct pdu *out, uint16_t first, int count, uint16_t to, const uint16_t *word, int words);
 /** pdu_mask - changes the bits of @mask in one register to those of @bits. */
 void pdu_mask(struct pdu *out, uint16_t reg, uint16_t mask, uint16_t bits);
 

@@ -12,6 +12,27 @@ const struct plan_limits plan_usual = {
 	.gap_bits = 64, .gap_words = 8,
 };
 
+struct plan_limits plan_limits_of(const struct plan_limits *usual, const struct io_net *net, int bus,
+				  uint8_t unit)
+{
+	struct plan_limits limits = *usual;
+
+	for (int i = 0; net && i < net->takes_count; i++) {
+		const struct io_takes *device = &net->takes[i];
+
+		if (device->bus != bus || device->unit_id != unit)
+			continue;
+		limits.read_words = device->read_words ? device->read_words : usual->read_words;
+		limits.write_words = device->write_words ? device->write_words : usual->write_words;
+		limits.read_bits = device->read_bits ? device->read_bits : usual->read_bits;
+		limits.write_bits = device->write_bits ? device->write_bits : usual->write_bits;
+		limits.gap_words = device->gap_words >= 0 ? device->gap_words : usual->gap_words;
+		limits.gap_bits = device->gap_words >= 0 ? 8 * device->gap_words : usual->gap_bits;
+		limits.together = device->together;
+	}
+	return limits;
+}
+
 static bool is_bits(enum io_table table)
 {
 	return table == TABLE_COIL || table == TABLE_DISCRETE_INPUT;
@@ -89,14 +110,18 @@ static void add_items(struct plan *plan, const struct iomap *map, int bus)
 	}
 }
 
-static void add_asks(struct plan *plan, const struct plan_limits *limits)
+static void add_asks(struct plan *plan, const struct iomap *map, int bus,
+		     const struct plan_limits *usual)
 {
+	struct plan_limits limits = *usual;
 	struct plan_ask *ask = NULL;
 
 	for (int i = 0; i < plan->items; i++) {
 		const struct plan_item *item = &plan->item[i];
 
-		if (!ask || !joins(ask, item - 1, item, limits)) {
+		if (!ask || ask->unit != item->channel->unit_id)
+			limits = plan_limits_of(usual, map->net, bus, item->channel->unit_id);
+		if (!ask || !joins(ask, item - 1, item, &limits)) {
 			ask = &plan->ask[plan->asks++];
 			*ask = (struct plan_ask){ .unit = item->channel->unit_id, .table = item->channel->table,
 						  .output = item->output, .first = item->channel->reg,
@@ -120,7 +145,7 @@ bool plan_make(struct plan *out, const struct iomap *map, int bus, const struct 
 	}
 	add_items(out, map, bus);
 	qsort(out->item, (size_t)out->items, sizeof(*out->item), compare);
-	add_asks(out, limits);
+	add_asks(out, map, bus, limits);
 	return true;
 }
 

@@ -32,8 +32,12 @@ struct plan_ask {
 struct plan_limits {
 	int read_bits, read_words, write_bits, write_words; /* of one request    */
 	int gap_bits, gap_words; /* that nobody wants and that a read takes along */
+	bool together;           /* registers are read and written in one request */
 };
 extern const struct plan_limits plan_usual;
+/** plan_limits_of - @usual, and what the map says of unit @unit of bus @bus. */
+struct plan_limits plan_limits_of(const struct plan_limits *usual, const struct io_net *net, int bus,
+				  uint8_t unit);
 
 struct plan {
 	struct plan_item *item;
@@ -42,6 +46,7 @@ struct plan {
 };
 
 /** plan_make - all requests of bus @bus of @map
+ * @limits: of the units of which the map says nothing
  * Owns: plan_free().   Fails: false: no memory. */
 bool plan_make(struct plan *out, const struct iomap *map, int bus, const struct plan_limits *limits);
 void plan_free(struct plan *plan);

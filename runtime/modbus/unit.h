@@ -47,7 +47,7 @@ struct unit {
 	struct unit_owed owed[UNIT_OWED];
 	int64_t unsure_ns;     /* too many to remember: nothing is trusted before  */
 	int64_t late_ns;       /* no answer is later; 0: each says what it answers */
-	bool no_mask, no_single, no_many; /* functions that it has refused     */
+	bool no_mask, no_single, no_many, no_both; /* functions that it has refused     */
 	struct unit_counts counts;
 };
 

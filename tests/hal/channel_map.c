@@ -429,6 +429,23 @@ static void test_bad_nets(void)
 	BAD("WINDOW s coil=0 %IX0.0 read-write", "LD543");
 	BAD("WINDOW s input-register=0 %MW0 read-write", "LD543");
 	BAD("WINDOW s coil=0..9 %MX0.0 read-only\nWINDOW s coil=9 %QX0.0 read-only", "test.io:6:1: error LD544");
+	BAD("DEVICE", "LD505");
+	BAD("DEVICE a", "LD505");
+	BAD("DEVICE a read-registers=5", "LD505");
+	BAD("DEVICE z unit=1 gap=0", "test.io:5:8: error LD530");
+	BAD("DEVICE a unit=248", "LD505");
+	BAD("DEVICE a unit=1 read-registers=0", "LD505");
+	BAD("DEVICE a unit=1 read-registers=126", "LD505");
+	BAD("DEVICE a unit=1 write-registers=124", "LD505");
+	BAD("DEVICE a unit=1 read-coils=2001", "LD505");
+	BAD("DEVICE a unit=1 write-coils=1969", "LD505");
+	BAD("DEVICE a unit=1 gap=125", "LD505");
+	BAD("DEVICE a unit=1 gap", "LD505");
+	BAD("DEVICE a unit=1 together=1", "LD505");
+	BAD("DEVICE a unit=1 registers=4", "LD505");
+	BAD("DEVICE a unit=1 gap=0 gap=0", "LD526");
+	BAD("DEVICE a unit=1 gap=0\nDEVICE a unit=1 together", "test.io:6:1: error LD539");
+	BAD("BUS q peer interface=lo\nDEVICE q unit=1", "LD530");
 	BAD("PUBLISH", "LD505");
 	BAD("PUBLISH me", "LD505");
 	BAD("PUBLISH me Level every=0ms", "LD505");
@@ -456,7 +473,7 @@ static void test_pieces(void)
 	static const char whole[] = "BOARD \"x\"\nBUS a modbus-rtu port=/dev/ttyS1 baud=9600\n"
 		"SERVE s modbus-tcp listen=[::1]:502 unit=3\nWINDOW s coil=0..7 %QX0.0 read-write\n"
 		"BUS p peer interface=lo group=239.1.1.1:5\nPUBLISH me A,B, C every=1s bus=p\n"
-		"MODULE M di=3 coil=7\n%XIB0..2 module bus=a unit=1 type=M substitute=hold\n"
+		"DEVICE a unit=1 read-registers=9 write-coils=2 gap=0 together\nMODULE M di=3 coil=7\n%XIB0..2 module bus=a unit=1 type=M substitute=hold\n"
 		"%AIW0 iio device=\"d e\" channel=voltage0 range=-5..5 at -10V..10mV limits=-11V..1V\n"
 		"%IX9.0..10.2 modbus bus=a unit=1 input-register=3 bit=15\n%IW0 peer bus=p from=x name=y\n"
 		"%IX8.0 modbus bus=a unit=1 input-register=3 threshold=5 hysteresis=2\n%IB7 quality of=%IW0..2\n";

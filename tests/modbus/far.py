@@ -35,14 +35,26 @@ class Block(ModbusSequentialDataBlock):
         super().setValues(address, values)
 
 
+class Slave(ModbusSlaveContext):
+    """A unit that counts how often it reads for each function."""
+
+    def __init__(self, **blocks):
+        super().__init__(zero_mode=True, **blocks)
+        self.functions = {}
+
+    def getValues(self, fc_as_hex, address, count=1):
+        self.functions[fc_as_hex] = self.functions.get(fc_as_hex, 0) + 1
+        return super().getValues(fc_as_hex, address, count)
+
+
 class Units:
     """Units of one bus, served by pymodbus in a thread of its own."""
 
     def __init__(self, numbers, size=200):
         self.block = {n: {table: Block(size) for table in TABLES} for n in numbers}
-        self.context = ModbusServerContext(single=False, slaves={
-            n: ModbusSlaveContext(co=b['coil'], di=b['discrete-input'], hr=b['holding-register'],
-                                  ir=b['input-register'], zero_mode=True) for n, b in self.block.items()})
+        self.slave = {n: Slave(co=b['coil'], di=b['discrete-input'], hr=b['holding-register'], ir=b['input-register'])
+                      for n, b in self.block.items()}
+        self.context = ModbusServerContext(single=False, slaves=self.slave)
         self.loop = asyncio.new_event_loop()
         self.thread = threading.Thread(target=self.loop.run_forever, daemon=True)
         self.thread.start()

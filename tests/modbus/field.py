@@ -145,6 +145,48 @@ BUS plant modbus-tcp host=127.0.0.1:{port}
     plant.close()
 
 
+def test_devices_that_take_less_and_function_23():
+    """pymodbus as two units that write and read in one request, and one that takes four registers at a time."""
+    port = free_port()
+    wire = Wire()
+    plant, serial = Units([1]).tcp(port), Units([2, 3]).rtu(wire.theirs)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
+BUS rs485 modbus-rtu port={wire.ours} timeout=200ms
+DEVICE plant unit=1 together
+DEVICE rs485 unit=2 together
+DEVICE rs485 unit=3 read-registers=4
+%IW0 modbus bus=plant unit=1 holding-register=5 poll=20ms
+%QW0 modbus bus=rs485 unit=2 holding-register=7 safe=-1 refresh=50ms
+%IW2 modbus bus=rs485 unit=2 holding-register=9 poll=20ms
+%QW2 modbus bus=plant unit=1 holding-register=20 safe=0 refresh=50ms
+%IW100..118 modbus bus=rs485 unit=3 holding-register=0 poll=20ms
+'''
+    program = '''RUNGBOARD 1
+
+PROGRAM Main ST
+  %QW0 := %IW0;
+  %QW2 := %IW2;
+END_PROGRAM
+'''
+    with Board(program, board) as it:
+        for value in (1, -2, 32767):
+            plant.set(1, 'holding-register', 5, value & 0xffff)
+            serial.set(2, 'holding-register', 9, value + 5 & 0xffff)
+            assert until(lambda: serial.get(2, 'holding-register', 7) == value & 0xffff and
+                         plant.get(1, 'holding-register', 20) == value + 5 & 0xffff), it.status()
+        assert until(lambda: plant.slave[1].functions.get(23, 0) > 5 and serial.slave[2].functions.get(23, 0) > 5)
+        # Ten registers, four at a time: three requests.
+        block = serial.block[3]['holding-register']
+        before = block.reads
+        assert until(lambda: block.reads >= before + 9)
+        assert serial.slave[3].functions.keys() == {3}
+        assert 'rs485/3: answers' in it.status()
+    for units in (plant, serial):
+        units.close()
+    wire.close()
+
+
 def late(frame):
     return [(0.15, frame)]
 

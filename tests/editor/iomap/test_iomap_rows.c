@@ -50,6 +50,11 @@ static void lines_to_add(void)
 	adds(map, IOMAP_MODBUS, IO_KIND_POINT, -1, "%IW2 modbus bus=p unit=1 input-register=0 behind 6");
 	adds(map, IOMAP_PEERS, IO_KIND_POINT, 7, "%IW2 peer from=x name=Level behind 7");
 	adds(map, IOMAP_BUSES, IO_KIND_POINT, -1, "BUS bus modbus-tcp  host=127.0.0.1:502 behind 1");
+	adds(map, IOMAP_BUSES, IO_KIND_DEVICE, -1, "DEVICE p unit=1 behind 0");
+	adds("BUS p modbus-tcp host=h\nDEVICE p unit=3 gap=0\n", IOMAP_BUSES, IO_KIND_POINT, 1,
+	     "DEVICE p unit=4 behind 1");
+	adds("BUS y peer interface=lo\n", IOMAP_BUSES, IO_KIND_DEVICE, -1,
+	     "The map has no bus for Modbus: add one on the page Buses first");
 	adds(map, IOMAP_SERVED, IO_KIND_POINT, 8, "WINDOW s coil=16..23 %QX2.0 read-only behind 9");
 	adds(map, IOMAP_SERVED, IO_KIND_PUBLISH, -1, "PUBLISH board Level every=100ms behind 1");
 	adds("", IOMAP_MODBUS, IO_KIND_POINT, -1,

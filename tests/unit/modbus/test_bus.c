@@ -26,7 +26,7 @@ struct far_unit {
 	int most;              /* registers in one request; 0: 125             */
 	bool random;           /* a delay of 5 … 495 ms, and now and then none   */
 	uint16_t reg[256];
-	int asked, written;
+	int asked, written, both;
 };
 
 static struct {
@@ -52,10 +52,18 @@ static void refuse(struct pdu *out, int exception)
 	out->len = 2;
 }
 
+static void far_take(struct far_unit *unit, const struct pdu *request, int at)
+{
+	const int to = pdu_word(request->byte + at), words = pdu_word(request->byte + at + 2);
+
+	for (int i = 0; i < words && to + words <= 256; i++)
+		unit->reg[to + i] = pdu_word(request->byte + at + 5 + 2 * i);
+}
+
 static void far_answer(struct far_unit *unit, const struct pdu *request, struct pdu *out)
 {
 	const int function = request->byte[0], first = pdu_word(request->byte + 1);
-	const int count = function == 3 || function == 16 ? pdu_word(request->byte + 3) : 1;
+	const int count = function == 3 || function == 16 || function == 23 ? pdu_word(request->byte + 3) : 1;
 
 	*out = *request;
 	out->len = function == 22 ? 7 : 5;
@@ -64,7 +72,9 @@ static void far_answer(struct far_unit *unit, const struct pdu *request, struct 
 	else if ((unit->missing && first <= unit->missing && unit->missing < first + count) ||
 		 first + count > 256 || (unit->most && count > unit->most))
 		refuse(out, PDU_NO_ADDRESS);
-	else if (function == 3) {
+	else if (function == 3 || function == 23) {
+		if (function == 23)
+			far_take(unit, request, 5);
 		out->byte[1] = (uint8_t)(2 * count);
 		out->len = 2 + 2 * count;
 		for (int i = 0; i < count; i++) {
@@ -74,12 +84,12 @@ static void far_answer(struct far_unit *unit, const struct pdu *request, struct 
 	} else if (function == 6) {
 		unit->reg[first] = pdu_word(request->byte + 3);
 	} else if (function == 16) {
-		for (int i = 0; i < count; i++)
-			unit->reg[first + i] = pdu_word(request->byte + 6 + 2 * i);
+		far_take(unit, request, 1);
 	} else if (function == 22) {
 		unit->reg[first] = (uint16_t)((unit->reg[first] & pdu_word(request->byte + 3)) |
 					      pdu_word(request->byte + 5));
 	}
+	unit->both += function == 23 && !(out->byte[0] & 0x80);
 	unit->written += function != 3 && !(out->byte[0] & 0x80);
 }
 
@@ -213,7 +223,8 @@ static void take(void)
 		good += fresh[i].good;
 		bad += !fresh[i].good;
 		last_good[fresh[i].point] = fresh[i].good;
-		mixed += fresh[i].good && fresh[i].value.i != channel->unit_id * 1000 + channel->reg;
+		mixed += fresh[i].good && !it.point[fresh[i].point].output &&
+			 fresh[i].value.i != channel->unit_id * 1000 + channel->reg;
 	}
 }
 
@@ -460,6 +471,45 @@ static void test_functions_that_a_device_lacks(void)
 	}
 }
 
+/* Registers that are read and written in one request, by units that can and units that cannot. */
+static void test_reads_and_writes_together(void)
+{
+	for (int kind = 0; kind < 3; kind++) {
+		int alone;
+
+		begin();
+		it.net.takes = &(struct io_takes){ .unit_id = 1, .together = true, .gap_words = -1 };
+		it.net.takes_count = 1;
+		for (int u = 1; u <= 2; u++)
+			for (int i = 0; i < 10; i++)
+				bench_map_add(&it, u, TABLE_HOLDING_REGISTER, i, IEC_UINT, false);
+		for (int u = 1; u <= 2; u++)
+			for (int i = 0; i < 3; i++)
+				bench_map_add(&it, u, TABLE_HOLDING_REGISTER, 20 + i, IEC_UINT, true);
+		far.unit[1].no_function[23] = kind == 1;
+		far.unit[1].missing = kind == 2 ? 5 : 0;
+		start();
+		for (int round = 0; round < 50; round++) {
+			for (int i = 0; i < 6; i++)
+				output(20 + i, round * 10 + i);
+			run(100);
+			for (int i = 0; i < 3; i++)
+				CHECK(far.unit[1].reg[20 + i] == round * 10 + i &&
+				      far.unit[2].reg[20 + i] == round * 10 + 3 + i);
+		}
+		take();
+		for (int i = 0; i < 20; i++)
+			CHECK(last_good[i] == (kind != 2 || i != 5));
+		CHECK(mixed == 0);
+		/* One request instead of two; the other unit has no such line. */
+		alone = far.unit[2].asked;
+		CHECK(far.unit[2].both == 0 && alone >= 98 && alone <= 102);
+		CHECK(kind != 0 || (far.unit[1].both >= 48 && far.unit[1].asked <= 55));
+		CHECK(kind == 0 || (far.unit[1].both == 0 && far.unit[1].written >= 48));
+		end();
+	}
+}
+
 int main(void)
 {
 	test_reads_come_by_period();
@@ -471,5 +521,6 @@ int main(void)
 	test_writes_are_never_old();
 	test_bits_of_a_register();
 	test_functions_that_a_device_lacks();
+	test_reads_and_writes_together();
 	return tap_done();
 }

@@ -173,11 +173,42 @@ static void test_limits_of_the_protocol(void)
 	CHECK(plan.ask[0].count == 125 && plan.ask[1].count == 1 && plan.ask[2].count == 123 &&
 	      plan.ask[3].count == 1);
 	plan_free(&plan);
+	/* A unit that takes less. */
+	it.net.takes = &(struct io_takes){ .unit_id = 1, .read_words = 50, .write_words = 40, .gap_words = -1 };
+	it.net.takes_count = 1;
+	CHECK(plan_make(&plan, &it.map, 0, &plan_usual) && plan.asks == 3 + 4);
+	CHECK(plan.ask[0].count == 50 && plan.ask[2].count == 26 && plan.ask[3].count == 40 &&
+	      plan.ask[6].count == 4);
+	plan_free(&plan);
+	it.net.takes->unit_id = 2;
+	CHECK(plan_make(&plan, &it.map, 0, &plan_usual) && plan.asks == 4);
+	plan_free(&plan);
 	/* Another bus, and a point of another driver. */
 	it.channel[0].bus = 1;
 	it.point[1].driver = DRIVER_sim;
 	CHECK(plan_make(&plan, &it.map, 0, &plan_usual) && plan.items == 248);
 	plan_free(&plan);
+}
+
+/* Registers 0, 2 and 11, coils 0, 9 and 75: which gaps are read along. */
+static void test_gaps(void)
+{
+	static const struct { int16_t gap; int asks; } kind[] = { { -1, 1 + 2 }, { 0, 3 + 3 }, { 1, 2 + 2 },
+								  { 8, 1 + 2 }, { 9, 1 + 1 } };
+	struct plan plan;
+
+	bench_map_init(&it);
+	for (int i = 0; i < 3; i++) {
+		bench_map_add(&it, 1, TABLE_HOLDING_REGISTER, i == 2 ? 11 : 2 * i, IEC_INT, false);
+		bench_map_add(&it, 1, TABLE_COIL, i == 2 ? 75 : 9 * i, IEC_BOOL, false);
+	}
+	it.net.takes = &(struct io_takes){ .unit_id = 1 };
+	it.net.takes_count = 1;
+	for (size_t i = 0; i < sizeof(kind) / sizeof(kind[0]); i++) {
+		it.net.takes->gap_words = kind[i].gap;
+		CHECK(plan_make(&plan, &it.map, 0, &plan_usual) && plan.asks == kind[i].asks);
+		plan_free(&plan);
+	}
 }
 
 /* A request is divided until each has one item; no item is lost. */
@@ -246,6 +277,7 @@ int main(void)
 	test_every_small_map();
 	test_mixed_maps();
 	test_limits_of_the_protocol();
+	test_gaps();
 	test_splits_end();
 	test_rows_are_the_runs_of_what_is_due();
 	return tap_done();
