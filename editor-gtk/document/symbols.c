@@ -1132,7 +1132,7 @@ static char *access_line(struct project *project, const struct symbol_row *symbo
 	return line;
 }
 
-/* The place in front of END_VAR of the last block in this file. */
+/* The last block in this file that stands in no POU. */
 static const struct text_span *access_block(const struct symbol_batch *batch)
 {
 	const struct text_span *found = NULL;
@@ -1140,7 +1140,8 @@ static const struct text_span *access_block(const struct symbol_batch *batch)
 	for (guint i = 0; i < batch->span->len; i++) {
 		const struct text_span *span = &g_array_index(batch->span, struct text_span, i);
 
-		found = span->part == TEXT_ACCESS ? span : found;
+		if (span->part == TEXT_ACCESS && !batch->project->access_block[span->number].pou)
+			found = span;
 	}
 	return found;
 }

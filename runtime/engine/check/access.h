@@ -4,7 +4,7 @@
  *
  * A path begins with the name of the resource or of a program, or with neither:
  * Station.Main.Speed, Main.Speed, Speed, Station.%IX0.3, %IX0.3. A program is named as in the
- * file, or as the CONFIGURATION names its instance.
+ * file, or as the CONFIGURATION names its instance. In a program a path is that of a variable of it.
  */
 #ifndef CHECK_ACCESS_H
 #define CHECK_ACCESS_H
@@ -20,7 +20,7 @@ struct access_path {
 
 /** access_split - the parts of a path. Owns: nothing. Scan-safe: no. Fails: never; an unknown
  * name stays part of the operand. */
-struct access_path access_split(struct project *project, uint32_t path);
+struct access_path access_split(struct project *project, const struct access *access);
 /**
  * access_find - the variable that a line of VAR_ACCESS names
  * @why: when there is none: as scope_find()

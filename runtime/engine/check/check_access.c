@@ -52,13 +52,18 @@ static const struct pou *find_program(struct project *project, const char *text,
 	return NULL;
 }
 
-struct access_path access_split(struct project *project, uint32_t path)
+struct access_path access_split(struct project *project, const struct access *access)
 {
+	const struct access_block *block = access_block_of(project, (int)(access - project->access));
 	const struct config *config = project->config;
-	const char *text = project_text(project, path);
+	const char *text = project_text(project, access->path);
 	struct access_path out = { 0 };
 	size_t len = head_len(text);
 
+	if (block->pou) {
+		out.pou = &project->pou[block->pou - 1];
+		return out;
+	}
 	out.pou = text[len] == '.' ? find_program(project, text, len, &out.instance) : NULL;
 	if (!out.pou && text[len] == '.' && config && config->has_resource &&
 	    is_name(project, config->resource, text, len)) {
@@ -79,7 +84,7 @@ const struct meaning *access_find(struct scope *scope, const struct access *acce
 				  enum diag_id *why)
 {
 	struct project *project = scope_project(scope);
-	const struct access_path path = access_split(project, access->path);
+	const struct access_path path = access_split(project, access);
 	const char *text = project_text(project, access->path);
 	const struct meaning *m;
 
@@ -145,7 +150,7 @@ static bool is_further(struct project *project, const char *name, size_t len)
 static const struct meaning *own_name(const struct access_check *c, const struct access *access,
 				      const struct meaning *m)
 {
-	const struct access_path path = access_split(c->project, access->path);
+	const struct access_path path = access_split(c->project, access);
 	const char *text = project_text(c->project, access->path);
 
 	return path.instance && is_further(c->project, text + path.program, path.program_len) ?
@@ -199,7 +204,8 @@ static const struct pou *hides_in(const struct access_check *c, const struct acc
 static void report_unknown(struct access_check *c, const struct access *access,
 			   enum diag_id why)
 {
-	const struct pou *pou = why == DIAG_UNKNOWN_NAME ? hides_in(c, access) : NULL;
+	const bool inside = access_split(c->project, access).pou;
+	const struct pou *pou = why == DIAG_UNKNOWN_NAME && !inside ? hides_in(c, access) : NULL;
 	const char *path = text_of(c, access->path);
 	char arg[4 * LIMIT_ARG];
 

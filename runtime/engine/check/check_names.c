@@ -402,7 +402,9 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	if (vars_is_eno(table, index))
 		return;
 	/* The printed list of `ladder il` declares its temporaries. */
-	if (is_reserved(c, name, var->fold) ||
+	if (var_is_nameless(var))
+		; /* its name is an address */
+	else if (is_reserved(c, name, var->fold) ||
 	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
 		report_var(c, DIAG_RESERVED_NAME, pou, var, name);
@@ -592,7 +594,8 @@ static void check_pous(struct names_check *c)
 {
 	struct project *project = c->project;
 
-	if (project->pou_count == 0 && project->structure_count == 0)
+	if (project->pou_count == 0 && project->structure_count == 0 && project->named_count == 0 &&
+	    (project->globals.count == 0 || project->config || !project->words.own_first))
 		report_line(c, DIAG_NO_PROGRAM, NULL, 0, "");
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *pou = &project->pou[i];
@@ -875,7 +878,7 @@ static enum diag_id judge_use(const struct var *var, unsigned int use,
 		     (var->at.area != AREA_NONE &&
 		      iec_area_row(var->at.area)->access == ACCESS_READ);
 
-	if (use & USE_CALLED)
+	if (use & USE_CALLED || var_is_nameless(var))
 		return DIAG_COUNT;
 	if (!use)
 		return DIAG_UNUSED;

@@ -160,6 +160,7 @@ struct access {
 struct access_block {
 	uint32_t comment;       /* above it                                    */
 	int first, count;       /* of project.access                           */
+	int pou;                /* it stands in this program, + 1; 0: in none  */
 	const char *file;       /* it stands in; borrowed from the arena       */
 	int line;
 	bool included;          /* came from another file                      */

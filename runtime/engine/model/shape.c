@@ -166,7 +166,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 
 	*pin = shape_pin(var);
 	pin->name = project_text(s->project, var->name);
-	pin->dir = dir_of(row, flags);
+	pin->dir = row->kind == WORD_FB && var->at.area != AREA_NONE ? PIN_NONE : dir_of(row, flags);
 	pin->classes = iec_type_row(var->type)->class;
 	pin->has_init = var->has_init;
 	row->retain |= pin->dir != PIN_NONE && flags & VAR_RETAIN;

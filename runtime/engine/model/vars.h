@@ -152,6 +152,11 @@ bool vars_is_eno(const struct var_table *table, int index);
 int vars_declared(const struct var_table *table);
 /** vars_head - the first word of a block with these flags: VAR_INPUT. */
 const char *vars_head(uint16_t flags);
+/** var_is_nameless - AT %QW1 : WORD; its name is the address. Scan-safe: yes. */
+static inline bool var_is_nameless(const struct var *var)
+{
+	return var->at_text && var->name == var->at_text;
+}
 /** var_value_text - string id of its initial value with constants in place of expressions;
  * not of a plain number. Scan-safe: yes. */
 static inline uint32_t var_value_text(const struct var *var)

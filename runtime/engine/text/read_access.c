@@ -2,7 +2,7 @@
  *
  * read_access - VAR_ACCESS … END_VAR: names for operators and gateways, and what they may do.
  *
- * It judges form only; check/check_access.c finds the variable and compares its type.
+ * It judges form only, and a place in a PROGRAM or outside of all POUs; check/check_access.c finds the variable and compares its type.
  */
 #include "engine/text/reader.h"
 
@@ -144,7 +144,7 @@ int read_access(struct reader *r)
 	const enum comment_place outside = r->comments;
 	struct access_block *slot, block = {
 		.first = project->access_count, .file = r->place.file, .line = head.line,
-		.included = r->outer != NULL,
+		.included = r->outer != NULL, .pou = r->pou ? (int)(r->pou - project->pou) + 1 : 0,
 	};
 
 	if (r->library)

@@ -14,14 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool add_name(struct reader *r, struct var_table *table)
+static bool add_var(struct reader *r, struct var_table *table, uint32_t name)
 {
-	uint32_t name = 0;
-
-	if (r->paths && r->lex.token.kind == TOKEN_NAME && memchr(r->lex.token.text, '.', r->lex.token.len))
-		name = reader_intern(r, r->lex.token.text, r->lex.token.len);
-	else if (!reader_name(r, "name of a variable", &name))
-		return false;
 	if (r->project->globals.count == LIMIT_VARS ||
 	    table->count == LIMIT_VARS)
 		return reader_fail_many(r, DIAG_TOO_MANY, "variables", LIMIT_VARS);
@@ -34,6 +28,19 @@ static bool add_name(struct reader *r, struct var_table *table)
 	}
 	*var = (struct var){ .name = name, .line = r->lex.token.line };
 	var->fold = names_fold(&r->project->names, name);
+	return true;
+}
+
+static bool add_name(struct reader *r, struct var_table *table)
+{
+	uint32_t name = 0;
+
+	if (r->paths && r->lex.token.kind == TOKEN_NAME && memchr(r->lex.token.text, '.', r->lex.token.len))
+		name = reader_intern(r, r->lex.token.text, r->lex.token.len);
+	else if (!reader_name(r, "name of a variable", &name))
+		return false;
+	if (!add_var(r, table, name))
+		return false;
 	reader_step(r);
 	return true;
 }
@@ -499,24 +506,44 @@ static bool read_edge(struct reader *r, struct var *var)
 	return true;
 }
 
+/* AT %QW1 : WORD := 5; says what the address has in the beginning. */
+static bool is_nameless(struct lex lex)
+{
+	return lex_is(&lex, "AT") && lex_next(&lex) == TOKEN_ADDRESS && !is_open_address(lex);
+}
+
+/* May no address stand here? One in a FUNCTION_BLOCK is the same for all its instances. */
+static bool lacks_address(const struct reader *r)
+{
+	const uint16_t given = VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP | VAR_EXTERNAL;
+
+	return r->members || (r->pou && pou_has_frame(r->pou) &&
+			      (r->pou->kind != POU_BLOCK || r->var_flags & given));
+}
+
 static bool read_declaration(struct reader *r, struct var_table *table)
 {
 	const int first = table->count;
+	const bool nameless = is_nameless(r->lex);
 	struct var like = { 0 };
 
-	if (!read_names(r, table))
+	if (nameless ? !read_at(r, &like) || !add_var(r, table, like.at_text) : !read_names(r, table))
 		return false;
-	bool many = table->count - first > 1 || r->members ||
-		    (r->pou && pou_has_frame(r->pou));
+	const bool many = table->count - first > 1 || lacks_address(r);
 
 	if (many && lex_is(&r->lex, "AT")) {
 		struct lex ahead = r->lex;
 
 		lex_next(&ahead);
+		if (r->members)
+			return reader_fail_word(r, DIAG_MEMBER_PLACE, names_text(&r->project->names,
+										 table->var[first].name));
 		if (!is_open_address(ahead))
 			return reader_fail_token(r, DIAG_MISPLACED);
 	}
-	if (!read_at(r, &like) || !reader_type(r, &like) || !read_edge(r, &like) || !reader_init(r, &like))
+	if (nameless && many)
+		return reader_fail_word(r, DIAG_MISPLACED, "AT");
+	if ((!nameless && !read_at(r, &like)) || !reader_type(r, &like) || !read_edge(r, &like) || !reader_init(r, &like))
 		return false;
 	const bool closed = reader_is(r, ';');
 	const bool next = !closed && r->lex.token.line > r->begun;
@@ -687,7 +714,10 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 				   .file = r->place.file, .included = r->outer != NULL };
 
 	if (is_access(r)) { /* in a POU */
-		reader_misplaced_access(r);
+		if (r->pou && r->pou->kind == POU_PROGRAM)
+			read_access(r);
+		else
+			reader_misplaced_access(r);
 		return;
 	}
 	block.flags = read_flags(r, global);

@@ -78,6 +78,8 @@ char *text_outline(const struct project *project, size_t *len,
 		   void (*take)(void *context, const struct text_span *span),
 		   void *context);
 
+/** text_write_pou_access - every VAR_ACCESS … END_VAR of @pou. Scan-safe: no. */
+void text_write_pou_access(const struct project *project, const struct pou *pou, const struct sink *sink);
 /** text_write_vars - every VAR … END_VAR of @table. Scan-safe: no. */
 void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink);

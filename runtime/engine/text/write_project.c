@@ -119,7 +119,7 @@ static struct widths measure(const struct project *project,
 	struct widths widths = { .name = 0 };
 
 	for (int i = 0; i < count; i++) {
-		int name = write_width(project, var[i].name);
+		int name = var_is_nameless(&var[i]) ? 0 : write_width(project, var[i].name);
 		int at = write_width(project, var[i].at_text);
 
 		widths.name = name > widths.name ? name : widths.name;
@@ -175,14 +175,16 @@ uint32_t write_inner_text(struct project *project, const struct structure *struc
 static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
-	const int name = write_width(project, var->name);
+	const bool nameless = var_is_nameless(var);
+	const int name = nameless ? 0 : write_width(project, var->name);
 	const struct structure *inner = inner_struct(project, var);
 
 	sink_repeat(sink, "  ", 1 + widths->depth);
-	write_id(sink, project, var->name);
+	if (!nameless)
+		write_id(sink, project, var->name);
 	sink_repeat(sink, " ", widths->name - name);
 	if (var->at_text) {
-		sink_text(sink, " AT ");
+		sink_text(sink, widths->name ? " AT " : "AT ");
 		write_id(sink, project, var->at_text);
 		sink_repeat(sink, " ",
 			    widths->at - write_width(project, var->at_text));
@@ -307,6 +309,13 @@ static void write_access(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_ACCESS, index, false);
 }
 
+void text_write_pou_access(const struct project *project, const struct pou *pou, const struct sink *sink)
+{
+	for (int i = 0; i < project->access_block_count; i++)
+		if (project->access_block[i].pou == (int)(pou - project->pou) + 1)
+			write_access(sink, project, i);
+}
+
 /* ---- parts ---- */
 
 static void write_body(const struct sink *sink, const struct project *project,
@@ -316,6 +325,7 @@ static void write_body(const struct sink *sink, const struct project *project,
 
 	text_write_vars(project, &pou->vars, sink);
 	text_write_vars(project, &pou->external, sink);
+	text_write_pou_access(project, pou, sink);
 	sink_mark(sink, TEXT_BODY, number, true);
 	for (int i = 0; i < pou->rung_count; i++) {
 		sink_mark(sink, TEXT_RUNG, i, true);

@@ -328,6 +328,7 @@ void write_sfc(const struct sink *sink, const struct project *project,
 
 	text_write_vars(project, &pou->vars, &into);
 	text_write_vars(project, &pou->external, &into);
+	text_write_pou_access(project, pou, &into);
 	sink_mark(sink, TEXT_BODY, number, true);
 	write_pieces(sink, project, pou, has_blocks(&pou->vars));
 	sink_mark(sink, TEXT_BODY, number, false);

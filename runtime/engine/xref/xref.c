@@ -841,11 +841,11 @@ static void walk_access(struct xref_walk *walk)
 	for (int i = 0; i < project->access_count; i++) {
 		struct access *access = &project->access[i];
 		const struct access_block *block = access_block_of(project, i);
-		const struct access_path path = access_split(project, access->path);
+		const struct access_path path = access_split(project, access);
 
-		begin_place(walk, -1, block->file, access->var.line, block->included);
+		begin_place(walk, block->pou - 1, block->file, access->var.line, block->included);
 		walk->slot = &access->path;
-		if (path.pou && !path.instance)
+		if (path.pou && !path.instance && path.program_len)
 			xref_add(walk, (struct xref_target){ .what = XREF_POU,
 				.index = (int)(path.pou - project->pou) }, XREF_READ,
 				 path.program, path.program_len);
