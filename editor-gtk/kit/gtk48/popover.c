@@ -242,6 +242,47 @@ static gboolean closed(GSignalInvocationHint *hint, guint count, const GValue *v
 	return TRUE; /* of the next one, too */
 }
 
+/* ---- a closed popover gives up the focus ---- */
+
+static bool takes_focus(GtkWidget *widget)
+{
+	return gtk_widget_get_mapped(widget) && (GTK_IS_TEXT(widget) ?
+		gtk_text_grab_focus_without_selecting(GTK_TEXT(widget)) :
+		gtk_widget_grab_focus(widget));
+}
+
+/* To the nearest widget around it; without one, keys go to the window. */
+static gboolean give_up_focus(gpointer popover)
+{
+	GtkWidget *focus = focus_of(popover), *around = gtk_widget_get_parent(popover);
+
+	if (gtk_widget_get_mapped(popover) || !focus || !gtk_widget_is_ancestor(focus, popover))
+		return G_SOURCE_REMOVE;
+	while (around && !GTK_IS_ROOT(around) && !takes_focus(around))
+		around = gtk_widget_get_parent(around);
+	if (!around || GTK_IS_ROOT(around))
+		gtk_root_set_focus(gtk_widget_get_root(popover), NULL);
+	return G_SOURCE_REMOVE;
+}
+
+static void focus_moved(GtkRoot *root)
+{
+	GtkWidget *focus = gtk_root_get_focus(root);
+	GtkWidget *popover = focus ? gtk_widget_get_ancestor(focus, GTK_TYPE_POPOVER) : NULL;
+
+	if (popover && !gtk_widget_get_mapped(popover))
+		g_idle_add_full(G_PRIORITY_HIGH_IDLE, give_up_focus, g_object_ref(popover),
+				g_object_unref);
+}
+
+static void guard_focus(GtkWidget *popover)
+{
+	GtkRoot *root = gtk_widget_get_root(popover);
+
+	g_signal_handlers_disconnect_by_func(root, focus_moved, NULL);
+	g_signal_connect(root, "notify::focus-widget", G_CALLBACK(focus_moved), NULL);
+}
+
 /* ---- an open menu hides tooltips ---- */
 
 static void show_chosen(GtkWidget *popover);
@@ -252,6 +293,7 @@ static void (*map_popover)(GtkWidget *popover), (*unmap_popover)(GtkWidget *popo
 static void mapped(GtkWidget *popover)
 {
 	open_count += gtk_popover_get_autohide(GTK_POPOVER(popover));
+	guard_focus(popover);
 	map_popover(popover);
 	if (GTK_IS_DROP_DOWN(gtk_widget_get_parent(popover)))
 		show_chosen(popover);

@@ -26,6 +26,9 @@
  *   the screen. To see it: the menu of an element in the middle of a screen of 1024x700.
  * - Focus, popover_menu() and popover_menu_of(): when a menu closes, GTK gives the focus back
  *   only to the widget that had it when the menu was first drawn.
+ * - Lost keys, popover_init(): an item of a menu takes the focus when the pointer moves over it, also
+ *   just after the menu was closed; then no key does anything. To see it: storm 20, the menu of a
+ *   cell. Test: test_popover.c.
  * - Tab, popover_form(): a popover whose parent is in a table is left by Tab, and closes.
  * Remove each of them on a new floor, and run test_popover and tests/editor/person/seal_in.py.
  */

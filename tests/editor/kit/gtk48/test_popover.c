@@ -104,6 +104,29 @@ static void test_closed(void)
 	gtk_window_set_child(GTK_WINDOW(window), NULL);
 }
 
+static GtkWidget *focus_now(void)
+{
+	return gtk_root_get_focus(GTK_ROOT(window));
+}
+
+/* The menu of an entry closes, and the pointer is told late that it moved in an item. */
+static void test_late_pointer(void)
+{
+	GtkWidget *entry = gtk_entry_new(), *text, *item;
+
+	put(entry);
+	text = GTK_WIDGET(gtk_editable_get_delegate(GTK_EDITABLE(entry)));
+	gtk_widget_activate_action(text, "menu.popup", NULL);
+	CHECK_SOON(is_open(text) && focus_now() && gtk_widget_is_ancestor(focus_now(), popover_of(text)));
+	item = focus_now();
+	gtk_popover_popdown(GTK_POPOVER(popover_of(text)));
+	CHECK_SOON(!is_open(text) && gtk_widget_has_focus(text));
+	gtk_widget_grab_focus(item);
+	CHECK(focus_now() == item);
+	CHECK_SOON(gtk_widget_has_focus(text));
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+}
+
 /* A menu that is higher than the room below and above its place shows all of its rows. */
 static void test_whole(void)
 {
@@ -164,9 +187,11 @@ int main(void)
 
 	if (!document)
 		return 0;
+	popover_init();
 	test_pages(document);
 	test_any();
 	test_closed();
+	test_late_pointer();
 	test_whole();
 	test_told();
 	gtk_window_destroy(GTK_WINDOW(window));
