@@ -97,6 +97,18 @@ is(missing(program('', 'IL',
 			    map({ my $a = $_; map "  LD  Any$_\n  ST  " . address($a, $_) . "\n", @widths } @outputs)),
 	   $other, 'list'), join(' ', sort @all), 'list: each address is missing');
 
+is(missing(program('', 'ST',
+		   join '', map({ my $a = $_; map "  Any$_ := " . address($a, $_) . ";\n", @widths } @inputs),
+			    map({ my $a = $_; map '  ' . address($a, $_) . " := Any$_;\n", @widths } @outputs)),
+	   $other, 'statements'), join(' ', sort @all), 'statements: each address is missing');
+# The daemon says the same when it loads the program, also from a code image without names.
+my $image = "$folder/main.code";
+ok(!system("$ladder build -o $image $folder/main.rung"), 'a code image');
+for my $file ("$folder/main.rung", $image) {
+	my $told = `$build/ladderd $file --io $folder/main.io --check 2>&1`;
+	is(join(' ', sort $told =~ /LD515: "([^"]+)"/g), join(' ', sort @all), "ladderd: $file");
+}
+
 # With a line: the bit, and a wider value with a line for one of its bits.
 my $lines = "BOARD \"x\"\n" .
 	    join '', map { my $area = $_; map "%${area}X$byte{$_}.3 sim\n", @widths } 'I', 'Q';
