@@ -846,6 +846,28 @@ bool task_rows_move(LadderDocument *document, int row, int head, int before, cha
 	return good;
 }
 
+/* The row before which @row would go, -1: last; as for task_rows_move(). */
+static int row_before(const struct task_rows *tasks, int row, int target, bool below)
+{
+	const int head = tasks->row[target].head, last = head + task_rows_programs(tasks, head);
+	const int before = target + below, next = target == head && !below ? target : last + 1;
+
+	if (tasks->row[row].what != TASKS_TASK)
+		return before > last ? -1 : before;
+	return next < tasks->count && tasks->row[next].what == TASKS_TASK ? next : -1;
+}
+
+bool task_rows_drop(LadderDocument *document, int row, int target, bool below, char **why)
+{
+	struct task_rows *tasks = task_rows_new(document);
+	const bool known = row >= 0 && row < tasks->count && target >= 0 && target < tasks->count;
+	const int head = known ? tasks->row[target].head : -1;
+	const int before = known ? row_before(tasks, row, target, below) : -1;
+
+	task_rows_free(tasks);
+	return task_rows_move(document, row, head, before, why);
+}
+
 /* ---- a step by the keys ---- */
 
 struct goal { int head, before; };

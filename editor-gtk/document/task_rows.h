@@ -91,6 +91,9 @@ bool task_rows_add_program(LadderDocument *document, int head, int pou, char **n
  * @before: it stands before this row, a program of @head or a task; -1: behind all
  */
 bool task_rows_move(LadderDocument *document, int row, int head, int before, char **why);
+/** task_rows_drop - moves a row as it is dropped above or @below row @target: a task stands before or
+ * behind the whole task of @target. */
+bool task_rows_drop(LadderDocument *document, int row, int target, bool below, char **why);
 /** task_rows_can_step - whether task_rows_step() moves it. */
 bool task_rows_can_step(const struct task_rows *tasks, int row, int by);
 /** task_rows_step - moves a program or a task up (-1) or down (1): over its neighbour, or a program

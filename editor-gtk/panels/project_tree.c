@@ -5,6 +5,7 @@
 #include "editor-gtk/panels/project_tree.h"
 
 #include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
@@ -75,6 +76,46 @@ static void mark_all_missing(struct tree *tree)
 		mark_missing(tree, tree->root);
 }
 
+/* ---- what is unfolded ---- */
+
+static LadderTreeRow *item_of(GtkTreeListRow *at)
+{
+	LadderTreeRow *row = gtk_tree_list_row_get_item(at);
+
+	g_object_unref(row); /* the model has a reference */
+	return row;
+}
+
+/* The kinds and names of the rows inside a heading that are unfolded. */
+static GHashTable *unfolded(struct tree *tree)
+{
+	GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(tree->model)); i++) {
+		GtkTreeListRow *at = g_list_model_get_item(G_LIST_MODEL(tree->model), i);
+		const LadderTreeRow *row = item_of(at);
+
+		if (gtk_tree_list_row_get_depth(at) && gtk_tree_list_row_get_expanded(at))
+			g_hash_table_add(names, g_strdup_printf("%d%s", (int)row->kind, row->text));
+		g_object_unref(at);
+	}
+	return names;
+}
+
+static void unfold(struct tree *tree, GHashTable *names)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(tree->model)); i++) {
+		GtkTreeListRow *at = g_list_model_get_item(G_LIST_MODEL(tree->model), i);
+		const LadderTreeRow *row = item_of(at);
+		char *name = g_strdup_printf("%d%s", (int)row->kind, row->text);
+
+		if (gtk_tree_list_row_get_depth(at) && g_hash_table_contains(names, name))
+			gtk_tree_list_row_set_expanded(at, TRUE);
+		g_free(name);
+		g_object_unref(at);
+	}
+}
+
 /* If the focus is on a row that disappears, it moves to the row now at that index. */
 static void refill(struct tree *tree)
 {
@@ -82,8 +123,11 @@ static void refill(struct tree *tree)
 	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
 	const bool here = focus && gtk_widget_is_ancestor(focus, tree->list);
 	guint at = gtk_single_selection_get_selected(tree->selection), count;
+	GHashTable *names = unfolded(tree);
 
 	tree_rows_update(tree->root, tree->document);
+	unfold(tree, names);
+	g_hash_table_unref(names);
 	mark_all_missing(tree);
 	count = g_list_model_get_n_items(G_LIST_MODEL(tree->selection));
 	if (!here)
@@ -184,7 +228,8 @@ static gboolean go(gpointer data)
 	LadderTreeRow *row = tree->going;
 
 	tree->going_soon = 0;
-	if (row->kind == ROW_POU || row->kind == ROW_BOOKMARK)
+	if (row->kind == ROW_POU || row->kind == ROW_BOOKMARK ||
+	    (row->kind == ROW_RUNS && row->pou >= 0))
 		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
 					   row->rung, -1, -1);
 	else if (row->kind == ROW_TEXT)
@@ -243,9 +288,41 @@ static const char *selected_task(struct tree *tree)
 	return row && row->kind == ROW_TASK ? row->text : NULL;
 }
 
+static bool is_of_task(const LadderTreeRow *row)
+{
+	return row && (row->kind == ROW_TASK || row->kind == ROW_RUNS);
+}
+
+/* A task, or a program below one; NULL: another row is selected. */
+static LadderTreeRow *selected_of_task(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return is_of_task(row) ? row : NULL;
+}
+
 static void tell(struct tree *tree, const char *text)
 {
 	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
+}
+
+/* The number of a row of the tasks in @tasks; -1: none. */
+static int number_of(const struct task_rows *tasks, const LadderTreeRow *row)
+{
+	return task_rows_find(tasks, (enum task_what)row->what, row->text);
+}
+
+/* A program out of its task. */
+static void remove_run(struct tree *tree, const LadderTreeRow *row)
+{
+	struct task_rows *tasks = task_rows_new(tree->document);
+	char *why = NULL;
+
+	if (!task_rows_delete(tree->document, number_of(tasks, row), &why))
+		tell(tree, why);
+	task_rows_free(tasks);
+	g_free(why);
 }
 
 /* Activates the action of the window for the selected row: "tree.rename" becomes
@@ -255,6 +332,7 @@ static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
 	const char *type = selected_type(tree), *task = selected_task(tree);
+	const LadderTreeRow *run = selected_of_task(tree);
 	const char *act = g_action_get_name(G_ACTION(action));
 	char *name = g_strdup_printf("win.%s-%s", act, type ? "type" : task ? "task" : "pou");
 
@@ -263,6 +341,8 @@ static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 		gtk_widget_activate_action(tree->list, name, "s", type);
 	else if (task && (strcmp(act, "rename") == 0 || strcmp(act, "delete") == 0))
 		gtk_widget_activate_action(tree->list, name, "s", task);
+	else if (run && !task && strcmp(act, "delete") == 0)
+		remove_run(tree, run);
 	else if (pou < 0)
 		tell(tree, _("Select a program, a block or a data type first"));
 	else
@@ -353,12 +433,99 @@ static void move(struct tree *tree, int pou, int beside, bool behind)
 	g_free(name);
 }
 
+/* ---- the order of tasks and their programs ---- */
+
+static bool has_run(const LadderTreeRow *task, const char *name)
+{
+	bool found = false;
+
+	for (guint i = 0; !found && i < g_list_model_get_n_items(G_LIST_MODEL(task->rows)); i++) {
+		LadderTreeRow *row = g_list_model_get_item(G_LIST_MODEL(task->rows), i);
+
+		found = strcmp(row->text, name) == 0;
+		g_object_unref(row);
+	}
+	return found;
+}
+
+/* Selects a row of the tasks. A program's task is unfolded: rows behind @i come then. */
+static void select_of_task(struct tree *tree, int what, const char *name)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(tree->model)); i++) {
+		GtkTreeListRow *at = g_list_model_get_item(G_LIST_MODEL(tree->model), i);
+		const LadderTreeRow *row = item_of(at);
+		const bool found = is_of_task(row) && row->what == what && strcmp(row->text, name) == 0;
+
+		if (row->kind == ROW_TASK && what == TASKS_INSTANCE && row->rows && has_run(row, name))
+			gtk_tree_list_row_set_expanded(at, TRUE);
+		g_object_unref(at);
+		if (!found)
+			continue;
+		gtk_single_selection_set_selected(tree->selection, i);
+		list_scroll_to(tree->list, i);
+		focus_selected(tree);
+		return;
+	}
+}
+
+/* After an edit that may have moved a row of this kind and name. */
+static void moved(struct tree *tree, int what, const char *name, bool good, char *why)
+{
+	if (good) {
+		follow(tree);
+		select_of_task(tree, what, name);
+	} else {
+		tell(tree, why);
+	}
+	g_free(why);
+}
+
+static void drop_of_task(struct tree *tree, const LadderTreeRow *row, const LadderTreeRow *target,
+			 bool below)
+{
+	struct task_rows *tasks = task_rows_new(tree->document);
+	const int what = row->what;
+	char *name = g_strdup(row->text), *why = NULL;
+	const bool good = task_rows_drop(tree->document, number_of(tasks, row),
+					 number_of(tasks, target), below, &why);
+
+	task_rows_free(tasks);
+	moved(tree, what, name, good, why);
+	g_free(name);
+}
+
+static void step_of_task(struct tree *tree, const LadderTreeRow *row, int by)
+{
+	struct task_rows *tasks = task_rows_new(tree->document);
+	const int what = row->what, number = number_of(tasks, row);
+	char *name = g_strdup(row->text), *why = NULL;
+	const bool good = task_rows_step(tree->document, number, by, &why);
+
+	task_rows_free(tasks);
+	moved(tree, what, name, good, why);
+	g_free(name);
+}
+
+static bool can_drag(struct tree *tree, const LadderTreeRow *row)
+{
+	struct task_rows *tasks = task_rows_new(tree->document);
+	const bool can = !tasks->fixed && (row->what == TASKS_TASK || row->what == TASKS_INSTANCE);
+
+	task_rows_free(tasks);
+	return can;
+}
+
+/* ---- both ---- */
+
 static void move_by(struct tree *tree, int by)
 {
+	const LadderTreeRow *of_task = selected_of_task(tree);
 	const int pou = selected_pou(tree);
 	const int beside = pou < 0 ? -1 : pou_beside(tree->document, pou, by);
 
-	if (pou < 0)
+	if (of_task)
+		step_of_task(tree, of_task, by);
+	else if (pou < 0)
 		tell(tree, _("Select a program or block first"));
 	else if (beside < 0)
 		tell(tree, by < 0 ? _("It is the first one already") :
@@ -386,11 +553,20 @@ static int pou_of(struct tree *tree, const LadderTreeRow *row)
 
 static const char *name_of(gpointer pointer, gpointer of)
 {
-	const struct tree *tree = pointer;
+	struct tree *tree = pointer;
 	const struct project *project = ladder_document_project(tree->document);
 	LadderTreeRow *row = of;
 
+	if (is_of_task(row))
+		return project && can_drag(tree, row) ? row->text : NULL;
 	return row->kind == ROW_POU && !project->pou[row->pou].included ? row->text : NULL;
+}
+
+/* A program goes below the row of a task; a task goes before or behind another one. */
+static bool fits_task(const LadderTreeRow *row, const LadderTreeRow *at, bool *below)
+{
+	*below |= row->kind == ROW_RUNS && at->kind == ROW_TASK;
+	return is_of_task(at) && (row->kind == ROW_RUNS || at->kind == ROW_TASK);
 }
 
 static bool fits(gpointer pointer, gpointer row, gpointer target, bool *below)
@@ -399,14 +575,18 @@ static bool fits(gpointer pointer, gpointer row, gpointer target, bool *below)
 	const struct project *project = ladder_document_project(tree->document);
 	const int from = pou_of(tree, row), to = pou_of(tree, target);
 
-	(void)below;
+	if (is_of_task(row))
+		return fits_task(row, target, below);
 	return from >= 0 && to >= 0 && from != to && !project->pou[to].included &&
 	       (project->pou[from].kind == POU_PROGRAM) == (project->pou[to].kind == POU_PROGRAM);
 }
 
 static void move_to(gpointer tree, gpointer row, gpointer target, bool below)
 {
-	move(tree, pou_of(tree, row), pou_of(tree, target), below);
+	if (is_of_task(row))
+		drop_of_task(tree, row, target, below);
+	else
+		move(tree, pou_of(tree, row), pou_of(tree, target), below);
 }
 
 static const struct row_move moving = {
@@ -439,9 +619,9 @@ static GMenu *button_menu(void)
 	return menu;
 }
 
-enum { POU = 1, TYPE = 2, TASK = 4 }; /* kinds of a row with a menu of its own */
+enum { POU = 1, TYPE = 2, TASK = 4, RUNS = 8 }; /* kinds of a row with a menu of its own */
 
-/* The context menu of a POU, a structure or a task. A structure cannot be moved: its order has no
+/* The context menu of a POU, a structure, a task or a program below one. A structure cannot be moved: its order has no
  * meaning. */
 static GMenu *row_menu(unsigned of)
 {
@@ -454,9 +634,10 @@ static GMenu *row_menu(unsigned of)
 		{ N_("Rename…"), "tree.rename", NULL, VERB_rename, POU | TYPE | TASK },
 		{ N_("Where it is used"), "tree.uses", NULL, VERB_show_uses, POU | TYPE },
 		{ N_("Delete"), "tree.delete", "Delete", VERB_COUNT, POU | TYPE | TASK },
+		{ N_("Remove program from task"), "tree.delete", "Delete", VERB_COUNT, RUNS },
 		{ NULL, NULL, NULL, VERB_COUNT, 0 },
-		{ N_("Move up"), "tree.up", "<Alt>Up", VERB_COUNT, POU },
-		{ N_("Move down"), "tree.down", "<Alt>Down", VERB_COUNT, POU },
+		{ N_("Move up"), "tree.up", "<Alt>Up", VERB_COUNT, POU | TASK | RUNS },
+		{ N_("Move down"), "tree.down", "<Alt>Down", VERB_COUNT, POU | TASK | RUNS },
 		{ N_("Copy to file…"), "tree.copy", "", VERB_COUNT, POU },
 		{ N_("Move to file…"), "tree.move", "", VERB_COUNT, POU },
 		{ NULL, NULL, NULL, VERB_COUNT, 0 },
@@ -519,7 +700,7 @@ static GtkWidget *menu_new(void)
 static void show_menu(struct tree *tree, double x, double y)
 {
 	const unsigned of = selected_pou(tree) >= 0 ? POU : selected_type(tree) ? TYPE :
-			    selected_task(tree) ? TASK : 0;
+			    selected_task(tree) ? TASK : selected_of_task(tree) ? RUNS : 0;
 
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);

@@ -527,32 +527,15 @@ static bool fits(gpointer view, gpointer of, gpointer target, bool *below)
 	return number_of(view, row) >= 0 && number_of(view, at) >= 0;
 }
 
-/* The row before which @row would go, -1: last; as for task_rows_move(). */
-static int row_before(const struct task_rows *tasks, const LadderPanelRow *row, int target,
-		      bool below)
-{
-	const int head = tasks->row[target].head, last = head + task_rows_programs(tasks, head);
-	const bool task = row->table == TASKS_TASK;
-	const int before = target + below, next = target == head && !below ? target : last + 1;
-
-	if (!task)
-		return before > last ? -1 : before;
-	return next < tasks->count && tasks->row[next].what == TASKS_TASK ? next : -1;
-}
-
 static void move_to(gpointer owner, gpointer of, gpointer target, bool below)
 {
 	LadderTasksView *view = owner;
 	LadderPanelRow *row = of;
-	struct task_rows *tasks = task_rows_new(document_of(view));
-	const int at = number_of(view, target);
-	const int head = tasks->row[at].head, before = row_before(tasks, row, at, below);
 	char *name = g_strdup(panel_row_text(row, TASKS_NAME)), *why = NULL;
 	const int what = row->table;
-	const bool good = task_rows_move(document_of(view), number_of(view, row), head, before,
-					 &why);
+	const bool good = task_rows_drop(document_of(view), number_of(view, row),
+					 number_of(view, target), below, &why);
 
-	task_rows_free(tasks);
 	if (done(view, good, why))
 		go_to(view, (enum task_what)what, name, -1);
 	g_free(name);

@@ -7,10 +7,15 @@
 #include "editor-gtk/panels/tree_rows.h"
 
 #include "editor-gtk/document/side_file.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
+
+#include "engine/base/name.h"
+
+#include <string.h>
 
 /* ---- rows ---- */
 
@@ -155,25 +160,116 @@ static char *task_note(const struct project *project, const struct config_entry 
 	return g_strdup(period);
 }
 
+/* A program below a task. */
+static void add_run(GListStore *rows, const struct project *project, uint32_t name, int pou)
+{
+	const char *text = project_text(project, name);
+	const char *program = pou >= 0 ? project_text(project, project->pou[pou].name) : text;
+	LadderTreeRow *row = add_row(rows, ROW_RUNS, text,
+				     strcmp(program, text) == 0 ? NULL : g_strdup(program));
+
+	row->pou = pou;
+	row->what = TASKS_INSTANCE;
+}
+
+static int program_of(const struct project *project, const struct config_entry *entry)
+{
+	const char *name = project_text(project, entry->pou);
+
+	return project_find_pou(project, name, strlen(name));
+}
+
+/* @task: string id; 0: programs without a task. */
+static GListStore *runs_in(const struct project *project, uint32_t task)
+{
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	const struct config *config = project->config;
+	const char *name = project_text(project, task);
+	bool any = false;
+
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+
+		if (entry->kind != CONFIG_PROGRAM)
+			continue;
+		any = true;
+		if (name_equal(project_text(project, entry->task), name))
+			add_run(rows, project, entry->name, program_of(project, entry));
+	}
+	for (int i = 0; !any && !task && i < project->pou_count; i++)
+		if (project->pou[i].kind == POU_PROGRAM)
+			add_run(rows, project, project->pou[i].name, i);
+	return rows;
+}
+
+static bool has_task(const struct config *config, const struct project *project, uint32_t task)
+{
+	for (int i = 0; i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_TASK &&
+		    name_equal(project_text(project, config->entry[i].name), project_text(project, task)))
+			return true;
+	return false;
+}
+
+/* Programs with a task that is not there; those without a PROGRAM line, if there are such lines. */
+static GListStore *idle_runs(const struct project *project)
+{
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	const struct config *config = project->config;
+
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+
+		if (entry->kind == CONFIG_PROGRAM && entry->task && !has_task(config, project, entry->task))
+			add_run(rows, project, entry->name, program_of(project, entry));
+	}
+	for (int pou = 0; pou < project->pou_count; pou++) {
+		bool any = false, runs = false;
+
+		for (int i = 0; config && i < config->count; i++)
+			if (config->entry[i].kind == CONFIG_PROGRAM) {
+				any = true;
+				runs |= program_of(project, &config->entry[i]) == pou;
+			}
+		if (any && !runs && project->pou[pou].kind == POU_PROGRAM)
+			add_run(rows, project, project->pou[pou].name, pou);
+	}
+	return rows;
+}
+
+static void add_task(GListStore *tasks, enum task_what what, const char *text, char *note,
+		     GListStore *runs)
+{
+	LadderTreeRow *row = add(tasks, ROW_TASK, text, note, runs);
+
+	row->what = what;
+	row->parent = g_list_model_get_n_items(G_LIST_MODEL(runs)) > 0;
+}
+
 /* As task_rows.h, without the text of the whole project. */
 static void add_tasks(GListStore *root, const struct project *project)
 {
 	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
 	const struct config *config = project->config;
 	bool any = false, rest = false; /* PROGRAM lines; one without a task   */
+	GListStore *idle = idle_runs(project);
 
 	add(root, ROW_TASKS, _("Tasks"), NULL, rows);
 	for (int i = 0; config && i < config->count; i++) {
 		const struct config_entry *entry = &config->entry[i];
 
 		if (entry->kind == CONFIG_TASK)
-			add_row(rows, ROW_TASK, project_text(project, entry->name),
-				task_note(project, entry));
+			add_task(rows, TASKS_TASK, project_text(project, entry->name),
+				 task_note(project, entry), runs_in(project, entry->name));
 		any |= entry->kind == CONFIG_PROGRAM;
 		rest |= entry->kind == CONFIG_PROGRAM && !entry->task;
 	}
 	if (!any || rest)
-		add_row(rows, ROW_TASK, _("Each scan"), NULL);
+		add_task(rows, TASKS_EACH_SCAN, _("Each scan"), NULL, runs_in(project, 0));
+	if (g_list_model_get_n_items(G_LIST_MODEL(idle)))
+		add_task(rows, TASKS_IDLE, _("Do not run"), NULL, idle);
+	else
+		g_object_unref(idle);
 }
 
 /* Adds text files beside the project. */
@@ -298,6 +394,7 @@ static void become(LadderTreeRow *old, LadderTreeRow *fresh, const struct projec
 
 	old->pou = fresh->pou;
 	old->rung = fresh->rung;
+	old->what = fresh->what;
 	if (g_strcmp0(old->note, fresh->note) != 0) {
 		g_free(old->note);
 		old->note = g_steal_pointer(&fresh->note);

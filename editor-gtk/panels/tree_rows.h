@@ -14,12 +14,13 @@ G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
 
 enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
 		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT, ROW_TASKS, ROW_TASK, ROW_TYPES,
-		ROW_ADDRESSES };
+		ROW_ADDRESSES, ROW_RUNS };
 
 struct _LadderTreeRow {
 	GObject parent_instance;
 	enum row_kind kind;
 	int pou, rung;      /* pou of a STRUCTURE: its index                   */
+	int what;           /* TASK, RUNS (a program below one): enum task_what */
 	char *text, *note, *path;
 	bool parent;        /* it has children                                 */
 	bool missing;       /* the board runs without it as it is              */

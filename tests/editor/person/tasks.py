@@ -185,7 +185,7 @@ def rows(screen):
 
 def in_tree(editor, name):
     """The row of a task in the tree."""
-    return until(lambda: [n for n in editor.all(name, 'label') if n.box()[0] < 200], 'the row %s in the tree' % name)[0]
+    return until(lambda: [n for n in editor.all(name, 'label') if n.name == name and n.box()[0] < 200], 'the row %s in the tree' % name)[0]
 
 
 def tree(screen):
@@ -243,6 +243,63 @@ def tree(screen):
         is_saved(editor, path, *deleted)
         editor.keys('ctrl+z')
         is_saved(editor, path)
+
+
+def below_tasks(screen):
+    """in the tree, programs below their tasks move by drag and by keys, as tasks do; each is one step"""
+    editor, path = opened(screen)
+
+    def unfold(name):
+        editor.click(in_tree(editor, name))
+        editor.focus_on(name)
+        editor.keys('shift+Right')
+    unfold('Fast')
+    editor.drag(in_tree(editor, 'A'), in_tree(editor, 'Slow'), look='tasks-tree-drag')
+    is_saved(editor, path, ('A WITH Fast', 'A WITH Slow'))
+    slow = in_tree(editor, 'Slow')
+    until(lambda: in_tree(editor, 'A').box()[1] > slow.box()[1], 'the program below its new task')
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.click(in_tree(editor, 'B'))
+    editor.focus_on('B, Lazy')
+    editor.keys('alt+Up')
+    is_saved(editor, path, ('    PROGRAM A WITH Fast : Quick; (* first *)\n    PROGRAM B WITH Fast : Lazy;\n',
+                            '    PROGRAM B WITH Fast : Lazy;\n    PROGRAM A WITH Fast : Quick; (* first *)\n'))
+    editor.focus_on('B, Lazy')
+    editor.keys('alt+Down', 'alt+Down')
+    is_saved(editor, path, ('B WITH Fast', 'B WITH Slow'))
+    editor.shot('tasks-tree')
+    editor.keys(*['ctrl+z'] * 3)
+    is_saved(editor, path)
+    editor.click(in_tree(editor, 'Fast'))
+    editor.focus_on('Fast, 5 ms')
+    editor.keys('alt+Down')
+    is_saved(editor, path, ('    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n', ''),
+             ('PRIORITY := 2);\n', 'PRIORITY := 2);\n    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n'))
+    editor.focus_on('Fast, 5 ms')
+    editor.keys('alt+Down')
+    editor.says('This cannot be moved there')
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.drag(in_tree(editor, 'Slow'), (editor.centre(in_tree(editor, 'Fast'))[0], editor.place(in_tree(editor, 'Fast'))[1] + 2))
+    is_saved(editor, path, ('    TASK Slow (INTERVAL := T#20ms, PRIORITY := 2);\n', ''),
+             ('    TASK Fast', '    TASK Slow (INTERVAL := T#20ms, PRIORITY := 2);\n    TASK Fast'))
+    editor.keys('ctrl+z')
+    editor.click(in_tree(editor, 'A'))
+    editor.focus_on('A, Quick')
+    editor.keys('Delete')
+    is_saved(editor, path, ('    PROGRAM A WITH Fast : Quick; (* first *)\n', ''))
+    unfold('Do not run')
+    below = until(lambda: [n for n in editor.all('Quick', 'label') if n.box()[0] < 200][1:], 'the program that does not run')[0]
+    editor.drag(below, in_tree(editor, 'Slow'))
+    until(lambda: 'WITH Slow : Quick' in (editor.keys('ctrl+s') or open(path).read()), 'the program in the task')
+    check(path)
+    unfold('Each scan')
+    until(lambda: in_tree(editor, 'C').box()[1] > in_tree(editor, 'Each scan').box()[1] and (
+        editor.click(in_tree(editor, 'C')) or 'C, Other' in editor.focused().name), 'the program of each scan')
+    editor.keys('Return')
+    editor.says('Rung 1 · column A')
+    editor.element('Rung 1, NO', '%IX0.2')
 
 
 def last_program(screen):
@@ -385,4 +442,4 @@ def paced(screen):
     editor.shot('tasks-paced')
 
 
-main([table, rows, tree, last_program, implicit, picture, simulated, paced])
+main([table, rows, tree, below_tasks, last_program, implicit, picture, simulated, paced])
