@@ -47,7 +47,7 @@ CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/ba
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
 CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number.c) \
-            $(addprefix runtime/engine/scan/,fb_alarm.c fb_analog.c fb_classic.c fb_clock.c fb_pid.c fb_pulse.c fb_store.c fb_sun.c fn_bits.c \
+            $(addprefix runtime/engine/scan/,fb_alarm.c fb_analog.c fb_classic.c fb_clock.c fb_modbus.c fb_pid.c fb_pulse.c fb_store.c fb_sun.c fn_bits.c \
             fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c \
             math_number.c math_table.c wide.c),$(CORE))
 endif
@@ -60,7 +60,7 @@ ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/
             scan/retain_*.c scan/still_table.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap*.c $(addprefix hal/,channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c))
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
-            scan/carry.c scan/declared.c scan/recorder.c scan/fb_alarm.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fb_sun.c scan/fn_bits.c scan/fn_convert.c \
+            scan/carry.c scan/declared.c scan/recorder.c scan/fb_alarm.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_modbus.c scan/fb_pid.c scan/fb_store.c scan/fb_sun.c scan/fn_bits.c scan/fn_convert.c \
             scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c \
             scan/fb_counter.c scan/fn_math.c scan/resource.c scan/wide.c) \
             hal/gpio_uapi.c hal/hal.c hal/sim.c hal/channels.c hal/channel_scale.c))
@@ -142,7 +142,7 @@ DRIVERS  := $(call obj,$(patsubst hal/iio_none.c,hal/iio_$(IIO).c,$(HAL_CORE)) $
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
 CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
 CRYPT_LIB := $(if $(filter yes,$(CRYPT)$(SMALL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libcrypt))
-LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download gateways journal conf ends password guarded crypt_none crypt_yescrypt \
+LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download asks gateways journal conf ends password guarded crypt_none crypt_yescrypt \
                $(if $(LINK),link_none,disk slots link_serial nameless),source_image store_none link_none link_serial nameless conf_none guarded_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.

@@ -59,6 +59,7 @@ struct io_channel {
 	union iec_value safe;  /* of an output, unless point->hold             */
 	int64_t poll_ns;       /* between two reads                            */
 	int64_t refresh_ns;    /* longest time between two writes              */
+	int ask;               /* moved only when this block of the program asks; -1: by time */
 
 	/* iio: device=ads1115 channel=voltage0; pwm: chip=pwmchip0 channel=0 period=20ms; w1:
 	 * sensor=28-000005e2fdc3; hwmon: device=cpu_thermal channel=temp1; peer: from=pump-house
@@ -119,6 +120,16 @@ struct io_takes {
 	int text_line, text_column;
 };
 
+/* ask=Meter of points on Modbus: they are read when the block MB_READ of this name asks, or written when
+ * MB_WRITE does. For a gateway it is the point behind all points of the map: an output with the number of the
+ * request, 0: none; an input with its lower half above and a status below. Both are UDINT. */
+struct io_ask {
+	const char *name;
+	int bus;
+	bool writes;
+	int text_line, text_column;
+};
+
 /* PUBLISH pump-house Level, Running every=100ms bus=yard */
 struct io_publish {
 	int bus;
@@ -137,6 +148,8 @@ struct io_net {
 	int serve_count;
 	struct io_takes *takes;
 	int takes_count;
+	struct io_ask *ask;
+	int ask_count;
 	struct io_window *window;
 	int window_count;
 	struct io_publish *publish;
@@ -150,6 +163,11 @@ struct io_net {
 /** io_is_gateway - whether another program serves the point (modbus, module, peer), and not a driver
  * in this one. */
 bool io_is_gateway(const struct io_point *point);
+
+struct image;
+/** io_ask_find - the block MB_READ or MB_WRITE of @ask: @at gets its place in the memory of the image.
+ * Scan-safe: no.   Fails: false: the program has none of this name. */
+bool io_ask_find(const struct image *image, const struct io_ask *ask, uint32_t *at);
 
 /** channel_value - what the process image gets for a raw value
  * @raw: real: in `unit` of the channel; else of the type channel->raw

@@ -86,15 +86,22 @@ static bool is_always_good(const struct cell *cell)
 	return cell->point.driver == DRIVER_sim || cell->point.driver == DRIVER_quality;
 }
 
+/* An input that a block asks for has no age. It is good until an answer is not. */
+static enum hal_quality asked_quality(uint32_t failures)
+{
+	return failures ? QUALITY_FAULT : QUALITY_GOOD;
+}
+
 static enum hal_quality read_cell(struct cell *cell, int64_t now_ns)
 {
 	const uint32_t goods = atomic_load_explicit(&cell->goods, memory_order_acquire);
-	const bool failed = atomic_load_explicit(&cell->failures, memory_order_acquire) >= HAL_FAILURES;
+	const uint32_t failures = atomic_load_explicit(&cell->failures, memory_order_acquire);
 	const int64_t age_ns = now_ns - atomic_load_explicit(&cell->read_ns, memory_order_relaxed);
-	enum hal_quality quality = is_always_good(cell) ? QUALITY_GOOD : failed ? QUALITY_FAULT :
+	enum hal_quality quality = is_always_good(cell) ? QUALITY_GOOD :
+		cell->channel.ask >= 0 ? asked_quality(failures) : failures >= HAL_FAILURES ? QUALITY_FAULT :
 		!goods || age_ns > cell->channel.stale_ns ? QUALITY_STALE : QUALITY_GOOD;
 
-	if (quality == QUALITY_GOOD && !take_value(cell, now_ns))
+	if (quality == QUALITY_GOOD && goods && !take_value(cell, now_ns))
 		quality = QUALITY_FAULT;
 	if (quality == QUALITY_GOOD)
 		return quality;
@@ -124,6 +131,8 @@ static enum hal_quality quality_of_output(const struct cell *cell)
 
 	if (is_always_good(cell))
 		return QUALITY_GOOD;
+	if (cell->channel.ask >= 0)
+		return asked_quality(failures);
 	if (failures >= HAL_FAILURES)
 		return QUALITY_FAULT;
 	return failures || !atomic_load_explicit(&cell->goods, memory_order_acquire) ?

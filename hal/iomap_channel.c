@@ -88,7 +88,7 @@ struct line_reader {
 	struct io_channel channel;
 	uint32_t count;          /* values                                    */
 	uint64_t seen;           /* options, a bit each                       */
-	struct map_word at, substitute, safe, limits, threshold; /* len 0: none  */
+	struct map_word at, substitute, safe, limits, threshold, ask; /* len 0: none */
 	double hysteresis;
 	enum io_unit at_unit, limits_unit, threshold_unit, hysteresis_unit;
 	const struct module_type *module;
@@ -378,6 +378,13 @@ static bool set_of(struct line_reader *line, const struct option_word *option)
 	       channel->of_bits && iec_area_row(channel->of.area)->access == ACCESS_READ;
 }
 
+static bool set_ask(struct line_reader *line, const struct option_word *option)
+{
+	line->ask = option->word;
+	line->channel.ask = find_ask(line->reader, option->value, option->len);
+	return line->channel.ask >= 0;
+}
+
 static const struct channel_option channel_options[] = {
 	{ "device", "device=ads1115", ON_IIO | ON_HWMON, FOR_BOTH, set_device },
 	{ "channel", "channel=voltage0", ON_IIO | ON_HWMON, FOR_BOTH, set_name },
@@ -409,6 +416,7 @@ static const struct channel_option channel_options[] = {
 	{ "poll", "poll=100ms", ON_DEVICE | ON_MODBUS | ON_MODULE, FOR_INPUT, set_poll },
 	{ "refresh", "refresh=5s", ON_MODBUS | ON_MODULE | ON_PWM | ON_IIO, FOR_OUTPUT, set_refresh },
 	{ "on-change", "on-change", ON_MODBUS | ON_MODULE, FOR_OUTPUT, set_on_change },
+	{ "ask", "ask=Meter", ON_MODBUS, FOR_BOTH, set_ask },
 	{ "of", "of=%AIW0 or of=%AIW0..6", ON_QUALITY, FOR_INPUT, set_of },
 	{ "safe", "safe=0 or safe=hold", ON_ALL, FOR_OUTPUT, set_channel_safe },
 };
@@ -837,6 +845,28 @@ static bool check_direction(struct line_reader *line, const struct map_word *dri
 	return true;
 }
 
+/* A point that a block asks for has no times of its own, and no safe value: nobody asks while no program
+ * runs. All points of a block go one way, on one bus. */
+static bool settle_ask(struct line_reader *line)
+{
+	static const char *const by_time[] = { "poll", "stale", "refresh", "on-change", "safe" };
+	struct io_point *point = &line->point;
+	struct io_ask *ask;
+
+	if (line->channel.ask < 0)
+		return true;
+	for (size_t i = 0; i < sizeof(by_time) / sizeof(*by_time); i++)
+		if (is_given(line, by_time[i]))
+			return complain(line->reader, DIAG_IO_CONFLICT, &line->ask);
+	ask = &line->reader->net->net.ask[line->channel.ask];
+	if (ask->bus < 0)
+		*ask = (struct io_ask){ .name = ask->name, .bus = line->channel.bus, .writes = point->output,
+					.text_line = line->ask.line, .text_column = line->ask.column };
+	point->has_safe = point->hold = point->output;
+	return (ask->bus == line->channel.bus && ask->writes == point->output) ||
+	       complain(line->reader, DIAG_IO_ASK_MIXED, &line->ask);
+}
+
 static void settle(struct line_reader *line)
 {
 	struct io_channel *channel = &line->channel;
@@ -857,7 +887,7 @@ static void settle(struct line_reader *line)
 	if (!channel->raw)
 		channel->raw = channel->switches || (channel->scaled && is_register(channel->table)) ?
 			       IEC_INT : channel->reg_bit >= 0 ? IEC_WORD : channel->type;
-	if (settle_scale(line) && settle_values(line))
+	if (settle_scale(line) && settle_values(line) && settle_ask(line))
 		keep_group(line);
 }
 
@@ -868,7 +898,7 @@ bool read_channel(struct reader *reader, const struct map_word *address, enum dr
 		.reader = reader, .address = *address,
 		.point = { .driver = driver, .text_line = address->line, .text_column = address->column },
 		.channel = { .stale_ns = IO_STALE_NS, .poll_ns = IO_POLL_NS, .refresh_ns = IO_REFRESH_NS,
-			     .bus = -1, .module = -1, .reg_bit = -1 },
+			     .bus = -1, .module = -1, .reg_bit = -1, .ask = -1 },
 	};
 	struct option_word option;
 	const int before = reader->errors;

@@ -7,6 +7,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
 #include "engine/scan/image.h"
 
 #include <stddef.h>
@@ -646,6 +647,25 @@ static void read_device_line(struct reader *reader, const struct map_word *first
 	}
 }
 
+/* ---- ask= ---- */
+
+int find_ask(struct reader *reader, const char *text, size_t len)
+{
+	struct net_reader *net = net_of(reader);
+	struct io_ask *ask;
+	char *name;
+
+	for (int i = 0; net && i < net->net.ask_count; i++)
+		if (name_is(net->net.ask[i].name, text, len))
+			return i;
+	name = net ? read_name(reader, text, len) : NULL;
+	ask = name ? arena_push(reader->arena, &net->net.ask, &net->net.ask_count, sizeof(*ask)) : NULL;
+	if (!ask)
+		return -1;
+	*ask = (struct io_ask){ .name = name, .bus = -1 };
+	return net->net.ask_count - 1;
+}
+
 /* ---- MODULE ---- */
 
 static const struct module_type known_modules[] = {
@@ -758,6 +778,67 @@ static bool check_window(const struct iomap *map, const struct io_window *window
 		.line = window->text_line, .column = window->text_column }, "%s", text);
 }
 
+/* Whether @symbol is BUSY of the block that asks. */
+static bool is_block(const struct symbol *symbol, const struct io_ask *ask)
+{
+	static const char pin[] = ".BUSY";
+	const size_t len = strlen(symbol->name), head = len - (sizeof(pin) - 1);
+
+	return symbol->block && strcmp(symbol->block, ask->writes ? "MB_WRITE" : "MB_READ") == 0 &&
+	       symbol->at.area == AREA_NONE && len >= sizeof(pin) && strcmp(symbol->name + head, pin) == 0 &&
+	       name_is(ask->name, symbol->name, head);
+}
+
+/* How many blocks have this name, with or without that of their program; @at of the last one. */
+static int count_blocks(const struct image *image, const struct io_ask *ask, bool whole, uint32_t *at)
+{
+	struct symbol_cursor cursor = { .whole = whole };
+	struct symbol symbol;
+	int count = 0;
+
+	while (image_next_symbol(image, &cursor, &symbol)) {
+		if (!is_block(&symbol, ask))
+			continue;
+		*at = symbol.at.where - (uint32_t)offsetof(struct fb_MB_READ, BUSY);
+		count++;
+	}
+	return count;
+}
+
+bool io_ask_find(const struct image *image, const struct io_ask *ask, uint32_t *at)
+{
+	return count_blocks(image, ask, true, at) == 1 || count_blocks(image, ask, false, at) == 1;
+}
+
+static bool ask_said(const struct iomap *map, const struct io_ask *ask, enum diag_id id, const char *block,
+		     struct diag_list *diags)
+{
+	const struct diag place = { .id = id, .file = map->file, .line = ask->text_line, .column = ask->text_column };
+
+	return *block ? diag_add(diags, place, "%.60s" DIAG_AND "%s", ask->name, block) :
+			diag_add(diags, place, "%.60s", ask->name);
+}
+
+static bool check_asks(const struct iomap *map, const struct image *image, struct diag_list *diags)
+{
+	const struct io_net *net = map->net;
+	bool good = true;
+
+	for (int i = 0; i < net->ask_count; i++) {
+		const struct io_ask *ask = &net->ask[i];
+		uint32_t at, other;
+
+		if (!io_ask_find(image, ask, &at)) {
+			good = ask_said(map, ask, DIAG_IO_ASK_NO_BLOCK, ask->writes ? "MB_WRITE" : "MB_READ", diags);
+			continue;
+		}
+		for (int k = 0; k < i; k++)
+			if (io_ask_find(image, &net->ask[k], &other) && other == at)
+				good = ask_said(map, ask, DIAG_IO_ASK_TWICE, "", diags);
+	}
+	return good;
+}
+
 static bool check_published(const struct iomap *map, const struct io_publish *publish,
 			    const struct image *image, struct diag_list *diags)
 {
@@ -785,5 +866,6 @@ bool check_net(const struct iomap *map, const struct program *program, struct ar
 		good = check_window(map, &net->window[i], &program->areas, diags) && good;
 	for (int i = 0; i < net->publish_count; i++)
 		good = check_published(map, &net->publish[i], image, diags) && good;
+	good = check_asks(map, image, diags) && good;
 	return good;
 }

@@ -55,6 +55,8 @@ struct net_reader *net_of(struct reader *reader);
 int find_bus(const struct io_net *net, const char *text, size_t len);
 /** only_peer_bus - the bus of lines that name none; -1: there is none of peers, or several. */
 int only_peer_bus(const struct io_net *net);
+/** find_ask - its number, made with its first line; @channel and @output are of the present line. -1: no memory. */
+int find_ask(struct reader *reader, const char *text, size_t len);
 const struct module_type *find_module(const struct net_reader *net, const char *text, size_t len);
 
 /** check_qualities - an error for each quality of an input that the map does not have. */

@@ -139,6 +139,21 @@ for my $case (['%QX0.0 sim safe=0', undef], ['%QX0.0 sim safe=hold', undef], ["%
 	like($said[0], qr/, as are other outputs: 8; write safe=0, safe=1 or safe=hold$/, 'and how many more') if $want && $line == 3;
 }
 
+# Blocks that ask: by their name, with or without that of their program, in any case; one of the right kind, once.
+for my $case (['Meter', ''], ['main.METER', ''], ['Drive', 'LD548'], ['Other', 'LD548'], ['Meter.BUSY', 'LD548'], ['Twice', 'LD548'],
+	['Side.Twice', ''], ['Meter modbus', ''], ['Main.Meter again', 'LD549']) {
+	my ($name, $want) = @$case;
+	my $lines = "BOARD \"x\"\nBUS p modbus-tcp host=h\n%IW0 modbus bus=p unit=1 holding-register=0 ask=" . $name =~ s/ .*//r . "\n";
+
+	$lines .= "%IW2 modbus bus=p unit=1 holding-register=1 ask=Meter\n" if $name =~ / again/;
+	put('main.io', $lines);
+	put('main.rung', "RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n  Meter : MB_READ;\n  Drive : MB_WRITE;\n  Twice : MB_READ;\nEND_VAR\n" .
+		"  Meter(REQ := %MX0.0);\n  Drive(REQ := %MX0.0);\n  Twice(REQ := %MX0.0);\n  %MW2 := %IW0;\nEND_PROGRAM\n\n" .
+		"PROGRAM Side ST\nVAR\n  Twice : MB_READ;\nEND_VAR\n  Twice(REQ := %MX0.0);\nEND_PROGRAM\n");
+	my @said = grep { /error/ } split /\n/, `$ladder check --io $folder/main.io $folder/main.rung 2>&1`;
+	like($said[0] // '', $want ? qr/main\.io:[34]:45: error $want: / : qr/^$/, "ask=$name");
+}
+
 my $text = `$ladder check --io $folder/none.io $folder/main.rung 2>&1`;
 is($? >> 8, 2, 'a map that cannot be read');
 put('bad.io', "BOARD \"x\"\n%QX0.0 sim fast\n");

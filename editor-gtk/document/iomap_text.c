@@ -97,6 +97,7 @@ static const struct { const char *name; enum io_word word; bool has_value; } opt
 	{ "filter", IO_WORD_FILTER, true }, { "poll", IO_WORD_POLL, true },
 	{ "stale", IO_WORD_STALE, true }, { "substitute", IO_WORD_SUBSTITUTE, true },
 	{ "refresh", IO_WORD_REFRESH, true }, { "on-change", IO_WORD_ON_CHANGE, false },
+	{ "ask", IO_WORD_ASK, true },
 };
 
 static enum io_word kind_of(const struct word *word)
@@ -438,6 +439,7 @@ static const struct field_row {
 	[IO_SUBSTITUTE] = { N_("Substitute"), IO_WORD_SUBSTITUTE, "substitute=" },
 	[IO_REFRESH] = { N_("Refresh"), IO_WORD_REFRESH, "refresh=" },
 	[IO_ON_CHANGE] = { N_("On change"), IO_WORD_ON_CHANGE, "on-change" },
+	[IO_ASK] = { N_("Asked by"), IO_WORD_ASK, "ask=" },
 	[IO_SAFE] = { N_("Safe"), IO_WORD_SAFE, "safe=" },
 	[IO_PORT] = { N_("Port"), IO_WORD_PORT, "port=" },
 	[IO_BAUD] = { N_("Baud rate"), IO_WORD_BAUD, "baud=" },
@@ -506,7 +508,7 @@ static bool point_has(unsigned driver, enum io_field field)
 		[IO_FILTER] = DEVICES | MODBUS, [IO_POLL] = DEVICES | MODBUS | MODULE,
 		[IO_STALE] = DEVICES | MODBUS | MODULE | PEER,
 		[IO_SUBSTITUTE] = DEVICES | MODBUS | MODULE | PEER,
-		[IO_REFRESH] = MODBUS | MODULE | PWM | IIO, [IO_ON_CHANGE] = MODBUS | MODULE,
+		[IO_REFRESH] = MODBUS | MODULE | PWM | IIO, [IO_ON_CHANGE] = MODBUS | MODULE, [IO_ASK] = MODBUS,
 		[IO_SAFE] = ~0u,
 	};
 

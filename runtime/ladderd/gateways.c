@@ -25,9 +25,10 @@ static void forget(struct gateways *gateways)
 	memset(gateways, 0, sizeof(*gateways));
 }
 
-static bool find_outputs(struct gateway_outputs *outputs, const struct iomap *map, enum gateway_id gateway)
+static bool find_outputs(struct gateway_outputs *outputs, const struct iomap *map, int asks,
+			 enum gateway_id gateway)
 {
-	const size_t room = (size_t)map->count + 1;
+	const size_t room = (size_t)map->count + (size_t)asks + 1;
 
 	outputs->point = calloc(room, sizeof(*outputs->point));
 	outputs->given = calloc(room, sizeof(*outputs->given));
@@ -36,19 +37,24 @@ static bool find_outputs(struct gateway_outputs *outputs, const struct iomap *ma
 	for (int i = 0; i < map->count; i++)
 		if (map->point[i].output && serves(gateway, &map->point[i]))
 			outputs->point[outputs->count++] = (uint32_t)i;
+	/* Behind all values that a request may write. */
+	for (int i = 0; i < asks && gateway == GATEWAY_MODBUS; i++)
+		outputs->point[outputs->count++] = (uint32_t)(map->count + i);
 	return true;
 }
 
-void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels)
+void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels,
+		  struct asks *asks)
 {
 	forget(gateways);
 	for (int i = 0; i < GATEWAY_COUNT; i++)
-		if (!find_outputs(&gateways->outputs[i], map, (enum gateway_id)i)) {
+		if (!find_outputs(&gateways->outputs[i], map, asks ? asks->count : 0, (enum gateway_id)i)) {
 			forget(gateways);
 			return;
 		}
 	gateways->map = map;
 	gateways->channels = channels;
+	gateways->asks = asks;
 	for (int i = 0; i < map->count; i++)
 		for (int k = 0; k < GATEWAY_COUNT; k++)
 			gateways->points[k] += serves((enum gateway_id)k, &map->point[i]);
@@ -66,11 +72,24 @@ static uint32_t count_points(void *context, enum gateway_id gateway)
 	return ((struct gateways *)context)->points[gateway];
 }
 
+/* The request with the number of a point; NULL: it is a point of the map, or none. */
+static struct ask *find_ask(const struct gateways *gateways, uint32_t point)
+{
+	const uint32_t first = (uint32_t)gateways->map->count;
+
+	return gateways->asks && point >= first && point - first < (uint32_t)gateways->asks->count ?
+	       &gateways->asks->ask[point - first] : NULL;
+}
+
 static bool find_point(void *context, enum gateway_id gateway, uint32_t point, struct server_point *out)
 {
 	const struct iomap *map = ((struct gateways *)context)->map;
 	const struct io_point *found;
 
+	if (map && gateway == GATEWAY_MODBUS && find_ask(context, point)) {
+		*out = (struct server_point){ .output = false, .raw = IEC_UDINT };
+		return true;
+	}
 	if (!map || point >= (uint32_t)map->count)
 		return false;
 	found = &map->point[point];
@@ -82,11 +101,31 @@ static bool find_point(void *context, enum gateway_id gateway, uint32_t point, s
 
 static void put_value(void *context, uint32_t point, union iec_value value, bool good)
 {
+	struct ask *ask = find_ask(context, point);
 	struct timespec now;
 
+	if (ask) {
+		atomic_store_explicit(&ask->answer, (uint32_t)value.i, memory_order_release);
+		return;
+	}
 	clock_gettime(CLOCK_MONOTONIC, &now);
 	channels_put(((struct gateways *)context)->channels, (int)point, value, good,
 		     now.tv_sec * INT64_C(1000000000) + now.tv_nsec);
+}
+
+static void get_output(const struct gateways *gateways, uint32_t point, struct server_output *out)
+{
+	struct ask *ask = find_ask(gateways, point);
+
+	out->point = point;
+	if (ask) {
+		out->raw = IEC_UDINT;
+		out->value.i = atomic_load_explicit(&ask->asked, memory_order_acquire);
+		out->serial = (uint32_t)out->value.i + 1; /* a number is 0 only if none waits */
+		return;
+	}
+	out->raw = gateways->map->point[point].channel->raw;
+	out->value = channels_get(gateways->channels, (int)point, &out->serial);
 }
 
 static bool next_output(void *context, enum gateway_id gateway, struct server_output *out)
@@ -97,9 +136,7 @@ static bool next_output(void *context, enum gateway_id gateway, struct server_ou
 	while (outputs->next < outputs->count) {
 		const uint32_t i = outputs->next++, point = outputs->point[i];
 
-		out->point = point;
-		out->raw = gateways->map->point[point].channel->raw;
-		out->value = channels_get(gateways->channels, (int)point, &out->serial);
+		get_output(gateways, point, out);
 		if (!out->serial || out->serial == outputs->given[i])
 			continue;
 		outputs->given[i] = out->serial;

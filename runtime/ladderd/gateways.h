@@ -8,6 +8,7 @@
 #define LADDERD_GATEWAYS_H
 
 #include "hal/channels.h"
+#include "ladderd/asks.h"
 #include "online/server.h"
 
 /* Outputs that one gateway serves. */
@@ -21,12 +22,14 @@ struct gateway_outputs {
 struct gateways {
 	const struct iomap *map;
 	struct channels *channels;
+	struct asks *asks;     /* of Modbus: the points behind those of the map */
 	uint32_t points[GATEWAY_COUNT];
 	struct gateway_outputs outputs[GATEWAY_COUNT];
 };
 
-/** gateways_use - another map runs; both are borrowed. Without memory its gateways have no points. */
-void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels);
+/** gateways_use - another map runs; all are borrowed. Without memory its gateways have no points. */
+void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels,
+		  struct asks *asks);
 void gateways_free(struct gateways *gateways);
 /** gateways_io - for the server. */
 struct server_io gateways_io(struct gateways *gateways);

@@ -87,6 +87,8 @@ struct link {
 	bool alarms_wait;
 	struct alarm_store alarm_store;
 	struct gateways gateways;
+	_Atomic(struct asks *) asks;   /* of the program and the map that run  */
+	struct asks *asks_before;      /* the scan thread may still look at it */
 	struct server_io io;
 	const struct iomap *first_map; /* of the program that ladderd began with */
 	struct channels *first_channels;
@@ -246,6 +248,7 @@ void link_show(struct link *link, int64_t now_ns)
 {
 	exchange_show(&link->exchange, now_ns);
 	alarm_look(&link->alarms.ring, &link->cycle->resource);
+	asks_look(atomic_load_explicit(&link->asks, memory_order_acquire), &link->cycle->resource.image);
 	wake_for_gateways(link);
 }
 
@@ -682,6 +685,16 @@ static struct used used_of(struct link *link, struct standby *standby)
 	return (struct used){ link->views, link->with.program };
 }
 
+static void use_map(struct link *link, const struct program *program, const struct iomap *map,
+		    struct channels *channels)
+{
+	struct asks *asks = asks_new(program, map);
+
+	gateways_use(&link->gateways, map, channels, asks);
+	free(link->asks_before);
+	link->asks_before = atomic_exchange(&link->asks, asks);
+}
+
 /* Another program runs. The store has names of the one before, so it and its memory go. */
 static const struct program *use(struct link *link, struct standby *standby)
 {
@@ -692,8 +705,8 @@ static const struct program *use(struct link *link, struct standby *standby)
 		store_close(link->retain);
 	link->retain = NULL;
 	exchange_renew(&link->exchange, used.views, image_memory_size(used.program));
-	gateways_use(&link->gateways, standby ? &standby->map : link->first_map,
-		     standby ? standby->channels : link->first_channels);
+	use_map(link, used.program, standby ? &standby->map : link->first_map,
+		standby ? standby->channels : link->first_channels);
 	arena_free(&link->retain_arena);
 	arena_init(&link->retain_arena);
 	if (retains)
@@ -1200,6 +1213,8 @@ void link_free(struct link *link)
 	alarm_store_close(&link->alarm_store, &link->alarms.list);
 	free(link->alarms.before);
 	free(link->alarms.watch);
+	free(link->asks_before);
+	free(atomic_load(&link->asks));
 	download_free(link->download);
 	arena_free(&link->retain_arena);
 	free(link->views);
@@ -1314,7 +1329,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
 	link->first_map = cycle->hal.map;
 	link->first_channels = hal_channels(&cycle->hal);
-	gateways_use(&link->gateways, link->first_map, link->first_channels);
+	use_map(link, cycle->resource.image.program, link->first_map, link->first_channels);
 	link->io = gateways_io(&link->gateways);
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);

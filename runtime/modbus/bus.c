@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SILENT     257 /* status of a request: the unit does not answer      */
 #define REFUSED_NS 1000000000 /* between two attempts at what a device refuses  */
 #define LINE_AGAIN_NS 100000000
 #define LINE_MOST_NS 1000000000
@@ -30,7 +31,8 @@ bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field
 		return false;
 	bus->ask = calloc((size_t)bus->plan.items + 1, sizeof(*bus->ask));
 	bus->sent = calloc((size_t)bus->plan.items + 1, sizeof(*bus->sent));
-	if (!bus->ask || !bus->sent) {
+	bus->request = calloc((size_t)map->net->ask_count + 1, sizeof(*bus->request));
+	if (!bus->ask || !bus->sent || !bus->request) {
 		bus_close(bus);
 		return false;
 	}
@@ -52,8 +54,16 @@ void bus_close(struct bus *bus)
 	plan_free(&bus->plan);
 	free(bus->ask);
 	free(bus->sent);
+	free(bus->request);
+	bus->request = NULL;
 	bus->ask = NULL;
 	bus->sent = NULL;
+}
+
+void bus_ask_for(struct bus *bus, int ask, uint32_t number)
+{
+	field_output(bus->field, bus->map->count + ask, (union iec_value){ .i = number });
+	bus_changed(bus);
 }
 
 void bus_changed(struct bus *bus)
@@ -74,11 +84,79 @@ static void put_bad(struct bus *bus, int from, int to)
 	field_wake(bus->field);
 }
 
+/* Whether a request is to be made: those that a block asks for only when it does. */
+static bool is_waiting(const struct bus *bus, int number)
+{
+	const int by = bus->plan.ask[number].by;
+
+	return by < 0 || (bus->request[by].number && bus->ask[number].served != bus->request[by].number);
+}
+
 static void put_unit_bad(struct bus *bus, uint8_t unit)
 {
 	for (int i = 0; i < bus->plan.asks; i++)
-		if (bus->plan.ask[i].unit == unit)
+		if (bus->plan.ask[i].unit == unit && is_waiting(bus, i))
 			put_bad(bus, bus->plan.ask[i].from, bus->plan.ask[i].to);
+}
+
+/* ---- what a block of the program asks for ---- */
+
+/* Gives the answer when all requests of block @by are done. */
+static void answer_block(struct bus *bus, int by)
+{
+	struct bus_request *request = &bus->request[by];
+	const union iec_value value = { .i = (int64_t)((request->number & 0xffff) << 16) | request->status };
+
+	for (int i = 0; i < bus->plan.asks; i++)
+		if (bus->plan.ask[i].by == by && is_waiting(bus, i))
+			return;
+	pthread_mutex_lock(&bus->field->lock);
+	field_put(bus->field, bus->map->count + by, value, true);
+	pthread_mutex_unlock(&bus->field->lock);
+	field_wake(bus->field);
+}
+
+/* A request that a block asked for is done, with this status. */
+static void serve_block(struct bus *bus, int number, int status)
+{
+	const int by = bus->plan.ask[number].by;
+
+	if (by < 0)
+		return;
+	if (!bus->request[by].status)
+		bus->request[by].status = status;
+	bus->ask[number].served = bus->request[by].number;
+	answer_block(bus, by);
+}
+
+static void fail_all(struct bus *bus)
+{
+	for (int i = 0; i < bus->plan.asks; i++)
+		if (bus->plan.ask[i].by >= 0 && is_waiting(bus, i))
+			serve_block(bus, i, SILENT);
+}
+
+/* New requests of blocks. A block that asks does not wait until a silent unit would be asked again, or a
+ * broken line opened. */
+static void take_requests(struct bus *bus, int64_t now_ns)
+{
+	pthread_mutex_lock(&bus->field->lock);
+	for (int by = 0; by < bus->map->net->ask_count; by++) {
+		const uint32_t number = (uint32_t)bus->field->place[bus->map->count + by].output.i;
+
+		if (bus->map->net->ask[by].bus != bus->number || number == bus->request[by].number)
+			continue;
+		bus->request[by] = (struct bus_request){ .number = number };
+		bus->line_ns = number ? now_ns : bus->line_ns;
+		for (int i = 0; number && i < bus->plan.asks; i++)
+			if (bus->plan.ask[i].by == by) {
+				struct unit *unit = &bus->unit[bus->plan.ask[i].unit];
+
+				bus->ask[i].next = 0;
+				unit->again_ns = unit->fails && unit->again_ns > now_ns ? now_ns : unit->again_ns;
+			}
+	}
+	pthread_mutex_unlock(&bus->field->lock);
 }
 
 static void line_is_gone(struct bus *bus)
@@ -88,7 +166,10 @@ static void line_is_gone(struct bus *bus)
 		bus->line_wait_ns = LINE_MOST_NS;
 	bus->line_ns = bus->wire.now(bus->wire.context) + bus->line_wait_ns;
 	bus->broken = true;
-	put_bad(bus, 0, bus->plan.items);
+	for (int i = 0; i < bus->plan.asks; i++)
+		if (is_waiting(bus, i))
+			put_bad(bus, bus->plan.ask[i].from, bus->plan.ask[i].to);
+	fail_all(bus);
 }
 
 static void count_exception(struct unit *unit, int exception)
@@ -248,14 +329,18 @@ static void do_read(struct bus *bus, int number)
 	pdu_read(&request, ask->table, ask->first, ask->count);
 	switch (ask_unit(bus, ask->unit, &request, &answer, &exception)) {
 	case FAILED:
+		if (unit_is_bad(&bus->unit[ask->unit]) && is_waiting(bus, number))
+			serve_block(bus, number, SILENT);
 		return;
 	case GOOD:
 		take_read(bus, number, &answer, before_ns);
+		serve_block(bus, number, 0);
 		return;
 	case REFUSED:
 		if (is_of_address(exception) && split(bus, number))
 			return;
 		put_bad(bus, ask->from, ask->to);
+		serve_block(bus, number, exception);
 		state->due_ns = before_ns + (ask->period_ns > REFUSED_NS ? ask->period_ns : REFUSED_NS);
 	}
 }
@@ -274,6 +359,8 @@ static bool is_due(void *context, int item)
 	const struct bus_sent *sent = &row->bus->sent[item];
 	const uint32_t serial = row->bus->field->place[it->point].serial;
 
+	if (it->channel->ask >= 0)
+		return true;
 	return serial && (serial != sent->serial ||
 			  (it->channel->refresh_ns && row->now_ns - sent->at_ns >= it->channel->refresh_ns));
 }
@@ -370,6 +457,8 @@ static void plan_writes(struct bus *bus, int number)
 	struct row row = { .bus = bus, .now_ns = bus->wire.now(bus->wire.context) };
 	int64_t next_ns = INT64_MAX;
 
+	if (ask->by >= 0)
+		return;
 	pthread_mutex_lock(&bus->field->lock);
 	bus->ask[number].changed = false;
 	for (int i = ask->from; i < ask->to; i++) {
@@ -404,7 +493,7 @@ static bool may_go_together(const struct bus *bus, int number)
 {
 	const struct plan_ask *ask = &bus->plan.ask[number];
 
-	return ask->output && ask->table == TABLE_HOLDING_REGISTER && bus->plan.item[ask->from].bit < 0 &&
+	return ask->output && ask->by < 0 && ask->table == TABLE_HOLDING_REGISTER && bus->plan.item[ask->from].bit < 0 &&
 	       bus->limits[ask->unit].together && !bus->unit[ask->unit].no_both && !bus->ask[number].apart;
 }
 
@@ -413,7 +502,7 @@ static int write_with(const struct bus *bus, int number)
 {
 	const struct plan_ask *read = &bus->plan.ask[number];
 
-	for (int i = 0; i < bus->plan.asks && read->table == TABLE_HOLDING_REGISTER; i++)
+	for (int i = 0; i < bus->plan.asks && read->table == TABLE_HOLDING_REGISTER && read->by < 0; i++)
 		if (bus->plan.ask[i].unit == read->unit && bus->ask[i].changed && may_go_together(bus, i))
 			return i;
 	return -1;
@@ -429,7 +518,7 @@ static int read_with(const struct bus *bus, uint8_t unit, int64_t now_ns)
 		const struct plan_ask *ask = &bus->plan.ask[i];
 		int64_t due_ns;
 
-		if (ask->unit != unit || ask->output || ask->table != TABLE_HOLDING_REGISTER)
+		if (ask->unit != unit || ask->output || ask->by >= 0 || ask->table != TABLE_HOLDING_REGISTER)
 			continue;
 		due_ns = bus->ask[i].due_ns;
 		if (due_ns - ask->period_ns / 4 <= now_ns && due_ns < best_ns) {
@@ -469,7 +558,7 @@ static void do_write(struct bus *bus, int number)
 	static _Thread_local struct load load;
 	const struct plan_ask ask = bus->plan.ask[number];
 	struct row row = { .bus = bus, .now_ns = bus->wire.now(bus->wire.context) };
-	int from = ask.from, to, exception;
+	int from = ask.from + (ask.by >= 0 ? bus->ask[number].next : 0), to, exception;
 	enum result result;
 
 	pthread_mutex_lock(&bus->field->lock);
@@ -487,9 +576,15 @@ static void do_write(struct bus *bus, int number)
 			result = write_row(bus, &ask, &bus->plan.item[from], &load, &exception);
 		if (result == REFUSED && is_of_address(exception) && split(bus, number))
 			return;
-		if (result == FAILED)
+		if (result == FAILED) {
+			if (unit_is_bad(&bus->unit[ask.unit]) && ask.by >= 0 && is_waiting(bus, number))
+				serve_block(bus, number, SILENT);
 			return;
+		}
 		take_written(bus, from, to, &load, row.now_ns, result == GOOD);
+		bus->ask[number].next = to - ask.from;
+		if (result == REFUSED || to == ask.to)
+			serve_block(bus, number, result == REFUSED ? exception : 0);
 	}
 	plan_writes(bus, number);
 }
@@ -500,7 +595,8 @@ static int64_t due_of(const struct bus *bus, int number, int64_t now_ns, bool al
 {
 	const struct plan_ask *ask = &bus->plan.ask[number];
 	const struct bus_ask *state = &bus->ask[number];
-	const int64_t own = !ask->output ? state->due_ns : state->changed ? now_ns : state->refresh_ns;
+	const int64_t own = ask->by >= 0 ? (is_waiting(bus, number) ? now_ns : INT64_MAX) :
+			    !ask->output ? state->due_ns : state->changed ? now_ns : state->refresh_ns;
 	const struct unit *unit = &bus->unit[ask->unit];
 	const int64_t unit_ns = unit_due_ns(unit, alone);
 	int64_t due_ns = own > unit_ns ? own : unit_ns, clear_ns;
@@ -531,7 +627,7 @@ static struct choice choose(const struct bus *bus, int64_t now_ns)
 		int64_t *best_ns = away ? &probe_ns : ask->output ? &write_ns : &read_ns;
 		int *best = away ? &choice.probe : ask->output ? &choice.write : &choice.read;
 
-		choice.live += !away && !ask->output;
+		choice.live += !away && !ask->output && ask->by < 0;
 		if (due_ns > now_ns) {
 			if (due_ns < choice.next_ns)
 				choice.next_ns = due_ns;
@@ -549,6 +645,8 @@ int64_t bus_step(struct bus *bus)
 	struct choice choice;
 	int next;
 
+	if (atomic_load(&bus->changed))
+		take_requests(bus, now_ns);
 	if (bus->broken && now_ns < bus->line_ns)
 		return bus->line_ns;
 	if (atomic_exchange(&bus->changed, false))

@@ -35,7 +35,15 @@ struct bus_ask {
 	int64_t due_ns;        /* of a read                                    */
 	int64_t refresh_ns;    /* of a write: when one of its items must be repeated */
 	bool changed;          /* of a write: one of its items is due           */
+	uint32_t served;       /* the number of the request for which it was done */
+	int next;              /* of a write: items that are done for it       */
 	bool apart;            /* of a write: the device refused it together with a read */
+};
+
+/* What a block of the program asks for (struct io_ask). */
+struct bus_request {
+	uint32_t number;       /* of the request that waits; 0: none           */
+	int status;            /* of what is done; 0: good                     */
 };
 
 struct bus_sent {
@@ -50,6 +58,7 @@ struct bus {
 	struct plan_limits limits[256]; /* by unit                               */
 	struct bus_ask *ask;   /* beside plan.ask                               */
 	struct bus_sent *sent; /* beside plan.item                              */
+	struct bus_request *request; /* one for each io_ask of the map; of other buses unused */
 	struct unit unit[256]; /* by number                                     */
 	bool has[256];         /* the plan asks it                              */
 	struct field *field;
@@ -68,6 +77,9 @@ bool bus_open(struct bus *bus, const struct iomap *map, int number, struct field
 void bus_close(struct bus *bus);
 /** bus_changed - an output of this bus has a new value. From any thread. */
 void bus_changed(struct bus *bus);
+/** bus_ask_for - block @ask of the program makes request @number; 0: its request waits no longer. The answer is a
+ * value of the point behind all points of the map. From any thread; field->lock is not held. */
+void bus_ask_for(struct bus *bus, int ask, uint32_t number);
 /** bus_step - at most one request. Returns when it wants to be called again; INT64_MAX: when an output
  * changes. */
 int64_t bus_step(struct bus *bus);

@@ -115,3 +115,14 @@ void masters_output(struct masters *masters, int point, union iec_value value)
 		signal_master(master);
 	}
 }
+
+void masters_ask(struct masters *masters, const struct iomap *map, int ask, uint32_t number)
+{
+	const int bus = map->net->ask[ask].bus;
+	struct master *master = masters->of && bus < masters->count ? masters->of[bus] : NULL;
+
+	if (!master || !master->runs)
+		return;
+	bus_ask_for(&master->bus, ask, number);
+	signal_master(master);
+}

@@ -28,4 +28,6 @@ bool masters_start(struct masters *masters, const struct iomap *map, struct fiel
 void masters_stop(struct masters *masters);
 /** masters_output - a new value for an output of the map. */
 void masters_output(struct masters *masters, int point, union iec_value value);
+/** masters_ask - a request of block @ask of the program; as bus_ask_for(). */
+void masters_ask(struct masters *masters, const struct iomap *map, int ask, uint32_t number);
 #endif

@@ -49,6 +49,7 @@ static int compare(const void *left, const void *right)
 	const int by[] = {
 		order(a->channel->unit_id, b->channel->unit_id), order(a->output, b->output),
 		order((int)a->channel->table, (int)b->channel->table),
+		order(a->channel->ask, b->channel->ask),
 		a->output ? 0 : order(a->channel->poll_ns, b->channel->poll_ns),
 		order(a->channel->reg, b->channel->reg), order(a->bit, b->bit), order(a->point, b->point),
 	};
@@ -78,7 +79,7 @@ static bool joins(const struct plan_ask *ask, const struct plan_item *last, cons
 	const int most = ask->output ? (bits ? limits->write_bits : limits->write_words) :
 				       (bits ? limits->read_bits : limits->read_words);
 
-	if (item->channel->unit_id != ask->unit || item->output != ask->output ||
+	if (item->channel->unit_id != ask->unit || item->output != ask->output || item->channel->ask != ask->by ||
 	    item->channel->table != ask->table ||
 	    end_of(item) - ask->first > most)
 		return false;
@@ -125,7 +126,8 @@ static void add_asks(struct plan *plan, const struct iomap *map, int bus,
 			ask = &plan->ask[plan->asks++];
 			*ask = (struct plan_ask){ .unit = item->channel->unit_id, .table = item->channel->table,
 						  .output = item->output, .first = item->channel->reg,
-						  .from = i, .period_ns = item->channel->poll_ns };
+						  .from = i, .period_ns = item->channel->poll_ns,
+						  .by = item->channel->ask };
 		}
 		if (end_of(item) - ask->first > ask->count)
 			ask->count = end_of(item) - ask->first;

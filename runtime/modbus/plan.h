@@ -27,6 +27,7 @@ struct plan_ask {
 	int count;             /* coils or registers                           */
 	int from, to;          /* items from … to - 1                          */
 	int64_t period_ns;     /* of a read                                    */
+	int by;                /* number of the io_ask that it waits for; -1: none */
 };
 
 struct plan_limits {

@@ -90,10 +90,19 @@ static bool is_ours(const struct io_point *point)
 
 static void on_output(void *context, uint32_t point, enum iec_type type, union iec_value value)
 {
+	const int asks = session.map.net ? session.map.net->ask_count : 0;
+
 	(void)context;
 	(void)type;
+	if (session.runs && point >= (uint32_t)session.map.count && point - (uint32_t)session.map.count < (uint32_t)asks)
+		masters_ask(&session.masters, &session.map, (int)point - session.map.count, (uint32_t)value.i);
 	if (session.runs && point < (uint32_t)session.map.count && is_ours(&session.map.point[point]))
 		masters_output(&session.masters, (int)point, value);
+}
+
+static enum iec_type raw_of(int point)
+{
+	return point < session.map.count ? session.map.point[point].channel->raw : IEC_UDINT;
 }
 
 static void send_values(void)
@@ -102,8 +111,8 @@ static void send_values(void)
 
 	for (int i = 0; i < count; i++)
 		keep_end(gateway_put(&session.gateway, (uint32_t)session.fresh[i].point,
-				     session.map.point[session.fresh[i].point].channel->raw,
-				     session.fresh[i].value, session.fresh[i].good));
+				     raw_of(session.fresh[i].point), session.fresh[i].value,
+				     session.fresh[i].good));
 	if (count)
 		keep_end(gateway_flush(&session.gateway));
 }
@@ -179,6 +188,7 @@ static bool is_same_map(void)
 static bool begin_map(void)
 {
 	bool good;
+	int places;
 
 	arena_init(&session.arena);
 	diag_init(&session.diags);
@@ -193,8 +203,9 @@ static bool begin_map(void)
 	good = !session.text_len || iomap_read(&session.map, &session.arena, "map of the board", session.text,
 					       session.text_len, &session.diags);
 	good = good && check_machine(&session.map, &session.diags);
-	session.fresh = good ? calloc((size_t)session.map.count + 1, sizeof(*session.fresh)) : NULL;
-	if (session.fresh && !field_open(&session.field, session.map.count)) {
+	places = session.map.count + (session.map.net ? session.map.net->ask_count : 0);
+	session.fresh = good ? calloc((size_t)places + 1, sizeof(*session.fresh)) : NULL;
+	if (session.fresh && !field_open(&session.field, places)) {
 		free(session.fresh);
 		session.fresh = NULL;
 	}

@@ -429,6 +429,17 @@ static void test_bad_nets(void)
 	BAD("WINDOW s coil=0 %IX0.0 read-write", "LD543");
 	BAD("WINDOW s input-register=0 %MW0 read-write", "LD543");
 	BAD("WINDOW s coil=0..9 %MX0.0 read-only\nWINDOW s coil=9 %QX0.0 read-only", "test.io:6:1: error LD544");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=", "LD505");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M poll=1s", "LD520: \"ask=M\"");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M stale=1s", "LD520");
+	BAD("%QW9 modbus bus=a unit=1 holding-register=0 ask=M safe=0", "LD520");
+	BAD("%QW9 modbus bus=a unit=1 holding-register=0 ask=M refresh=1s", "LD520");
+	BAD("%QW9 modbus bus=a unit=1 holding-register=0 ask=M on-change", "LD520");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M ask=M", "LD526");
+	BAD("%IW9 sim ask=M", "LD528");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%QW9 modbus bus=a unit=1 holding-register=0 ask=m", "test.io:6:");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%QW9 modbus bus=a unit=1 holding-register=0 ask=m", "LD547");
+	BAD("BUS q modbus-tcp host=h\n%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%IW6 modbus bus=q unit=1 holding-register=0 ask=M", "LD547");
 	BAD("DEVICE", "LD505");
 	BAD("DEVICE a", "LD505");
 	BAD("DEVICE a read-registers=5", "LD505");
@@ -475,7 +486,7 @@ static void test_pieces(void)
 		"BUS p peer interface=lo group=239.1.1.1:5\nPUBLISH me A,B, C every=1s bus=p\n"
 		"DEVICE a unit=1 read-registers=9 write-coils=2 gap=0 together\nMODULE M di=3 coil=7\n%XIB0..2 module bus=a unit=1 type=M substitute=hold\n"
 		"%AIW0 iio device=\"d e\" channel=voltage0 range=-5..5 at -10V..10mV limits=-11V..1V\n"
-		"%IX9.0..10.2 modbus bus=a unit=1 input-register=3 bit=15\n%IW0 peer bus=p from=x name=y\n"
+		"%IX9.0..10.2 modbus bus=a unit=1 input-register=3 bit=15 ask=M\n%IW0 peer bus=p from=x name=y\n"
 		"%IX8.0 modbus bus=a unit=1 input-register=3 threshold=5 hysteresis=2\n%IB7 quality of=%IW0..2\n";
 	bool good = true;
 

@@ -187,6 +187,111 @@ END_PROGRAM
     wire.close()
 
 
+ASKING = '''RUNGBOARD 1
+
+VAR
+  Go     AT %MX0.0 : BOOL;
+  Send   AT %MX0.1 : BOOL;
+  Value  AT %MW2   : INT;
+  Reads  AT %MW4   : INT;
+  Writes AT %MW6   : INT;
+  Errors AT %MW8   : INT;
+  Why    AT %MW10  : UINT;
+  Sum    AT %MD12  : DINT;
+  Meter  : MB_READ;
+  Drive  : MB_WRITE;
+END_VAR
+
+PROGRAM Main ST
+  Meter(REQ := Go, TIMEOUT := T#3s);
+  IF Meter.DONE AND Go THEN
+    Sum := 0;
+    Sum := Sum + %IW100 + %IW118;
+    Reads := Reads + 1;
+    Go := FALSE;
+  ELSIF Meter.ERROR AND Go THEN
+    Errors := Errors + 1;
+    Why := Meter.STATUS;
+    Go := FALSE;
+  END_IF;
+  %QW200 := Value;
+  %QW202 := Value + 1;
+  Drive(REQ := Send);
+  IF Drive.DONE AND Send THEN
+    Writes := Writes + 1;
+    Send := FALSE;
+  ELSIF Drive.ERROR AND Send THEN
+    Errors := Errors + 1;
+    Why := Drive.STATUS;
+    Send := FALSE;
+  END_IF;
+END_PROGRAM
+'''
+
+
+def test_a_program_asks_for_what_it_reads_and_writes():
+    """MB_READ and MB_WRITE: a device is asked only when the program wants it; good, refused, silent, another gateway."""
+    port = free_port()
+    plant = Units([1]).tcp(port)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
+DEVICE plant unit=1 read-registers=4
+%IW100..118 modbus bus=plant unit=1 holding-register=0 ask=Meter
+%QW200..202 modbus bus=plant unit=1 holding-register=20 ask=Main.Drive
+'''
+    board = board.replace('Main.Drive', 'Drive')
+    block = plant.block[1]['holding-register']
+    with Board(ASKING, board) as it:
+        def word(name):
+            return it.command('get', name).split('=')[1].split()[0]
+
+        assert until(lambda: 'plant' in it.command('status'))
+        plant.set(1, 'holding-register', 0, 7)
+        plant.set(1, 'holding-register', 9, 8)
+        assert not until(lambda: block.reads or block.writes, 0.5)
+        for n in range(1, 4):
+            plant.set(1, 'holding-register', 0, 7 * n)
+            it.command('set', 'Go=1')
+            assert until(lambda: word('Reads') == str(n)), it.status()
+            assert word('Sum') == str(7 * n + 8)
+            assert block.reads == 3 * n, block.reads
+        for n in range(1, 4):
+            it.command('set', f'Value={n}')
+            assert not until(lambda: block.writes >= n, 0.2)
+            it.command('set', 'Send=1')
+            assert until(lambda: word('Writes') == str(n)), it.status()
+            assert plant.get(1, 'holding-register', 20, 2) == [n, n + 1] and block.writes == n
+        # A register that the device does not have.
+        block.missing.add(9)
+        it.command('set', 'Go=1')
+        assert until(lambda: word('Errors') == '1') and word('Why') == '2', it.status()
+        block.missing.clear()
+        it.command('set', 'Go=1')
+        assert until(lambda: word('Reads') == '4')
+        # A gateway that begins anew makes no request that was answered.
+        writes, reads = block.writes, block.reads
+        it.modbus.kill()
+        it.modbus.wait(60)
+        it.start_modbus()
+        assert until(lambda: 'plant/1' in it.command('status'))
+        assert not until(lambda: (block.writes, block.reads) != (writes, reads), 0.5)
+        # Without a gateway, and with a device that is silent.
+        it.modbus.kill()
+        it.modbus.wait(60)
+        it.command('set', 'Go=1')
+        assert until(lambda: word('Errors') == '2') and word('Why') == '256'
+        it.start_modbus()
+        assert until(lambda: 'plant/1' in it.command('status'))
+        assert block.reads == reads
+        plant.stop()
+        it.command('set', 'Send=1')
+        assert until(lambda: word('Errors') == '3') and word('Why') == '257', (word('Errors'), word('Why'))
+        plant.tcp(port)
+        it.command('set', 'Send=1')
+        assert until(lambda: word('Writes') == '4'), it.status()
+    plant.close()
+
+
 def late(frame):
     return [(0.15, frame)]
 

@@ -73,7 +73,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 11u
+#define CODE_VERSION 12u
 #define CODE_AREAS   16
 
 /* A pointer: offset of a place, its bytes, and the position from its first byte on. */

@@ -340,6 +340,8 @@ static void values(void)
 	SET(coil, 0, IO_SAFE, "hold", "%QX1.0 modbus bus=p unit=1 coil=16 safe=hold\n");
 	SET(coil, 0, IO_PULL, "pull-up", "(7)");
 	SET("%IW0 modbus bus=p unit=1\n", 0, IO_NUMBER, "5", "%IW0 modbus bus=p unit=1 input-register=5\n");
+	SET("%IW0 modbus bus=p unit=1\n", 0, IO_ASK, "Meter", "%IW0 modbus bus=p unit=1 ask=Meter\n");
+	SET("%IW0 sim\n", 0, IO_ASK, "Meter", "(7)");
 	SET("DEVICE p unit=1\n", 0, IO_GAP, "0", "DEVICE p unit=1 gap=0\n");
 	SET("DEVICE p unit=1 gap=4\n", 0, IO_TOGETHER, "1", "DEVICE p unit=1 gap=4 together\n");
 	SET("DEVICE p unit=1\n", 0, IO_UNIT, "7", "DEVICE p unit=7\n");
