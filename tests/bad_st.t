@@ -1,11 +1,11 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# bad_st.t - what `ladder check` says about mistakes that people make in Structured Text.
+# bad_st.t - what `ladder check` says about mistakes that people make in Structured Text and in networks.
 #
-# tests/bad/st.cases has a case each: its name, the text, and behind --- the messages. A text that does not
-# begin with a word of a file stands in a program that declares the variables below. `tests/bad_st.t --bless`
-# writes the messages anew; a person reads the difference.
+# tests/bad/st.cases and fbd.cases have a case each: its name, the text, and behind --- the messages. A text that
+# does not begin with a word of a file stands in a program that declares the variables below.
+# `tests/bad_st.t --bless` writes the messages anew; a person reads the difference.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -18,23 +18,24 @@ use Files;
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
-my $file = "$tests/bad/st.cases";
 my $folder = tempdir(CLEANUP => 1);
 
-my $head = <<'END';
+my $language = 'ST';
+my $declared = <<'END';
 RUNGBOARD 1
 VAR CONSTANT Limit : INT := 3; END_VAR
 VAR
   Sensor AT %IW0 : INT; A, B, C, i : INT; D : DINT; U : UINT; R : REAL; By : BYTE; On, Stop : BOOL;
   Delay : TIME; Name : STRING[20]; T : ARRAY[1..5] OF INT; Wait : TON;
 END_VAR
-PROGRAM Main ST
 END
 
 # The file of a case, and how many lines stand above its text.
 sub program {
 	my ($text) = @_;
 	return ($text, 0) if $text =~ /^(?:\xef\xbb\xbf)?(?:P\0R\0|RUNGBOARD|PROGRAM|FUNCTION|FUNCTION_BLOCK|TYPE|VAR|VAR_GLOBAL\b)/;
+	my $head = $declared . "PROGRAM Main $language\n";
+
 	return ("$head$text" . "END_PROGRAM\n", scalar(() = $head =~ /\n/g));
 }
 
@@ -52,22 +53,32 @@ sub messages {
 	return join '', map { "$_\n" } grep { !/^\Q$name\E: good/ && !/^-\d+: warning/ } @lines;
 }
 
-my (@cases, $out);
-{
+my %most = (ST => 80, FBD => 40);
+for my $file (map { "$tests/bad/$_.cases" } qw(st fbd)) {
+	my (@cases, $out, %seen);
+
+	$language = $file =~ /fbd.cases$/ ? 'FBD' : 'ST';
 	open my $in, '<', $file or die "$file: $!";
-	local $/;
-	my $all = <$in>;
-	push @cases, [$1, $2, $3 // ''] while $all =~ /^=== (.*)\n((?:(?!===|---).*\n)*)(?:---\n((?:(?!===).*\n)*))?/mg;
+	{
+		local $/;
+		my $all = <$in>;
+		push @cases, [$1, $2, $3 // ''] while $all =~ /^=== (.*)\n((?:(?!===|---).*\n)*)(?:---\n((?:(?!===).*\n)*))?/mg;
+	}
+	for my $case (@cases) {
+		my ($name, $text, $want) = @$case;
+		my $said = messages($text);
+		$said = "good\n" if $said eq '';
+		is($said, $want, $name);
+		ok(!$seen{$name}++, "$name: one case of this name");
+		$out .= "=== $name\n$text---\n$said";
+	}
+	cmp_ok(scalar(@cases), '>=', $most{$language}, "at least $most{$language} mistakes in $language");
+	if (@ARGV && $ARGV[0] eq '--bless') {
+		spew($file, $out);
+		diag("$file is written; read the difference");
+	}
 }
-my %seen;
-for my $case (@cases) {
-	my ($name, $text, $want) = @$case;
-	my $said = messages($text);
-	$said = "good\n" if $said eq '';
-	is($said, $want, $name);
-	ok(!$seen{$name}++, "$name: one case of this name");
-	$out .= "=== $name\n$text---\n$said";
-}
+$language = 'ST';
 # What a text file cannot show.
 my %bytes = (
 	'CRLF' => ["A := 1;\r\nB = 2;\r\n", qr/^2:1: error LD231/],
@@ -84,10 +95,5 @@ for my $name (sort keys %bytes) {
 	my $said = messages($text);
 	like($said, $want, $name);
 	ok(length $said < 60000, "$name: the messages are short");
-}
-cmp_ok(scalar(@cases), '>=', 80, 'at least 80 mistakes');
-if (@ARGV && $ARGV[0] eq '--bless') {
-	spew($file, $out);
-	diag("$file is written; read the difference");
 }
 done_testing;

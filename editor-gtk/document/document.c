@@ -1129,7 +1129,8 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	GPtrArray *before = change_texts(), *after = change_texts();
 	struct pou *of = project && pou >= 0 && pou < project->pou_count ?
 		&project->pou[pou] : NULL;
-	bool good = of && !document->fixed && of->language != LANGUAGE_IL && of->language != LANGUAGE_ST && !of->included && at >= 0 &&
+	bool good = of && !document->fixed && of->language != LANGUAGE_IL && of->language != LANGUAGE_ST && !of->fbd &&
+		!of->included && at >= 0 &&
 		!g_hash_table_contains(document->list, GINT_TO_POINTER(pou)) &&
 		(!of->sfc || fits_body(of->sfc, at, removed, inserted)) &&
 		removed >= 0 && at + removed <= of->rung_count &&

@@ -285,7 +285,8 @@ static void search_declaration(struct search *search, const char *whole,
 
 	/* The text of a list includes its declarations. */
 	if (span->pou >= 0 && (search->project->pou[span->pou].language == LANGUAGE_IL ||
-			       search->project->pou[span->pou].language == LANGUAGE_ST))
+			       search->project->pou[span->pou].language == LANGUAGE_ST ||
+			       search->project->pou[span->pou].fbd))
 		return;
 	line = g_strndup(whole + span->at, span->len);
 	g_strchomp(line);

@@ -15,7 +15,7 @@
 /* Beginners first; other pages follow by name. */
 static const char *const order[] = {
 	"tutorial.md", "editor.md", "quick-entry.md", "symbols.md", "sfc.md", "flow-chart-to-st.md",
-	"st.md", "boards.md", "scenarios.md", "rung-file.md", "declarations.md", "language.md",
+	"st.md", "fbd.md", "boards.md", "scenarios.md", "rung-file.md", "declarations.md", "language.md",
 	"blocks.md", "words.md",
 };
 

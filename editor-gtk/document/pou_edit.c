@@ -105,18 +105,19 @@ char *pou_name_refusal(LadderDocument *document, enum pou_kind kind, const char 
 static char *text_of(enum pou_kind kind, enum pou_language language, const char *name)
 {
 	const bool list = language == LANGUAGE_IL, chart = language == LANGUAGE_SFC;
-	const bool statements = language == LANGUAGE_ST;
+	const bool statements = language == LANGUAGE_ST, networks = language == LANGUAGE_FBD;
 	const bool function = kind == POU_FUNCTION, block = kind == POU_BLOCK;
 	const char *result = function ? name : "Out";
 	char *called = list ? g_strdup_printf("  LD In\n  ST %s\n", result) :
 		       statements ? g_strdup_printf("  %s := In;\n", result) :
+		       networks ? g_strdup_printf("NETWORK\n  %s := In\n", result) :
 		       g_strdup_printf("RUNG\n  | NO In | COIL %s |\n", result);
 	char *text = g_strdup_printf("\n%s %s%s %s\n%s%s%sEND_%s\n", pou_word(kind), name,
 		function ? " : BOOL" : "", pou_language_word(language),
 		function || block ? "VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
 		block ? "VAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n" : "",
 		function || block ? called : list ? "  LD FALSE\n" : statements ? "" :
-			chart ? "  INITIAL_STEP Start:\n  END_STEP\n" : "RUNG\n",
+			networks ? "NETWORK\n" : chart ? "  INITIAL_STEP Start:\n  END_STEP\n" : "RUNG\n",
 		pou_word(kind));
 
 	g_free(called);

@@ -192,6 +192,7 @@ static char *language_of(const struct pou *pou)
 	case LANGUAGE_IL: return g_strdup(_("Instruction list (IL)"));
 	case LANGUAGE_SFC: return g_strdup(_("Chart (SFC)"));
 	case LANGUAGE_ST: return g_strdup(_("Structured Text (ST)"));
+	case LANGUAGE_FBD: return g_strdup(_("Function Block Diagram (FBD)"));
 	}
 	return NULL;
 }

@@ -19,7 +19,7 @@
 char **listing_il(const struct project *project, const struct pou *pou)
 {
 	struct sink_memory memory;
-	char **lines = NULL, *st = pou->language == LANGUAGE_ST ? pou_print(project, pou) : NULL;
+	char **lines = NULL, *st = pou->language == LANGUAGE_ST || pou->fbd ? pou_print(project, pou) : NULL;
 	const bool statements = st != NULL;
 
 	sink_memory_init(&memory);

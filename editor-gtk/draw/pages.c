@@ -1182,7 +1182,7 @@ static void put_pou(struct pages *pages, int index, int rung)
 	pages->pou = index;
 	pages->subject = name;
 	next_page(pages);
-	if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST)
+	if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST || pou->fbd)
 		put_list(pages, heading, listing_il(pages->project, pou));
 	else if (pou->sfc && !rung)
 		put_chart(pages, heading);

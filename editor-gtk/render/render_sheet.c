@@ -224,7 +224,7 @@ void render_sheets(const struct project *project, int pou,
 		if (several)
 			y += render_heading(lettering, heading, y, picture);
 		g_free(heading);
-		if (one->language == LANGUAGE_IL || one->language == LANGUAGE_ST)
+		if (one->language == LANGUAGE_IL || one->language == LANGUAGE_ST || one->fbd)
 			y = put_lines(listing_il(project, one), lettering, y + 8,
 				      picture);
 		else if (one->sfc && !options->rung)

@@ -39,7 +39,7 @@ GtkSourceLanguage *text_language_st(bool st)
 
 bool text_is_st(const struct pou *pou)
 {
-	return pou->language == LANGUAGE_ST || (pou->sfc && pou->st) || pou->boxed_count > 0;
+	return pou->language == LANGUAGE_ST || pou->fbd || (pou->sfc && pou->st) || pou->boxed_count > 0;
 }
 
 GtkSourceLanguage *text_language_of(LadderDocument *document, int pou)

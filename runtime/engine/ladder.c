@@ -13,6 +13,7 @@
 #include "engine/check/expect.h"
 #include "engine/check/generic.h"
 #include "engine/check/settle.h"
+#include "engine/check/wires.h"
 #include "engine/model/caller.h"
 #include "engine/model/located.h"
 #include "engine/scan/symbol_index.h"
@@ -219,6 +220,7 @@ static bool read_project(struct ladder *ladder, const struct text_file *files, i
 	arena_reset(&ladder->scratch);
 	return good && (ladder->leaves ||
 			(settle_project(ladder->project, &ladder->scratch, &ladder->diags) &&
+			 wires_make(ladder->project, &ladder->scratch, &ladder->diags) &&
 			 located_place(ladder->project, &ladder->diags)));
 }
 
@@ -478,7 +480,7 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 		    !sfc_to_il(t, unit, bad, watch, &ladder->scratch))
 			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
-	} else if (unit->pou->language == LANGUAGE_ST) {
+	} else if (unit->pou->language == LANGUAGE_ST || unit->pou->language == LANGUAGE_FBD) {
 		if (!bad[unit->pou->rung_count] && !st_to_il(t, unit, &ladder->scratch))
 			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
@@ -509,6 +511,7 @@ static bool make_units(struct ladder *ladder, uint8_t *const *bad)
 			return false;
 		if (ladder->watch && ladder->diags.errors == 0 &&
 		    unit->pou->language != LANGUAGE_IL && unit->pou->language != LANGUAGE_ST &&
+		    unit->pou->language != LANGUAGE_FBD &&
 		    !make_list(ladder, unit, true, bad[i]))
 			return false;
 	}
@@ -757,6 +760,13 @@ const struct il *ladder_il(const struct ladder *ladder, int pou)
 	    pou >= ladder->translation.unit_count)
 		return NULL;
 	return &ladder->translation.unit[pou].il;
+}
+
+bool ladder_declare_wires(struct ladder *ladder, int pou)
+{
+	struct project *project = ladder->project;
+
+	return wires_declare(project, &project->pou[pou], &project->pou[pou].il);
 }
 
 struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,

@@ -139,6 +139,9 @@ struct diag_list *ladder_diags(struct ladder *ladder);
 struct project *ladder_project(struct ladder *ladder); /* NULL: an image    */
 const struct program *ladder_program(const struct ladder *ladder); /* NULL  */
 const void *ladder_image(const struct ladder *ladder, size_t *len);
+/** ladder_declare_wires - for a printed list: the wires of networks of POU @pou, and those in its list, get
+ * names that can be declared. Nothing else may be asked behind it. Fails: false: no memory. */
+bool ladder_declare_wires(struct ladder *ladder, int pou);
 /** ladder_il - the instruction list of POU @pou (translated, or as written); NULL before
  * ladder_build. */
 const struct il *ladder_il(const struct ladder *ladder, int pou);

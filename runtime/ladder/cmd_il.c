@@ -105,6 +105,9 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 		pou->language = LANGUAGE_IL;
 		pou->sfc = NULL;
 		pou->st = NULL;
+		if (pou->fbd && !ladder_declare_wires(ladder, i))
+			return false;
+		pou->fbd = NULL;
 		if (!add_temporaries(project, pou, temp, count))
 			return false;
 		for (int k = 0; k < pou->rung_count; k++)

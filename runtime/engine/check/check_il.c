@@ -576,7 +576,7 @@ static bool check_routine(struct il_check *c, int at, const struct pou *to)
 	bool good = true;
 
 	if (to->kind != POU_SUBROUTINE && to->kind != POU_ACTION &&
-	    !(to->kind == POU_PROGRAM && (c->fn.pou->language == LANGUAGE_ST ||
+	    !(to->kind == POU_PROGRAM && (c->fn.pou->language == LANGUAGE_ST || c->fn.pou->fbd ||
 					  scope_project(c->fn.scope)->words.own_first)))
 		return il_report(&c->fn, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)

@@ -9,6 +9,7 @@
 #include "engine/check/check.h"
 #include "engine/check/access.h"
 #include "engine/check/check_config.h"
+#include "engine/check/check_fbd.h"
 #include "engine/check/check_operand.h"
 #include "engine/check/check_sfc.h"
 #include "engine/check/check_sfc_names.h"
@@ -764,6 +765,21 @@ static void check_text(struct names_check *c, const struct pou *pou, int first, 
 		bad[pou->rung_count] = 1;
 }
 
+/* A body of networks. One with errors is not translated. */
+static void check_networks(struct names_check *c, const struct pou *pou, uint8_t *bad)
+{
+	struct operand_check operands = {
+		.scope = c->scope, .project = c->project, .uses = &c->uses,
+		.expr = c->expr, .diags = c->diags, .pou = pou, .statement = true,
+	};
+
+	if (check_fbd(&operands, c->scratch))
+		return;
+	c->good = false;
+	if (bad)
+		bad[pou->rung_count] = 1;
+}
+
 /* Statements of EXECUTE boxes. */
 static void check_boxes(struct names_check *c, const struct pou *pou, uint8_t *bad)
 {
@@ -930,6 +946,8 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
 		else if (pou->language == LANGUAGE_ST && pou->st)
 			check_text(c, pou, 0, pou->st->count, bad ? bad[i] : NULL);
+		else if (pou->fbd)
+			check_networks(c, pou, bad ? bad[i] : NULL);
 		else
 			check_ladder(c, pou, 0, pou->rung_count, NULL,
 				     bad ? bad[i] : NULL);
@@ -976,10 +994,10 @@ static void check_values(struct names_check *c)
 			.place = { .file = config->file, .pou = name },
 		};
 
-		if (pou && pou->language != LANGUAGE_ST)
+		if (pou && pou->language != LANGUAGE_ST && !pou->fbd)
 			c->good &= diag_add(c->diags, (struct diag){ .id = DIAG_VALUES_FOR_ST,
 					    .file = config->file, .line = entry->line }, "%s", name);
-		for (int k = 0; pou && pou->language == LANGUAGE_ST && k < entry->values; k++)
+		for (int k = 0; pou && (pou->language == LANGUAGE_ST || pou->fbd) && k < entry->values; k++)
 			if (has_value(c, entry, pou, &entry->value[k]))
 				c->good &= check_st_item(&operands, &entry->value[k]);
 	}

@@ -15,7 +15,9 @@
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
+#include "engine/check/infer.h"
 #include "engine/model/expr_args.h"
+#include "engine/model/fbd.h"
 #include "engine/model/loop.h"
 #include "engine/model/st.h"
 
@@ -82,6 +84,24 @@ static enum diag_id foreign_constant(const char *name, char *out, size_t size)
 	return DIAG_COUNT;
 }
 
+/* A wire of another network. */
+static bool said_elsewhere(struct operand_check *c, struct operand_spot at, const char *name)
+{
+	const size_t len = strcspn(name, ".[^");
+	char text[2 * LIMIT_ARG];
+
+	for (int i = 0; c->pou->fbd && i < c->pou->fbd->count; i++) {
+		const int wire = fbd_wire(&c->project->names, c->pou, i, name, len);
+
+		if (wire < 0)
+			continue;
+		snprintf(text, sizeof(text), "%.*s" DIAG_AND "%d", len < LIMIT_ARG ? (int)len : LIMIT_ARG - 1, name,
+			 c->pou->vars.var[wire].line);
+		return !operand_report(c, DIAG_FBD_ELSEWHERE, at, text);
+	}
+	return false;
+}
+
 /* @kinds: kinds of words to suggest in the message. */
 static void report_unknown(struct operand_check *c, struct operand_spot at, uint32_t id,
 			   enum diag_id why, unsigned int kinds)
@@ -101,6 +121,8 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 		operand_report(c, why, at, told);
 		return;
 	}
+	if (said_elsewhere(c, at, name))
+		return;
 	const enum diag_id better = advice_word(c->project, c->pou, kinds, c->diags, name, text,
 						sizeof(text));
 
@@ -771,6 +793,45 @@ static bool is_array_name(struct operand_check *c, const struct expr_node *call)
 	return m && m->kind == MEANING_ARRAY;
 }
 
+/* PREVIOUS(Wire), R_EDGE(value), F_EDGE(value) in a network. False: none of them. */
+static bool use_fbd_word(struct operand_check *c, struct operand_spot at, struct expr *expr,
+			 const struct expr_node *call)
+{
+	struct names *names = &c->project->names;
+	struct expr_node *of = NULL;
+	const enum fbd_word word = fbd_word(expr, call, &of);
+	char text[LIMIT_ARG];
+	int wire;
+
+	if (word == FBD_NO_WORD)
+		return false;
+	if (c->pou->kind == POU_FUNCTION) {
+		snprintf(text, sizeof(text), "%.*s", call->len < 40 ? call->len : 40, call->text);
+		operand_report(c, DIAG_FBD_KEEPS, at, text);
+	}
+	if (word != FBD_PREVIOUS) {
+		struct infer in = { .scope = c->scope, .pou = c->pou, .project = c->project, .expr = expr,
+				    .statement = true };
+		const enum iec_type type = infer_type(&in, (int)(of - expr->node));
+
+		if (type != IEC_BOOL && type != IEC_NONE) {
+			snprintf(text, sizeof(text), "%.*s", of->len < LIMIT_ARG ? of->len : LIMIT_ARG - 1,
+				 of->text ? of->text : "");
+			c->spot = of->text ? of->text : c->spot;
+			operand_report(c, DIAG_NOT_BOOL, at, text);
+		}
+		return true;
+	}
+	wire = of->op != EXPR_NAME || c->network < 0 ? -1 : fbd_wire(names, c->pou, c->network, of->text, of->len);
+	if (wire < 0) {
+		snprintf(text, sizeof(text), "%.*s", of->len < LIMIT_ARG ? of->len : LIMIT_ARG - 1,
+			 of->text ? of->text : "");
+		operand_report(c, DIAG_FBD_PREVIOUS, at, *text ? text : "PREVIOUS");
+	}
+	of->written = true; /* it is read by nobody else */
+	return true;
+}
+
 static void check_call(struct operand_check *c, struct operand_spot at, struct expr *expr,
 		       const struct expr_node *call)
 {
@@ -786,6 +847,8 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	if (word == WORD_COUNT && c->statement && use_measured(c, at, expr, call))
 		return;
 	if (word == WORD_COUNT && c->statement && use_bound(c, at, expr, call))
+		return;
+	if (word == WORD_COUNT && c->pou->fbd && use_fbd_word(c, at, expr, call))
 		return;
 	if (word == WORD_COUNT && c->statement && is_array_name(c, call)) {
 		char text[2 * LIMIT_NAME + 8];

@@ -22,6 +22,7 @@ struct operand_check {
 	const struct pou *pou;
 	const struct rung *rung;  /* NULL: a statement of pou->st */
 	int number;               /* of the rung, 1-based */
+	int network;              /* of the line, from 0; -1: it is in none    */
 	const struct st_item *item; /* the statement                          */
 	const char *spot;         /* the place in its text                    */
 	struct diag place;        /* file and POU of statements               */

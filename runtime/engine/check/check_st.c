@@ -369,6 +369,27 @@ static void check_choice(struct operand_check *c, struct expr *expr)
 	}
 }
 
+/* The place that S= and R= write: a BOOL. */
+static void check_latched(struct operand_check *c, struct expr *expr)
+{
+	const struct expr_node *root = root_of(expr);
+	const uint32_t id = scope_first_of(c->scope, c->pou, expr, root);
+	const struct meaning *m;
+	enum diag_id why;
+
+	if (root->op == EXPR_BIT) { /* of a number */
+		check_part(c, expr, OPERAND_READ);
+		return;
+	}
+	if (!check_part(c, expr, OPERAND_WRITTEN))
+		return;
+	m = scope_find(c->scope, c->pou, id, &why);
+	if (m && m->type != IEC_BOOL) {
+		c->spot = root->text;
+		check_said(c, DIAG_NOT_BOOL, project_text(c->project, id));
+	}
+}
+
 static void check_statement(struct operand_check *c)
 {
 	struct st_walk walk;
@@ -380,7 +401,9 @@ static void check_statement(struct operand_check *c)
 		return;
 	}
 	while (next_part(c, &walk, &part) && part.role != ST_NO_PART)
-		if (part.role == ST_VARIABLE)
+		if (part.role == ST_VARIABLE && (c->item->kind == ST_SET || c->item->kind == ST_RESET))
+			check_latched(c, c->expr);
+		else if (part.role == ST_VARIABLE)
 			check_counter(c, c->expr);
 		else if (part.role == ST_LOW || part.role == ST_HIGH)
 			check_choice(c, c->expr);

@@ -255,6 +255,8 @@ static void offer_var(const struct offer *o, const struct var *var, uint16_t fla
 	if (!(kinds & EXPECT_VARIABLE) || (o->want->write && !may_write(var, flags)))
 		return;
 	/* Fill.X can only be read, TRANSITION only be written. */
+	if (flags & VAR_WIRE)
+		return; /* of networks, in which it has another name */
 	if (flags & VAR_SFC && o->want->write == (strchr(name, '.') != NULL))
 		return;
 	if (var->type == IEC_NONE || is_class(o, var->type))
@@ -1562,7 +1564,7 @@ static struct expect_want want_at(struct before *b, const char *text, size_t lin
 		expect_tokens(b, text, expect_statement(text, line), to);
 		return expect_list(b);
 	}
-	if (b->pou && b->pou->language == LANGUAGE_ST)
+	if (b->pou && (b->pou->language == LANGUAGE_ST || b->pou->language == LANGUAGE_FBD))
 		return expect_st(b, text, line, to);
 	expect_tokens(b, text, line, to);
 	return (struct expect_want){ .kinds = b->count ? 0 : EXPECT_KEYWORD,
@@ -1700,7 +1702,7 @@ static bool find_call(struct before *b, const char *text, size_t at, int line,
 
 	b->pou = pou_at(scope_project(b->scope), text, from, line);
 	body = body_of(b, text, from);
-	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !in_box(b, text, from) && !is_st_action(b, text, from)))
+	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !b->pou->fbd && !in_box(b, text, from) && !is_st_action(b, text, from)))
 		return false;
 	st_place_find(&b->st, text + body, at - body);
 	open = st_place_open(&b->st);

@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/model/expr.h"
+#include "engine/model/fbd.h"
 #include "engine/model/named.h"
 #include "engine/model/shape.h"
 
@@ -26,8 +27,10 @@ struct declared {
 struct answer {
 	struct answer *next; /* of the same text in another table */
 	uint32_t table;
+	uint32_t network;    /* in which it was asked; 0: in none            */
 	enum diag_id why : 16;
 	bool known;
+	bool made;           /* scope_add(): the same in all networks        */
 	struct meaning meaning;
 };
 
@@ -43,6 +46,8 @@ struct scope {
 	uint32_t answers;       /* texts there is room for                   */
 	uint32_t *owner;        /* by table: that of the POU whose action it is; 0: none */
 	bool actions;           /* there are some                            */
+	uint32_t wired;         /* the table whose wires are seen; 0: none   */
+	uint32_t network;       /* those of this network, from 1             */
 };
 
 #define POUS UINT32_MAX         /* the table of the names of POUs */
@@ -263,7 +268,7 @@ static void mean_variable(const struct scope *scope,
 			 (scope->project->words.own_first || (out->pou && out->pou->kind == POU_PROGRAM))));
 	mean_shape(scope, var, out);
 	if (slot->flags & VAR_SFC)
-		out->writable = scope_is_condition(out);
+		out->writable = slot->flags & VAR_WIRE || scope_is_condition(out);
 }
 
 /* The error of a step's name without .X or .T. */
@@ -288,6 +293,7 @@ static bool is_step(const struct scope *scope, uint32_t table, const char *text,
 }
 
 static struct answer *find_answer(const struct scope *scope, uint32_t table, uint32_t text);
+static const struct declared *find_wire(const struct scope *scope, uint32_t table, const char *text, size_t len);
 
 /* A declared name alone. Scan-safe: no. False: it is none. */
 static bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
@@ -297,6 +303,8 @@ static bool scope_mean_name(const struct scope *scope, uint32_t table, const cha
 	uint32_t id = names_intern(names, text, len);
 	const struct declared *slot = find_declared(scope, table,
 						    names_fold(names, id));
+	if (!slot)
+		slot = find_wire(scope, table, text, len);
 	const struct answer *made = slot || *text != '_' ? NULL : find_answer(scope, table, id);
 
 	if (slot)
@@ -626,13 +634,37 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
+void scope_network(struct scope *scope, const struct pou *pou, int network)
+{
+	scope->wired = network < 0 ? 0 : table_number(scope, pou);
+	scope->network = (uint32_t)(network + 1);
+}
+
+/* The network whose wires are seen among the names of @table; 0: none. */
+static uint32_t network_in(const struct scope *scope, uint32_t table)
+{
+	return table && scope->wired == table ? scope->network : 0;
+}
+
+/* A wire of the present network. */
+static const struct declared *find_wire(const struct scope *scope, uint32_t table, const char *text, size_t len)
+{
+	const uint32_t network = network_in(scope, table);
+	struct names *names = &scope->project->names;
+	const uint32_t id = network && len <= LIMIT_NAME && !memchr(text, '.', len) ?
+		fbd_wire_name(names, text, len, (int)network - 1, false) : 0;
+
+	return id ? find_in(scope, table, names_fold(names, id)) : NULL;
+}
+
 /* The earlier answer to this question; NULL: none. */
 static struct answer *find_answer(const struct scope *scope, uint32_t table,
 				  uint32_t text)
 {
 	struct answer *answer = text < scope->answers ? scope->answer[text] : NULL;
+	const uint32_t network = network_in(scope, table);
 
-	while (answer && answer->table != table)
+	while (answer && (answer->table != table || (answer->network != network && !answer->made)))
 		answer = answer->next;
 	return answer;
 }
@@ -654,6 +686,7 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 	if (!answer || !scope->answer)
 		return NULL;
 	answer->table = table;
+	answer->network = network_in(scope, table);
 	answer->next = scope->answer[text];
 	scope->answer[text] = answer;
 	return answer;
@@ -975,6 +1008,26 @@ static bool begin_program(struct path *path, const char *text, size_t len)
 	return true;
 }
 
+/* `Page.N1` of `Page.N1.Grams`: the variable that a wire is. */
+static bool begin_wire(struct path *path, const char *text)
+{
+	struct scope *scope = path->scope;
+	struct names *names = &scope->project->names;
+	const char *end = path->at + 1;
+	const struct declared *found;
+
+	if (!path->table || !scope->project->pou[path->table - 1].fbd || path->at >= path->end || *path->at != '.')
+		return false;
+	while (end < path->end && !strchr(".[^", *end))
+		end++;
+	found = find_in(scope, path->table, names_fold(names, names_intern(names, text, (size_t)(end - text))));
+	if (!found || !(found->flags & VAR_WIRE))
+		return false;
+	mean_variable(scope, found, &path->m);
+	path->at = end;
+	return true;
+}
+
 static bool begin(struct path *path)
 {
 	const char *text;
@@ -983,7 +1036,7 @@ static bool begin(struct path *path)
 
 	if (!len || path->at == path->end)
 		return false;
-	if (scope_mean_name(path->scope, path->table, text, len, &path->m) ||
+	if (begin_wire(path, text) || scope_mean_name(path->scope, path->table, text, len, &path->m) ||
 	    begin_program(path, text, len))
 		return follow(path);
 	if (*text == '%' && path->at[0] == '.' && path->end - path->at > 1 && path->at[1] == '%')
@@ -1109,6 +1162,8 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		id = names_intern(names, text, len);
 	}
 	slot = find_declared(scope, table, names_fold(names, id));
+	if (!slot)
+		slot = find_wire(scope, table, text, len);
 	if (slot) {
 		struct open_index open[1];
 		struct path path = { .scope = scope, .raw = raw, .pin = -1, .open = open };
@@ -1200,7 +1255,7 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 		answer = add_answer(scope, table, var->name);
 	if (!answer)
 		return false;
-	answer->known = true;
+	answer->known = answer->made = true;
 	answer->meaning = (struct meaning){
 		.type = var->type, .pou = pou, .var = var, .index = index,
 		.writable = true,

@@ -99,6 +99,9 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  */
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why);
+/** scope_network - wires of this network of @pou, from 0, are names for scope_find() from now on; -1: none are.
+ * Scan-safe: no. */
+void scope_network(struct scope *scope, const struct pou *pou, int network);
 /**
  * scope_index - the meaning of one index in an operand's text
  * @at: where in the text to look; is moved behind it

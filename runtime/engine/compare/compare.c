@@ -14,6 +14,7 @@
 #include "engine/base/sink.h"
 #include "engine/compare/diff_match.h"
 #include "engine/model/args.h"
+#include "engine/model/fbd.h"
 #include "engine/model/project.h"
 #include "engine/text/pou_print.h"
 #include "engine/text/text.h"
@@ -887,9 +888,13 @@ static bool write_body(const struct project *project, const struct pou *pou,
 {
 	const struct var_table no_vars = { 0 };
 
-	if (pou->language == LANGUAGE_ST) {
+	if (pou->language == LANGUAGE_ST || pou->fbd) {
 		sink_text(sink, "PROGRAM\n");
-		text_write_st(project, pou->st, sink);
+		if (pou->fbd)
+			for (int i = 0; i < pou->fbd->count; i++)
+				text_write_network(project, pou, i, sink);
+		else
+			text_write_st(project, pou->st, sink);
 		sink_text(sink, "END_PROGRAM\n");
 		return true;
 	}

@@ -180,7 +180,7 @@ const char *pou_language_word(enum pou_language language)
 {
 	static const char *const words[] = {
 		[LANGUAGE_LD] = "LD", [LANGUAGE_IL] = "IL", [LANGUAGE_SFC] = "SFC",
-		[LANGUAGE_ST] = "ST",
+		[LANGUAGE_ST] = "ST", [LANGUAGE_FBD] = "FBD",
 	};
 
 	return words[language];

@@ -61,7 +61,8 @@ struct config {
 
 struct advice;
 struct st;
-enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST };
+struct fbd;
+enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC, LANGUAGE_ST, LANGUAGE_FBD };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE,
 		POU_ACTION }; /* its name is that of its owner, a dot and its own */
 #define POU_KINDS (POU_ACTION + 1)
@@ -93,7 +94,8 @@ struct pou {
 	int rung_count;
 	struct il il;           /* of IL, SFC                                  */
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
-	struct st *st;          /* of ST (model/st.h); else all statements of actions and EXECUTE
+	struct fbd *fbd;        /* of FBD (model/fbd.h); NULL: another language */
+	struct st *st;          /* of ST (model/st.h), of FBD the lines of all networks; else all statements of actions and EXECUTE
 				 * boxes; NULL: there are none                 */
 	struct boxed *boxed;    /* of EXECUTE boxes, in the order of their cells */
 	int boxed_count;
@@ -266,7 +268,7 @@ int pou_owner(const struct project *project, const struct pou *pou);
 const char *pou_own_name(const struct project *project, const struct pou *pou);
 /** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Static. */
 const char *pou_word(enum pou_kind kind);
-/** pou_language_word - LD, IL, SFC, ST. Static. */
+/** pou_language_word - LD, IL, SFC, ST, FBD. Static. */
 const char *pou_language_word(enum pou_language language);
 /** project_is_further - has a PROGRAM line before @entry, of the project's configuration, the
  * same program? Then this instance has data of its own, and is called by its own name.

@@ -32,6 +32,10 @@ static const struct st_form forms[ST_KINDS] = {
 	[ST_LABEL] = { "", ":", false, false, false },
 	[ST_EMPTY] = { "", ";", false, false, false },
 	[ST_COMMENT] = { "", "", false, false, false },
+	[ST_SET] = { "", "", false, false, false },
+	[ST_RESET] = { "", "", false, false, false },
+	[ST_JUMP_IF] = { "JMP", "", false, false, false },
+	[ST_RETURN_IF] = { "RETURN", "", false, false, false },
 };
 
 const struct st_form *st_form(enum st_kind kind)
@@ -94,7 +98,7 @@ bool st_begins(struct lex lex)
 	}
 	if (labels && lex.token.len > 4 && ascii_same(lex.token.text, "END_", 4))
 		return true; /* nothing but labels */
-	for (int i = 0; i < ST_KINDS; i++)
+	for (int i = 0; i < ST_COMMENT; i++)
 		if (*forms[i].word && lex_is(&lex, forms[i].word) && i != ST_JUMP)
 			return true;
 	if (op_find(lex.token.text, lex.token.len) == OP_LD)
@@ -117,7 +121,7 @@ struct token st_label_name(const struct names *names, const struct st_item *item
 	struct st_walk walk;
 
 	st_begin(&walk, names, item);
-	if (item->kind == ST_JUMP)
+	if (item->kind == ST_JUMP || item->kind == ST_JUMP_IF)
 		lex_next(&walk.lex);
 	return walk.lex.token;
 }
@@ -388,6 +392,38 @@ static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *ex
 			first.text);
 }
 
+/* Horn S= value: the place, then the value */
+static bool next_of_latch(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			  struct diag_list *diags, struct diag place)
+{
+	if (walk->last == ST_NO_PART)
+		return behind(walk, part, ST_VARIABLE, "", expr, diags, place);
+	if (walk->last != ST_VARIABLE)
+		return true;
+	if (!lex_accept(&walk->lex, walk->kind == ST_SET ? "S" : "R"))
+		return st_fail(walk, diags, place, DIAG_EXPECTED, walk->kind == ST_SET ? "S=" : "R=");
+	return behind(walk, part, ST_VALUE, "=", expr, diags, place);
+}
+
+/* JMP Fill IF value, RETURN IF value */
+static bool next_of_leave(struct st_walk *walk, struct st_part *part, struct expr *expr,
+			  struct diag_list *diags, struct diag place)
+{
+	if (walk->last != ST_NO_PART)
+		return true;
+	lex_accept(&walk->lex, forms[walk->kind].word);
+	if (walk->kind == ST_JUMP_IF) {
+		if (walk->lex.token.kind != TOKEN_NAME)
+			return st_fail(walk, diags, place, DIAG_EXPECTED, "label of a network");
+		if (walk->lex.token.len > LIMIT_NAME)
+			return st_fail(walk, diags, place, DIAG_NAME_TOO_LONG, "");
+		lex_next(&walk->lex);
+	}
+	if (!lex_is(&walk->lex, "IF"))
+		return true;
+	return behind(walk, part, ST_VALUE, "IF", expr, diags, place);
+}
+
 bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
 	     struct diag_list *diags, struct diag place)
 {
@@ -400,6 +436,10 @@ bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
 		return next_of_choice(walk, part, expr, diags, place);
 	if (walk->kind == ST_ASSIGN)
 		return next_of_chain(walk, part, expr, diags, place);
+	if (walk->kind == ST_SET || walk->kind == ST_RESET)
+		return next_of_latch(walk, part, expr, diags, place);
+	if (walk->kind == ST_JUMP_IF || walk->kind == ST_RETURN_IF)
+		return next_of_leave(walk, part, expr, diags, place);
 	if (walk->last != ST_NO_PART)
 		return true;
 	if (forms[walk->kind].tests)

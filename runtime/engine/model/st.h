@@ -32,6 +32,10 @@ enum st_kind {
 	ST_LABEL,      /* Again:                                              */
 	ST_EMPTY,      /* ; alone                                             */
 	ST_COMMENT,    /* a comment or a pragma between statements            */
+	ST_SET,        /* Horn S= Alarm: of a network (model/fbd.h), as those below */
+	ST_RESET,      /* Horn R= Seen                                        */
+	ST_JUMP_IF,    /* JMP Fill IF Low, or without IF                      */
+	ST_RETURN_IF,
 	ST_KINDS
 };
 
@@ -40,6 +44,7 @@ struct st_item {
 	bool behind;       /* ST_COMMENT: on the line of the item before it   */
 	bool gap;          /* an empty line stands above it                   */
 	uint8_t depth;     /* blocks around it                                */
+	uint8_t at_column, at_row; /* of a network: where its box stands, from 1; 0: found by layout */
 	uint32_t text;     /* string id: its text, without THEN OF DO : ;     */
 	int line, column;  /* of its first byte in the file, from 1           */
 };
@@ -66,7 +71,7 @@ enum st_role {
 	ST_VALUE,      /* a condition, a selector, what UNTIL tests           */
 	ST_LOW,        /* of a choice: a constant                             */
 	ST_HIGH,       /* of a choice: the end of the range that LOW began    */
-	ST_VARIABLE,   /* of FOR                                              */
+	ST_VARIABLE,   /* of FOR; of S= and R=                                */
 	ST_FROM, ST_TO, ST_BY,
 	ST_OPEN,       /* `PIN :=` or `PIN =>` with nothing behind it: as if it were not there */
 	ST_CALLED,     /* what is called: an instance, a subroutine, a function */
@@ -129,7 +134,7 @@ struct st_labels {
 };
 /** st_labels - the labels among @count items from @first on. Scan-safe: no. */
 void st_labels(struct names *names, const struct st *st, int first, int count, struct st_labels *out);
-/** st_label_name - of a ST_JUMP or ST_LABEL; borrowed. Scan-safe: yes. */
+/** st_label_name - of a ST_JUMP, ST_JUMP_IF or ST_LABEL; of others the first token; borrowed. Scan-safe: yes. */
 struct token st_label_name(const struct names *names, const struct st_item *item);
 /** st_label_find - index of the first label with the name of @item; -1: none. Scan-safe: no. */
 int st_label_find(struct names *names, const struct st_labels *labels, const struct st_item *item);

@@ -22,6 +22,7 @@ enum var_flag {
 	VAR_FIXED = 2048,    /* of VAR_INPUT CONSTANT: the POU does not write it */
 	VAR_SFC = 256,       /* variables of a chart (model/sfc.h): programs can read them;
 			      * they are not in the file */
+	VAR_WIRE = 4096,     /* with VAR_SFC: wires of networks (model/fbd.h)   */
 };
 
 /* Part of an array's initial values: a value and its repetitions. */

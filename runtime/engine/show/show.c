@@ -614,7 +614,7 @@ static int show_text(struct draw *draw, const struct pou *pou)
 
 static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
-	if (pou->language == LANGUAGE_ST)
+	if (pou->language == LANGUAGE_ST || pou->language == LANGUAGE_FBD)
 		return rung == 0 ? show_text(draw, pou) : 0;
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)

@@ -139,7 +139,7 @@ static void read_rungs(struct reader *r, struct pou *pou)
 	}
 }
 
-/* Rungs, which have titles in quotes. */
+/* Rungs and charts, which have titles in quotes. */
 static void read_drawn(struct reader *r, struct pou *pou)
 {
 	const bool wide = r->lex.wide;
@@ -156,6 +156,10 @@ static void read_body(struct reader *r, struct pou *pou)
 {
 	if (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_SFC) {
 		read_drawn(r, pou);
+		return;
+	}
+	if (pou->language == LANGUAGE_FBD) {
+		read_fbd(r, pou);
 		return;
 	}
 	struct lex before = r->lex;
@@ -212,7 +216,7 @@ static bool add_eno(struct reader *r, struct var_table *table, int line)
 /* May the heading of a function end here, without the type of a result? */
 static bool may_lack_result(const struct reader *r)
 {
-	return lex_is(&r->lex, "ST") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "IL") ||
+	return lex_is(&r->lex, "ST") || lex_is(&r->lex, "FBD") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "IL") ||
 	       (r->plain && (r->lex.token.kind == TOKEN_NEWLINE || reader_is_vars(r)));
 }
 
@@ -309,6 +313,15 @@ static bool begins_chart(struct lex lex)
 	return false;
 }
 
+/* NETWORK: not a variable with this name. */
+static bool begins_network(struct lex lex)
+{
+	if (!lex_is(&lex, "NETWORK"))
+		return false;
+	lex_next(&lex);
+	return !lex_is(&lex, ":=") && !lex_is(&lex, "(") && !lex_is(&lex, "[") && !lex_is(&lex, ".");
+}
+
 /* The language of a POU whose first line has none; the cursor stands behind that. */
 static enum pou_language language_of_body(const struct reader *r)
 {
@@ -322,6 +335,8 @@ static enum pou_language language_of_body(const struct reader *r)
 		return LANGUAGE_LD;
 	if (begins_chart(lex))
 		return LANGUAGE_SFC;
+	if (begins_network(lex))
+		return LANGUAGE_FBD;
 	return st_begins(lex) ? LANGUAGE_ST : LANGUAGE_IL;
 }
 
@@ -403,18 +418,21 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 		return;
 	}
 	pou->unsaid = !lex_is(&r->lex, "IL") && !lex_is(&r->lex, "LD") && !lex_is(&r->lex, "SFC") &&
-		      !lex_is(&r->lex, "ST");
+		      !lex_is(&r->lex, "ST") && !lex_is(&r->lex, "FBD");
 	if (lex_is(&r->lex, "IL"))
 		pou->language = LANGUAGE_IL;
 	else if (lex_is(&r->lex, "ST"))
 		pou->language = LANGUAGE_ST;
+	else if (lex_is(&r->lex, "FBD"))
+		pou->language = LANGUAGE_FBD;
 	else if (r->plain && pou->unsaid)
 		pou->language = language_of_body(r);
 	if (pou->language == LANGUAGE_SFC)
 		begin_chart(r, pou);
 	if (lex_is(&r->lex, "SFC"))
 		begin_sfc(r, pou);
-	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "ST"))
+	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD") || lex_is(&r->lex, "ST") ||
+		 lex_is(&r->lex, "FBD"))
 		reader_next(r);
 	reader_end_head(r);
 }

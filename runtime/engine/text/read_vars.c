@@ -650,7 +650,8 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 	/* A program without a caller that gives its inputs: variables with initial values. */
 	if (flag & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT))
 		return callable || (r->pou && r->pou->kind == POU_PROGRAM && !global &&
-				    (r->pou->language == LANGUAGE_ST || r->pou->language == LANGUAGE_IL));
+				    (r->pou->language == LANGUAGE_ST || r->pou->language == LANGUAGE_FBD ||
+				     r->pou->language == LANGUAGE_IL));
 	return flag == 0 || callable;
 }
 

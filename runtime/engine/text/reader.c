@@ -513,6 +513,8 @@ static void tell_pragma(struct reader *r)
 		from++;
 	for (to = from; to < end && (*to == '_' || (ascii_upper(*to) >= 'A' && ascii_upper(*to) <= 'Z'));)
 		to++;
+	if (r->pou && r->pou->fbd && to - from == 2 && ascii_same(from, "at", 2))
+		return; /* read_fbd() reads it */
 	kind = reader_intern(r, from, (size_t)(to - from));
 	for (int i = 0; i < r->pragmas; i++)
 		if (r->pragma[i] == kind)

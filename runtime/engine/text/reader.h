@@ -272,6 +272,8 @@ void read_il(struct reader *r, struct pou *pou);
 /** read_st - Structured Text up to the end of the POU; the cursor is on its first token, comments
  * and newlines too. */
 void read_st(struct reader *r, struct pou *pou);
+/** read_fbd - networks up to the end of the POU. */
+void read_fbd(struct reader *r, struct pou *pou);
 /** read_st_behind - the same up to the end of an action or of the statements of a box; the cursor is
  * on the token before it. */
 void read_st_behind(struct reader *r, struct pou *pou);

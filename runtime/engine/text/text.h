@@ -88,6 +88,8 @@ void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
 /** text_write_st - Structured Text, a statement a line. Scan-safe: no. */
 void text_write_st(const struct project *project, const struct st *st, const struct sink *sink);
+/** text_write_network - a network of a body in FBD, its comments too. Scan-safe: no. */
+void text_write_network(const struct project *project, const struct pou *pou, int number, const struct sink *sink);
 /** text_statements - the string id of @count statements as text_write_st() writes them; 0: there are
  * none, or no memory. Scan-safe: no. */
 uint32_t text_statements(struct project *project, struct st_item *item, int count);

@@ -6,6 +6,7 @@
  */
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
+#include "engine/model/fbd.h"
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
 
@@ -334,6 +335,11 @@ static void write_body(const struct sink *sink, const struct project *project,
 	}
 	if (pou->language == LANGUAGE_IL)
 		text_write_il(project, &pou->il, sink);
+	for (int i = 0; pou->fbd && i < pou->fbd->count; i++) {
+		sink_mark(sink, TEXT_RUNG, i, true);
+		text_write_network(project, pou, i, sink);
+		sink_mark(sink, TEXT_RUNG, i, false);
+	}
 	if (pou->language == LANGUAGE_ST && pou->st)
 		text_write_st(project, pou->st, sink);
 	write_above(sink, project, pou->tail);

@@ -27,7 +27,13 @@ struct st_style {
 	struct token last;   /* written last; kind TOKEN_END: none            */
 	bool operand;        /* that was an operand, or ) or ]                */
 	bool sign;           /* that was a sign before an operand             */
+	enum { LATCH_BEFORE, LATCH_NOW, LATCH_WRITTEN, LATCH_DONE } latch; /* S or R of S= and R= */
 };
+
+static bool is_one_word(const struct token *token, const char *word)
+{
+	return token->kind == TOKEN_NAME && lex_is(&(struct lex){ .token = *token }, word);
+}
 
 static const char *word_among(const struct lex *lex, const char *const *words)
 {
@@ -42,6 +48,7 @@ static const char *word_of(const struct st_style *style, const struct lex *lex)
 {
 	static const char *const between[] = { "AND", "AND_THEN", "OR", "OR_ELSE", "XOR", "MOD", NULL };
 	static const char *const of_for[] = { "TO", "BY", NULL };
+	static const char *const of_jump[] = { "IF", NULL };
 	static const char *const before[] = { "NOT", "TRUE", "FALSE", NULL };
 	const char *first = st_form(style->kind)->word, *word = NULL;
 
@@ -49,9 +56,15 @@ static const char *word_of(const struct st_style *style, const struct lex *lex)
 		return NULL;
 	if (!style->begun && *first)
 		return lex_is(lex, first) ? first : NULL;
+	if (style->latch == LATCH_NOW)
+		return style->kind == ST_SET ? "S" : "R";
+	if (style->kind == ST_RETURN_IF && is_one_word(&style->last, "RETURN"))
+		return word_among(lex, of_jump);
 	if (!style->operand)
 		return word_among(lex, before);
-	word = word_among(lex, between);
+	word = style->kind == ST_JUMP_IF ? word_among(lex, of_jump) : NULL;
+	if (!word)
+		word = word_among(lex, between);
 	return !word && style->kind == ST_FOR ? word_among(lex, of_for) : word;
 }
 
@@ -72,10 +85,14 @@ static bool wants_blank(const struct st_style *style, const struct lex *lex)
 static void write_token(struct st_style *style, const struct lex *lex)
 {
 	const struct token *token = &lex->token;
+
+	if (style->latch == LATCH_BEFORE && (style->kind == ST_SET || style->kind == ST_RESET) && style->operand &&
+	    token->kind == TOKEN_NAME)
+		style->latch = LATCH_NOW;
 	const char *word = word_of(style, lex);
 	const bool sign = is_one_of(token, "+-") && !style->operand;
 
-	if (wants_blank(style, lex) && !is_one_of(token, "."))
+	if (wants_blank(style, lex) && !is_one_of(token, ".") && style->latch != LATCH_WRITTEN)
 		sink_text(style->sink, " ");
 	if (word)
 		sink_text(style->sink, word);
@@ -86,6 +103,8 @@ static void write_token(struct st_style *style, const struct lex *lex)
 			 lex_is(lex, "TRUE") || lex_is(lex, "FALSE");
 	style->last = *token;
 	style->begun = true;
+	if (style->latch == LATCH_NOW || style->latch == LATCH_WRITTEN)
+		style->latch++;
 }
 
 static void write_indent(const struct sink *sink, int blanks)
@@ -115,6 +134,15 @@ static void write_statement(const struct sink *sink, enum st_kind kind, const ch
 			write_token(&style, &lex);
 		}
 	}
+}
+
+void write_item(const struct sink *sink, const struct project *project, const struct st_item *item)
+{
+	if (item->kind == ST_COMMENT)
+		write_id(sink, project, item->text);
+	else
+		write_statement(sink, (enum st_kind)item->kind, names_text(&project->names, item->text),
+				names_len(&project->names, item->text), 2);
 }
 
 static void write_end(const struct sink *sink, enum st_kind kind)

@@ -10,6 +10,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
+#include "engine/model/st.h"
 
 /** write_id - the string of @id. */
 void write_id(const struct sink *sink, const struct project *project, uint32_t id);
@@ -31,6 +32,8 @@ void write_rung(const struct sink *sink, const struct project *project,
 /** write_cell - an element, without comment. */
 void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell);
+/** write_item - a statement or a line of a network without the sign that ends it; a comment as it is. */
+void write_item(const struct sink *sink, const struct project *project, const struct st_item *item);
 /** write_sfc - a chart: declarations and items, up to the comments before its end. */
 void write_sfc(const struct sink *sink, const struct project *project,
 	       const struct pou *pou);

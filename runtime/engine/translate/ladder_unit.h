@@ -49,6 +49,7 @@ struct ld {
 	bool begins;       /* the next instruction that is no label gets IL_BEGINS */
 	const struct rung *rung;  /* NULL: a statement of the POU's text      */
 	const struct st_item *item; /* that statement                         */
+	int fbd;                  /* the network that it stands in, from 1; 0: in none */
 	int line;                 /* of the file, of the next instruction     */
 	struct network network;
 	struct element_state *element;

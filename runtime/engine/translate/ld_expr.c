@@ -7,8 +7,10 @@
  */
 #include "engine/check/attempt.h"
 #include "engine/check/generic.h"
+#include "engine/check/infer.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
+#include "engine/model/fbd.h"
 #include "engine/model/shape.h"
 #include "engine/translate/ladder_unit.h"
 #include "engine/translate/whole_number.h"
@@ -31,7 +33,7 @@ struct chain {
 	uint32_t en;            /* of the next operation; 0: none so far      */
 	bool can_fail;
 	int calls;              /* calls of functions of the project still to come */
-	bool pointless;         /* constants with a point have no type        */
+	struct infer in;        /* its types                                  */
 	bool folds;             /* what an index is made of stays until the element is used */
 };
 
@@ -75,21 +77,6 @@ static const struct meaning *meaning(struct chain *c, uint32_t operand)
 			  &why);
 }
 
-static enum iec_type type_of(struct chain *c, uint32_t operand)
-{
-	const struct meaning *m = meaning(c, operand);
-
-	if (m && m->kind == MEANING_LITERAL && m->literal.real)
-		return c->pointless ? IEC_NONE : IEC_REAL;
-	return m ? m->type : IEC_NONE;
-}
-
-/* check_operand keeps LIMIT_INDICES. */
-static enum iec_type type_of_element(struct chain *c, const struct expr_node *node)
-{
-	return type_of(c, scope_first_of(c->ld->translation->scope, c->ld->unit->pou, c->expr, node));
-}
-
 static bool is_bits(enum iec_type type)
 {
 	return iec_type_row(type)->class & CLASS_BITS;
@@ -99,257 +86,6 @@ static enum op operator_of(const struct expr_node *node)
 {
 	return node->op == EXPR_NOT ? OP_NOT : node->op == EXPR_AND ? OP_AND :
 	       node->op == EXPR_OR ? OP_OR : OP_XOR;
-}
-
-static enum iec_type chain_infer(struct chain *c, int index);
-static enum iec_type infer_power(struct chain *c, int base, int exponent);
-static bool is_power(struct chain *c, int base, int exponent);
-static bool is_integer_power(struct chain *c, enum word word, const struct expr_args *args);
-
-/* A bit string and a number, or two bit strings, in arithmetic of Structured Text. */
-static bool mixes(const struct chain *c, enum iec_type left, enum iec_type right)
-{
-	if (!c->ld->statement || (!mixed_is_bits(left) && !mixed_is_bits(right)))
-		return false;
-	return mixed_join(left, right) != IEC_TYPE_COUNT;
-}
-
-/* The type of AND OR XOR NOT: BOOL, unless a side is a bit string that the other fits;
- * IEC_NONE for constants alone. */
-static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
-{
-	enum iec_type type = chain_infer(c, node->left);
-
-	if (node->op != EXPR_NOT) {
-		const enum iec_type right = chain_infer(c, node->right);
-
-		type = types_join(type, right) == IEC_TYPE_COUNT && mixes(c, type, right) ?
-		       mixed_join(type, right) : types_join(type, right);
-	}
-	if (c->ld->statement && type != IEC_TYPE_COUNT)
-		type = mixed_pin(CLASS_BITS, type);
-	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
-}
-
-static enum word function_of(const struct ld *ld, const struct expr_node *node)
-{
-	return generic_word(ld->translation->scope, ld->unit->pou, ld->expr, node,
-			    expr_function(&ld->translation->project->words, node));
-}
-
-/* ---- types ---- */
-
-static const struct var *result_of(const struct chain *c, enum word word)
-{
-	const struct pou *pou = shape_pou(c->ld->translation->project, word);
-
-	return pou && pou->vars.count ? &pou->vars.var[0] : NULL;
-}
-
-/* The overload of a word for these arguments. */
-static enum word overloaded(struct chain *c, enum word word, const struct expr_args *args)
-{
-	if (args->count != 2)
-		return word;
-	return fn_overload(word, chain_infer(c, args->arg[0].at),
-			   chain_infer(c, args->arg[1].at));
-}
-
-/* The type that the inputs share; IEC_NONE: all are constants, or no type fits. */
-static enum iec_type shared_type(struct chain *c, const struct word_row *row,
-				 const struct expr_args *args)
-{
-	enum iec_type type = IEC_NONE;
-
-	for (int i = 0; i < args->count && type != IEC_TYPE_COUNT; i++) {
-		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
-		enum iec_type is;
-
-		if (pin->own)
-			continue;
-		is = pin->type != IEC_NONE ? pin->type : chain_infer(c, args->arg[i].at);
-		if (types_join(type, is) == IEC_TYPE_COUNT && mixes(c, type, is))
-			type = mixed_join(type, is);
-		else
-			type = types_join(type, is);
-	}
-	return type == IEC_TYPE_COUNT ? IEC_NONE : type;
-}
-
-/* The type that the function works on: of SHL on an INT it is WORD. */
-static enum iec_type work_type(struct chain *c, const struct word_row *row,
-			       const struct expr_args *args)
-{
-	const enum iec_type type = shared_type(c, row, args);
-
-	for (int i = 0; i < args->count && c->ld->statement; i++) {
-		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
-
-		if (pin->own || pin->type != IEC_NONE)
-			continue;
-		if (row == word_row(FN_SHR) && iec_type_row(type)->class == CLASS_SIGNED)
-			return IEC_LWORD; /* the sign comes in from the left */
-		return mixed_pin(pin->classes, type);
-	}
-	return type;
-}
-
-/* Of a function that works on @work instead of @type. */
-static enum iec_type result_type(enum iec_type type, enum iec_type work)
-{
-	return mixed_is_bits(work) ? type : work;
-}
-
-/* @type, or a wider one that can hold the constant at @index. */
-static enum iec_type roomy(const struct chain *c, enum iec_type type, int index)
-{
-	const struct expr_node *node = &c->expr->node[index];
-	struct literal literal;
-	union iec_value value;
-
-	if (!c->ld->statement || node->op != EXPR_LITERAL || !(iec_type_row(type)->class & ANY_INT) ||
-	    literal_parse(node->text, node->len, &literal) != LITERAL_OK ||
-	    literal.type != IEC_NONE || literal.real || literal_fit(&literal, type, &value))
-		return type;
-	return literal_fit(&literal, IEC_DINT, &value) ? IEC_DINT : IEC_LINT;
-}
-
-/* Does a constant of the operation need a wider type than the other side has? */
-static bool is_roomy(struct chain *c, const struct expr_node *node)
-{
-	const enum iec_type left = chain_infer(c, node->left), right = chain_infer(c, node->right);
-
-	return roomy(c, left, node->right) != left || roomy(c, right, node->left) != right;
-}
-
-static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *node)
-{
-	enum word word = function_of(c->ld, node);
-	const struct word_row *row = ld_row(c->ld, word);
-	struct expr_args args;
-	const struct var *result;
-	enum expr_measure what;
-
-	if (word_is_own(word)) {
-		result = result_of(c, word);
-		return result && !result->array.count ? result->type : IEC_NONE;
-	}
-	if (word == WORD_COUNT && expr_is_clock(node))
-		return IEC_TIME;
-	if (word == WORD_COUNT && expr_measured(c->ld->expr, node, &what))
-		return what == MEASURE_PLACE ? IEC_LWORD : what == MEASURE_VALID ? IEC_BOOL : IEC_NONE;
-	if (word == WORD_COUNT ||
-	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
-		return IEC_NONE;
-	if (is_integer_power(c, word, &args))
-		return infer_power(c, args.arg[0].at, args.arg[1].at);
-	row = ld_row(c->ld, overloaded(c, word, &args));
-	if (word_shares(row))
-		return result_type(shared_type(c, row, &args), work_type(c, row, &args));
-	return row->result == RESULT_OPEN ? IEC_NONE : (enum iec_type)row->result;
-}
-
-static enum iec_type type_of_bits(unsigned int bits)
-{
-	return bits == 1 ? IEC_BOOL : bits == 8 ? IEC_BYTE : bits == 16 ? IEC_WORD :
-	       bits == 32 ? IEC_DWORD : IEC_LWORD;
-}
-
-/* Are base and exponent of a power integers, or constants without a point? */
-static bool is_power(struct chain *c, int base, int exponent)
-{
-	const enum iec_type left = chain_infer(c, base), right = chain_infer(c, exponent);
-
-	return !(iec_type_row(left)->class & CLASS_REAL) && !(iec_type_row(right)->class & CLASS_REAL);
-}
-
-/* Of a power: that of the base, or REAL as the exponent. */
-static enum iec_type infer_power(struct chain *c, int base, int exponent)
-{
-	const enum iec_type left = chain_infer(c, base), right = chain_infer(c, exponent);
-
-	return !(iec_type_row(left)->class & CLASS_REAL) && iec_type_row(right)->class & CLASS_REAL ?
-	       right : left;
-}
-
-/* EXPT(base, exponent) of integers; @args: its arguments. */
-static bool is_integer_power(struct chain *c, enum word word, const struct expr_args *args)
-{
-	return word == FN_EXPT && args->count == 2 && !args->more && args->arg[0].pin == 0 &&
-	       is_power(c, args->arg[0].at, args->arg[1].at);
-}
-
-/* 2 * T#1s is T#1s * 2, and T#1h + Begin is Begin + T#1h: the functions take the other first. */
-static bool is_turned(const struct expr_node *node, enum iec_type left, enum iec_type right)
-{
-	return (node->fn == FN_MUL || node->fn == FN_ADD) && fn_overload(node->fn, left, right) == node->fn &&
-	       fn_overload(node->fn, right, left) != node->fn;
-}
-
-/* Type of a part; constants without a type take that of their neighbours. */
-static enum iec_type chain_infer(struct chain *c, int index)
-{
-	const struct expr_node *node = &c->expr->node[index];
-	enum iec_type left, right;
-	unsigned int bits, number;
-
-	switch (node->op) {
-	case EXPR_NAME:
-	case EXPR_LITERAL:
-		return type_of(c, chain_intern(c, node->text, node->len));
-	case EXPR_INDEX: /* that of its array's elements */
-		return type_of_element(c, node);
-	case EXPR_BIT:
-		return expr_part(node->tail, &bits, &number) ? type_of_bits(bits) : IEC_NONE;
-	case EXPR_NEG:
-		left = chain_infer(c, node->left);
-		return mixes(c, left, IEC_SINT) ? mixed_join(left, IEC_SINT) : left;
-	case EXPR_NOT:
-	case EXPR_AND:
-	case EXPR_XOR:
-	case EXPR_OR:
-		return infer_logic(c, node);
-	case EXPR_CALL:
-		return chain_infer_call(c, node);
-	case EXPR_ARG:
-		return IEC_NONE;
-	case EXPR_FN:
-		break;
-	}
-	if (word_is_test(word_row(node->fn)))
-		return IEC_BOOL;
-	if (node->fn == FN_EXPT)
-		return infer_power(c, node->left, node->right);
-	left = chain_infer(c, node->left);
-	right = chain_infer(c, node->right);
-	if (is_turned(node, left, right)) {
-		struct expr_node *turned = &c->ld->expr->node[index];
-		const int16_t first = turned->left;
-
-		turned->left = turned->right;
-		turned->right = first;
-		return chain_infer(c, index);
-	}
-	if (fn_overload(node->fn, left, right) != node->fn)
-		return fn_result(word_row(fn_overload(node->fn, left, right)), left,
-				 IEC_NONE);
-	if (mixes(c, left, right))
-		return mixed_join(left, right);
-	left = types_join(roomy(c, left, node->right), roomy(c, right, node->left));
-	return left == IEC_TYPE_COUNT ? right : left;
-}
-
-/* The same where @hint is wanted: an LREAL, if only constants make it a REAL. */
-static enum iec_type infer_wanted(struct chain *c, int index, enum iec_type hint)
-{
-	enum iec_type type = chain_infer(c, index), others;
-
-	if (type != IEC_REAL || hint != IEC_LREAL)
-		return type;
-	c->pointless = true;
-	others = chain_infer(c, index);
-	c->pointless = false;
-	return others == IEC_REAL ? type : hint;
 }
 
 /* Is this a constant of @type? If not, the message shows it without a type. */
@@ -379,7 +115,7 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 		c->ld->failed = true;
 	else
 		value.operand = chain_intern(c, out, (size_t)size);
-	value.type = value.operand ? type_of(c, value.operand) : IEC_NONE;
+	value.type = value.operand ? infer_operand(&c->in, value.operand) : IEC_NONE;
 	return value;
 }
 
@@ -516,7 +252,7 @@ static struct value mixed_side(struct chain *c, int index, enum iec_type type)
 /* Arithmetic in 64 bits, which no BYTE, WORD or DWORD leaves. */
 static struct value compute_mixed(struct chain *c, const struct expr_node *node)
 {
-	const enum iec_type left = chain_infer(c, node->left), right = chain_infer(c, node->right);
+	const enum iec_type left = infer_type(&c->in, node->left), right = infer_type(&c->in, node->right);
 	const enum iec_type join = mixed_join(left, right);
 	const enum iec_type type = iec_type_row(join)->class == CLASS_REAL ? join : IEC_LINT;
 	struct value a = mixed_side(c, node->left, type), b = mixed_side(c, node->right, type);
@@ -587,7 +323,7 @@ static struct value compute_lazy(struct chain *c, const struct expr_node *node)
 static struct value compute_logic(struct chain *c, const struct expr_node *node,
 				  enum iec_type hint, uint32_t target)
 {
-	enum iec_type type = infer_logic(c, node);
+	enum iec_type type = infer_logic(&c->in, node);
 	struct value left, right, out = { .type = IEC_BOOL };
 
 	if (type == IEC_NONE && is_bits(hint))
@@ -612,15 +348,15 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 static struct value compute_compare(struct chain *c,
 				    const struct expr_node *node)
 {
-	enum iec_type type = types_join(chain_infer(c, node->left),
-					chain_infer(c, node->right));
+	enum iec_type type = types_join(infer_type(&c->in, node->left),
+					infer_type(&c->in, node->right));
 	struct value left, right, out = { .type = IEC_BOOL };
 	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
 
 	if (type == IEC_TYPE_COUNT)
 		type = IEC_NONE;
-	if (mixes(c, chain_infer(c, node->left), chain_infer(c, node->right)) && type == IEC_NONE) {
-		type = mixed_join(chain_infer(c, node->left), chain_infer(c, node->right));
+	if (infer_mixes(&c->in, infer_type(&c->in, node->left), infer_type(&c->in, node->right)) && type == IEC_NONE) {
+		type = mixed_join(infer_type(&c->in, node->left), infer_type(&c->in, node->right));
 		type = iec_type_row(type)->class == CLASS_REAL ? type : IEC_LINT;
 		left = mixed_side(c, node->left, type);
 		right = mixed_side(c, node->right, type);
@@ -659,7 +395,7 @@ static struct value compute_power(struct chain *c, int base, int exponent, enum 
 				  uint32_t target)
 {
 	const struct value none = { .type = IEC_NONE };
-	enum iec_type type = infer_power(c, base, exponent);
+	enum iec_type type = infer_power(&c->in, base, exponent);
 	struct value left = chain_side(c, base, IEC_LREAL), right, out;
 
 	if (left.type != IEC_LREAL)
@@ -676,7 +412,7 @@ static struct value compute_root(struct chain *c, int base, int exponent, enum i
 				 uint32_t target)
 {
 	const struct value none = { .type = IEC_NONE };
-	enum iec_type type = infer_power(c, base, exponent);
+	enum iec_type type = infer_power(&c->in, base, exponent);
 	struct value left, right;
 
 	if (type == IEC_REAL && hint == IEC_LREAL)
@@ -685,14 +421,14 @@ static struct value compute_root(struct chain *c, int base, int exponent, enum i
 	if (is_integer(left.type))
 		left = operate(c, FN_CONVERT, left, none, type, 0);
 	right = chain_side(c, exponent, c->expr->node[exponent].op == EXPR_LITERAL &&
-			   chain_infer(c, exponent) == IEC_NONE ? IEC_DINT : IEC_NONE);
+			   infer_type(&c->in, exponent) == IEC_NONE ? IEC_DINT : IEC_NONE);
 	return operate(c, FN_EXPT, left, right, type, target);
 }
 
 static struct value compute_fn(struct chain *c, const struct expr_node *node,
 			       int index, enum iec_type hint, uint32_t target)
 {
-	enum iec_type type = infer_wanted(c, index, hint);
+	enum iec_type type = infer_wanted(&c->in, index, hint);
 	struct value left, right;
 	union iec_value number;
 	enum word word;
@@ -702,16 +438,16 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	if (is_whole_constant(c, index, hint, &number))
 		return whole_constant(c, number, hint);
 	if (node->fn == FN_EXPT)
-		return is_power(c, node->left, node->right) ?
+		return infer_is_power(&c->in, node->left, node->right) ?
 			compute_power(c, node->left, node->right, hint, target) :
 			compute_root(c, node->left, node->right, hint, target);
-	chain_infer(c, index); /* it may turn the sides */
-	word = fn_overload(node->fn, chain_infer(c, node->left), chain_infer(c, node->right));
+	infer_type(&c->in, index); /* it may turn the sides */
+	word = fn_overload(node->fn, infer_type(&c->in, node->left), infer_type(&c->in, node->right));
 	if (word != node->fn)
 		return compute_overload(c, node, word, type, target);
-	if (mixes(c, chain_infer(c, node->left), chain_infer(c, node->right)))
+	if (infer_mixes(&c->in, infer_type(&c->in, node->left), infer_type(&c->in, node->right)))
 		return compute_mixed(c, node);
-	if (type != IEC_NONE && is_roomy(c, node)) { /* the constant says the type */
+	if (type != IEC_NONE && infer_is_roomy(&c->in, node)) { /* the constant says the type */
 		left = chain_compute(c, node->left, type, 0);
 		right = chain_compute(c, node->right, type, 0);
 	} else if (type) {
@@ -785,7 +521,7 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
 			compute_element(c, &c->expr->node[node->right]);
 	const struct expr_tail tail = node->tail;
-	const bool bits = mixes(c, chain_infer(c, node->left), IEC_NONE);
+	const bool bits = infer_mixes(&c->in, infer_type(&c->in, node->left), IEC_NONE);
 	const int from = c->ld->il->count;
 	struct value index = chain_compute(c, node->left, bits ? IEC_DWORD : IEC_NONE, 0);
 	struct value none = { .type = IEC_NONE };
@@ -816,8 +552,8 @@ static struct value chain_place(struct chain *c, int index)
 
 	value.operand = node->op == EXPR_INDEX ? compute_element(c, node) :
 			intern_name(c, node->text, node->len);
-	value.type = node->op == EXPR_INDEX ? chain_infer(c, index) :
-		     type_of(c, value.operand);
+	value.type = node->op == EXPR_INDEX ? infer_type(&c->in, index) :
+		     infer_operand(&c->in, value.operand);
 	return value;
 }
 
@@ -857,7 +593,7 @@ static uint32_t number_constant(struct chain *c, unsigned int number)
 static struct value compute_bit(struct chain *c, const struct expr_node *node)
 {
 	const struct value from = settle(c, chain_place(c, node->left));
-	const enum iec_type all = type_of_bits(8u * iec_type_row(from.type)->size);
+	const enum iec_type all = infer_bits(8u * iec_type_row(from.type)->size);
 	struct value out = { .type = IEC_BOOL };
 	unsigned int bits, number;
 
@@ -873,7 +609,7 @@ static struct value compute_bit(struct chain *c, const struct expr_node *node)
 		out.operand = ld_store_new(c->ld);
 		return out;
 	}
-	out.type = type_of_bits(bits);
+	out.type = infer_bits(bits);
 	if (number)
 		fn_line(c, FN_SHR, number_constant(c, number * bits));
 	convert_result(c, all, out.type);
@@ -886,8 +622,8 @@ static struct value compute_bit(struct chain *c, const struct expr_node *node)
 static struct value put_bit(struct chain *c, uint32_t target, struct expr_tail tail,
 			    struct value value)
 {
-	const struct value from = settle(c, (struct value){ .operand = target, .type = type_of(c, target) });
-	const enum iec_type all = type_of_bits(8u * iec_type_row(from.type)->size);
+	const struct value from = settle(c, (struct value){ .operand = target, .type = infer_operand(&c->in, target) });
+	const enum iec_type all = infer_bits(8u * iec_type_row(from.type)->size);
 	struct value out = { .type = from.type };
 	unsigned int bits, number;
 	uint32_t part;
@@ -898,7 +634,7 @@ static struct value put_bit(struct chain *c, uint32_t target, struct expr_tail t
 	}
 	part = temps_number(c->ld->temps, all);
 	ld_emit(c->ld, OP_LD, 0, value.operand);
-	convert_result(c, type_of_bits(bits), all);
+	convert_result(c, infer_bits(bits), all);
 	if (number)
 		fn_line(c, FN_SHL, number_constant(c, number * bits));
 	ld_emit(c->ld, OP_ST, 0, part);
@@ -921,9 +657,9 @@ static struct value chain_assigned(struct chain *c, uint32_t target, uint32_t to
 	enum iec_type type;
 
 	if (!tail.len)
-		return chain_compute(c, c->expr->root, type_of(c, target), to);
+		return chain_compute(c, c->expr->root, infer_operand(&c->in, target), to);
 	expr_part(tail, &bits, &number);
-	type = type_of_bits(bits);
+	type = infer_bits(bits);
 	return put_bit(c, target, tail,
 		       settle(c, chain_fit(c, chain_compute(c, c->expr->root, type, 0), type)));
 }
@@ -1140,7 +876,7 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 {
 	struct ld *ld = c->ld;
 	const struct word_row *row = ld_row(ld, word);
-	const struct var *result = result_of(c, word);
+	const struct var *result = infer_result(&c->in, word);
 	const bool array = result && result->array.count;
 	struct value in[LIMIT_ARGS], out = {
 		.operand = target, .type = result && !array ? result->type : IEC_NONE };
@@ -1195,7 +931,7 @@ static struct value argument(struct chain *c, int index, const struct word_pin *
 /* A comparison of several: each with the next. */
 static struct value call_tests(struct chain *c, enum word word, const struct expr_args *args)
 {
-	const enum iec_type type = shared_type(c, ld_row(c->ld, word), args);
+	const enum iec_type type = infer_shared(&c->in, ld_row(c->ld, word), args);
 	struct value in[LIMIT_FN_INPUTS], out = { .type = IEC_BOOL };
 
 	for (int i = 0; i < args->count; i++)
@@ -1216,16 +952,16 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 			       int index, enum iec_type hint, uint32_t target)
 {
 	const struct word_row *row = ld_row(c->ld, word);
-	enum word runs = overloaded(c, word, args);
-	enum iec_type type = work_type(c, row, args), given;
-	const enum iec_type back = result_type(shared_type(c, row, args), type);
+	enum word runs = infer_overload(&c->in, word, args);
+	enum iec_type type = infer_work(&c->in, row, args), given;
+	const enum iec_type back = infer_back(infer_shared(&c->in, row, args), type);
 	const bool other = word_shares(row) && back != type;
 	struct value in[LIMIT_ARGS], out = { .operand = other ? 0 : target };
 	uint32_t more[LIMIT_ARGS];
 
 	take_others(c, args, more);
 	if (type == IEC_REAL && word_shares(row))
-		type = infer_wanted(c, index, hint);
+		type = infer_wanted(&c->in, index, hint);
 
 	given = type ? type : word_shares(row) ? hint : IEC_NONE;
 	for (int i = 0; i < args->count; i++) {
@@ -1238,7 +974,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	if (given == IEC_NONE || given == IEC_TYPE_COUNT)
 		given = IEC_DINT;
 	if (runs != word)
-		given = chain_infer(c, args->arg[0].at);
+		given = infer_type(&c->in, args->arg[0].at);
 	out.type = fn_result(ld_row(c->ld, runs), given, hint);
 	if (!out.operand)
 		out.operand = temps_number(c->ld->temps, out.type);
@@ -1410,17 +1146,63 @@ static struct value chain_clock(struct chain *c)
 	return operate(c, FN_CONVERT, now, none, IEC_TIME, 0);
 }
 
+/* PREVIOUS(Wire): what it was at the end of the scan before. */
+__attribute__((noinline))
+static struct value chain_before(struct chain *c, const struct expr_node *wire)
+{
+	struct value value = { .operand = fbd_wire_name(&c->ld->translation->project->names, wire->text, wire->len,
+							c->ld->fbd - 1, true) };
+
+	value.type = infer_operand(&c->in, value.operand);
+	return value;
+}
+
+/* R_EDGE(value), F_EDGE(value): a hidden variable keeps what the value was. */
+__attribute__((noinline))
+static struct value chain_edge(struct chain *c, const struct expr_node *call, const struct expr_node *of,
+			       bool rising)
+{
+	struct ld *ld = c->ld;
+	struct names *names = &ld->translation->project->names;
+	const int item = (int)(ld->item - ld->unit->pou->st->item);
+	const uint32_t memory = fbd_edge_name(names, ld->fbd - 1, fbd_edge_number(names, ld->unit->pou, ld->fbd - 1,
+										   item, call->text));
+	const struct value value = settle(c, chain_compute(c, (int)(of - c->expr->node), IEC_BOOL, 0));
+	struct value out = { .type = IEC_BOOL };
+
+	ld_emit(ld, OP_LD, rising ? 0 : MOD_N, value.operand);
+	ld_emit(ld, OP_AND, rising ? MOD_N : 0, memory);
+	if (c->can_fail)
+		ld_emit(ld, OP_AND, 0, c->en);
+	out.operand = ld_store_new(ld);
+	ld_emit(ld, OP_LD, 0, value.operand);
+	if (c->can_fail) { /* what could not be computed is not remembered */
+		ld_emit(ld, OP_AND, 0, c->en);
+		ld_emit(ld, OP_OR, MOD_PAREN, memory);
+		ld_emit(ld, OP_AND, MOD_N, c->en);
+		ld_emit_line(ld, (struct il_line){ .kind = IL_CLOSE });
+	}
+	ld_emit(ld, OP_ST, 0, memory);
+	return out;
+}
+
 static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 			       uint32_t target)
 {
 	const struct expr_node *node = &c->expr->node[index];
-	enum word word = function_of(c->ld, node);
+	enum word word = infer_function(&c->in, node);
 	struct value none = { .type = IEC_NONE };
 	const struct expr_node *of;
 	struct expr_args args;
 	struct expr_bound bound;
 	enum expr_measure what;
+	struct expr_node *fbd_of;
+	enum fbd_word fbd = word == WORD_COUNT && c->ld->fbd ? fbd_word(c->ld->expr, node, &fbd_of) : FBD_NO_WORD;
 
+	if (fbd == FBD_PREVIOUS)
+		return chain_before(c, fbd_of);
+	if (fbd != FBD_NO_WORD)
+		return chain_edge(c, node, fbd_of, fbd == FBD_RISING);
 	if (word == WORD_COUNT && expr_is_clock(node))
 		return chain_clock(c);
 	if (word == WORD_COUNT && (of = expr_measured(c->ld->expr, node, &what)))
@@ -1432,7 +1214,7 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 		c->ld->failed = true;
 		return none;
 	}
-	if (is_integer_power(c, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
+	if (infer_is_whole_power(&c->in, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
 		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
 	if (!word_is_own(word) && word_is_test(ld_row(c->ld, word)) &&
 	    args.count > ld_row(c->ld, word)->most_inputs)
@@ -1461,7 +1243,7 @@ static struct value chain_compute(struct chain *c, int index, enum iec_type hint
 {
 	const struct value value = compute_raw(c, index, hint, target);
 
-	return value.whole ? cut(c, value, chain_infer(c, index), hint, target) : value;
+	return value.whole ? cut(c, value, infer_type(&c->in, index), hint, target) : value;
 }
 
 /* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
@@ -1506,7 +1288,7 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 
 	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
 		return constant(c, inner->text, inner->len, true, hint);
-	if (mixes(c, chain_infer(c, node->left), IEC_NONE)) {
+	if (infer_mixes(&c->in, infer_type(&c->in, node->left), IEC_NONE)) {
 		zero = constant(c, "0", 1, false, IEC_LINT);
 		value = operate(c, FN_SUB, zero, mixed_side(c, node->left, IEC_LINT), IEC_LINT, 0);
 		value.whole = true;
@@ -1533,14 +1315,21 @@ static bool parse(struct ld *ld, int element)
 	return false;
 }
 
+static struct infer infer_of(const struct ld *ld)
+{
+	return (struct infer){ .scope = ld->translation->scope, .pou = ld->unit->pou,
+			       .project = ld->translation->project, .expr = ld->expr, .statement = ld->statement };
+}
+
 /** chain_count_calls - calls of the project's own functions in the expression. */
 static int chain_count_calls(const struct ld *ld, const struct expr *expr)
 {
+	const struct infer in = infer_of(ld);
 	int calls = 0;
 
 	for (int i = 0; i < expr->count; i++)
 		calls += expr->node[i].op == EXPR_CALL &&
-			 word_is_own(function_of(ld, &expr->node[i]));
+			 word_is_own(infer_function(&in, &expr->node[i]));
 	return calls;
 }
 
@@ -1557,7 +1346,7 @@ void ld_compare(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	struct element_state *state = &ld->element[element];
-	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in, .in = infer_of(ld) };
 	struct value value = { .type = IEC_NONE };
 
 	if (!parse(ld, element))
@@ -1597,7 +1386,7 @@ static bool is_place(const struct expr *expr)
 void ld_assign(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
-	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in, .in = infer_of(ld) };
 	const struct value none = { .type = IEC_NONE };
 	struct value value = { .type = IEC_NONE };
 	uint32_t target;
@@ -1625,7 +1414,7 @@ void ld_assign(struct ld *ld, int element)
 
 static struct chain statement(struct ld *ld)
 {
-	struct chain c = { .ld = ld, .expr = ld->expr, .net = NET_RAIL,
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = NET_RAIL, .in = infer_of(ld),
 			   .calls = chain_count_calls(ld, ld->expr) };
 
 	c.folds = chain_folds(&c);
@@ -1709,7 +1498,7 @@ void ld_store(struct ld *ld)
 		return;
 	}
 	const uint32_t target = chain_target(&c);
-	const enum iec_type type = type_of(&c, target);
+	const enum iec_type type = infer_operand(&c.in, target);
 
 	if (ld->expr->target_tried &&
 	    attempt_of(ld->translation->scope, ld->unit->pou, ld->expr) == ATTEMPT_NULL) {
@@ -1719,8 +1508,8 @@ void ld_store(struct ld *ld)
 	if (store_cut(&c, target) || (!ld->expr->target_bit.len && moved_parts(&c, target)))
 		return;
 	const bool other = !ld->expr->target_bit.len &&
-			   mixed_converts(chain_infer(&c, ld->expr->root), type) &&
-			   !iec_can_widen(chain_infer(&c, ld->expr->root), type);
+			   mixed_converts(infer_type(&c.in, ld->expr->root), type) &&
+			   !iec_can_widen(infer_type(&c.in, ld->expr->root), type);
 	struct value value = chain_assigned(&c, target, other ? 0 : target);
 
 	chain_at(&c, ld->expr->target);

@@ -7,6 +7,7 @@
  */
 #include "engine/translate/ladder_unit.h"
 
+#include "engine/check/wires.h"
 #include "engine/check/reserved.h"
 
 #include <stdio.h>
@@ -124,6 +125,8 @@ static uint32_t ld_memory(struct ld *ld, int element)
 
 void ld_emit_line(struct ld *ld, struct il_line line)
 {
+	if (ld->fbd && line.operand && line.kind != IL_LABEL)
+		line.operand = wires_operand(ld->translation->project, ld->unit->pou, ld->fbd - 1, line.operand);
 	line.rung = ld->number;
 	line.row = ld->row;
 	line.col = ld->col;

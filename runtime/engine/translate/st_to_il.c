@@ -10,6 +10,7 @@
 #include "engine/check/mixed.h"
 #include "engine/check/split.h"
 #include "engine/model/expr_args.h"
+#include "engine/model/fbd.h"
 #include "engine/translate/ladder_unit.h"
 
 #include <stdio.h>
@@ -1213,6 +1214,96 @@ static void label_here(struct st_il *s)
 		here_again(s, label);
 }
 
+/* ---- networks ---- */
+
+static void leave_if(struct st_il *s, struct st_walk *walk)
+{
+	const struct fbd *fbd = s->pou->fbd;
+	struct names *names = &s->translation->project->names;
+	uint32_t label = s->leave;
+	struct st_part part;
+
+	if (s->ld.item->kind == ST_JUMP_IF) {
+		const struct token name = st_label_name(names, s->ld.item);
+		const int to = fbd_find_label(names, fbd, names_fold(names, names_intern(names, name.text, name.len)));
+
+		label = to < 0 ? 0 : s->first_named + (uint32_t)to;
+	}
+	begins(s);
+	if (!next_part(s, walk, &part)) {
+		s->ld.failed = true;
+		return;
+	}
+	if (part.role == ST_VALUE) {
+		const enum iec_type type = ld_test(&s->ld);
+
+		want_bool(s, type);
+		if (type != IEC_BOOL && type != IEC_NONE)
+			return;
+	}
+	if (label)
+		jump(s, part.role == ST_VALUE ? MOD_C : 0, label);
+	else if (s->ld.item->kind == ST_RETURN_IF)
+		ld_emit(&s->ld, OP_RET, part.role == ST_VALUE ? MOD_C : 0, 0);
+}
+
+/* `place := TRUE` or FALSE, where S and R cannot reach. */
+static void store_latch(struct st_il *s, const char *place, size_t len, bool set)
+{
+	const uint32_t skip = new_label(s);
+	char *text = arena_alloc(s->ld.scratch, len + 16);
+	uint32_t id;
+	struct lex lex;
+
+	jump(s, MOD_C | MOD_N, skip);
+	if (!text) {
+		s->ld.failed = true;
+		return;
+	}
+	memcpy(text, place, len);
+	id = st_intern(s, text, len + (size_t)snprintf(text + len, 16, " := %s", set ? "TRUE" : "FALSE"));
+	lex_init(&lex, names_text(&s->translation->project->names, id),
+		 names_len(&s->translation->project->names, id));
+	lex_next(&lex);
+	if (expr_parse_cell(&lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
+		ld_store(&s->ld);
+	else
+		s->ld.failed = true;
+	here(s, skip);
+}
+
+/* Horn S= Alarm */
+static void latch(struct st_il *s, struct st_walk *walk, bool set)
+{
+	const char *place = walk->lex.token.text;
+	struct st_part part;
+	uint32_t target = 0;
+	enum iec_type type;
+	size_t len;
+
+	begins(s);
+	if (!next_part(s, walk, &part)) {
+		s->ld.failed = true;
+		return;
+	}
+	len = (size_t)(walk->lex.token.text - place);
+	if (s->ld.expr->node[s->ld.expr->root].op == EXPR_NAME)
+		target = st_intern(s, s->ld.expr->node[s->ld.expr->root].text, s->ld.expr->node[s->ld.expr->root].len);
+	if (!next_part(s, walk, &part)) {
+		s->ld.failed = true;
+		return;
+	}
+	type = ld_test(&s->ld);
+	want_bool(s, type);
+	if (type != IEC_BOOL && type != IEC_NONE)
+		return;
+	at_item(s);
+	if (target && !ld_is_indexed(&s->ld, target))
+		ld_emit(&s->ld, set ? OP_S : OP_R, 0, target);
+	else
+		store_latch(s, place, len, set);
+}
+
 static void end_while(struct st_il *s)
 {
 	jump(s, 0, innermost(s)->again);
@@ -1252,6 +1343,10 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_RETURN: leave_body(s); break;
 	case ST_JUMP: jump_to(s); break;
 	case ST_LABEL: label_here(s); break;
+	case ST_SET: latch(s, &walk, true); break;
+	case ST_RESET: latch(s, &walk, false); break;
+	case ST_JUMP_IF:
+	case ST_RETURN_IF: leave_if(s, &walk); break;
 	case ST_EMPTY:
 	case ST_COMMENT:
 	case ST_KINDS: break;
@@ -1267,9 +1362,69 @@ static void put_items(struct st_il *s, int first, int count)
 		const enum st_kind kind = (enum st_kind)s->pou->st->item[i].kind;
 
 		st_item_to_il(s, i);
-		if (kind == ST_ASSIGN || kind == ST_CALL)
+		if (kind == ST_ASSIGN || kind == ST_CALL || kind >= ST_SET)
 			level_back(s, &level);
 	}
+}
+
+/* Wires whose value of the scan before somebody reads keep it. */
+static void keep_before(struct st_il *s, int network)
+{
+	struct project *project = s->translation->project;
+	const struct var_table *vars = &s->pou->vars;
+	char end[16];
+	const size_t size = (size_t)snprintf(end, sizeof(end), ".P%d", network + 1);
+
+	for (int i = 0; i < vars->count; i++) {
+		const char *name = project_text(project, vars->var[i].name);
+		const size_t len = strlen(name);
+
+		if (!(vars_flags(vars, i) & VAR_WIRE) || len <= size || strcmp(name + len - size, end) != 0)
+			continue;
+		const uint32_t wire = fbd_wire_name(&project->names, name, len - size, network, false);
+
+		if (vars->var[i].type != IEC_STRING) {
+			copy(s, wire, vars->var[i].name);
+			continue;
+		}
+		ld_call(&s->ld, FN_MOVE);
+		ld_arg(&s->ld, false, s->ld.in_id, wire);
+		ld_arg(&s->ld, true, s->ld.out_id, vars->var[i].name);
+	}
+}
+
+/* A network that is OFF leaves its label. */
+static void put_networks(struct st_il *s)
+{
+	const struct fbd *fbd = s->pou->fbd;
+	struct names *names = &s->translation->project->names;
+
+	s->first_named = s->labels + 1;
+	s->labels += (uint32_t)fbd->count;
+	for (int i = 0; i < s->pou->st->count; i++) {
+		const struct st_item *item = &s->pou->st->item[i];
+		const struct token name = st_label_name(names, item);
+		const int to = item->kind != ST_JUMP_IF ? -1 :
+			fbd_find_label(names, fbd, names_fold(names, names_intern(names, name.text, name.len)));
+
+		if (to >= 0)
+			use_label(s, s->first_named + (uint32_t)to);
+	}
+	for (int i = 0; i < fbd->count && !s->ld.failed; i++) {
+		const struct fbd_network *network = &fbd->network[i];
+
+		s->ld.line = network->line;
+		s->ld.fbd = 0;
+		here(s, s->first_named + (uint32_t)i);
+		if (network->off)
+			continue;
+		s->ld.fbd = i + 1;
+		scope_network(s->translation->scope, s->pou, i);
+		keep_before(s, i);
+		put_items(s, network->first, network->count);
+	}
+	s->ld.fbd = 0;
+	scope_network(s->translation->scope, s->pou, -1);
 }
 
 void st_put(struct ld *ld, int first, int count)
@@ -1438,7 +1593,10 @@ bool st_to_il(struct translation *translation, struct unit *unit, struct arena *
 		s->leave = new_label(s);
 		put_values(s, entry, false);
 	}
-	put_items(s, 0, unit->pou->st->count);
+	if (unit->pou->fbd)
+		put_networks(s);
+	else
+		put_items(s, 0, unit->pou->st->count);
 	if (entry) {
 		here(s, s->leave);
 		put_values(s, entry, true);

@@ -1331,7 +1331,7 @@ static bool xref_statements(struct xref_walk *walk, struct pou *pou)
 {
 	bool good = true;
 
-	if (pou->language == LANGUAGE_ST)
+	if (pou->language == LANGUAGE_ST || pou->language == LANGUAGE_FBD)
 		return xref_st(walk, pou, 0, pou->st->count, NULL);
 	for (int i = 0; pou->sfc && i < pou->sfc->action_count && good; i++)
 		if (pou->sfc->action[i].body.kind == BODY_ST)

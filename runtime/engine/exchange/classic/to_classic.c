@@ -465,7 +465,7 @@ static void leave_pou(struct leaving *e, const struct pou *pou, int *page)
 		out_refuse(e, DIAG_EXPORT_SFC, "%s", project_text(e->project, pou->name));
 	else if (pou->sfc)
 		leave_sfc(e, pou, (*page)++);
-	else if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST)
+	else if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST || pou->fbd)
 		out_refuse(e, DIAG_EXPORT_POU, "%s", project_text(e->project, pou->name));
 	else
 		leave_ladder(e, pou);
