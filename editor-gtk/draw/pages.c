@@ -9,6 +9,7 @@
  * places on all pages; its longest text sets its height.
  */
 #include "editor-gtk/draw/pages.h"
+#include "editor-gtk/draw/fbd_draw.h"
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/draw/rung_text.h"
@@ -1068,6 +1069,72 @@ static void put_chart(struct pages *pages, const char *heading)
 	put_bodies(pages, pou);
 }
 
+/* ---- networks ---- */
+
+/* A network that is higher than a page ends its pages between boxes. */
+static void put_network_rows(struct pages *pages, const struct fbd_layout *layout, const struct picture *picture,
+			     float scale)
+{
+	float from = 0, end = 0;
+
+	for (int row = 0; row < layout->plan.rows; row++) {
+		const float to = fbd_layout_y(layout, row) + FBD_ROW / 2.0f;
+
+		if (!fbd_layout_can_part(layout, row))
+			continue;
+		if (end > from && (to - from) * scale > pages->room_height - pages->y) {
+			put_span(pages, picture, scale, from, end);
+			next_page(pages);
+			from = end;
+		}
+		end = to;
+	}
+	put_span(pages, picture, scale, from, layout->height);
+}
+
+/* One that is wider than a page continues in strips below each other. */
+static void put_network(struct pages *pages, const struct fbd_layout *layout, float scale, bool first)
+{
+	const struct fbd_scene scene = { .layout = layout, .theme = pages->theme, .state = RUNG_NO_GUTTER };
+	const float room = pages->room_width / scale;
+	struct picture *picture = new_picture(pages);
+
+	fbd_draw(&scene, picture);
+	for (float left = 0, right; left < layout->width; left = right) {
+		right = layout->width <= room + 1 ? layout->width : cut_at(picture, left, room, layout->width);
+		pages->left = left;
+		pages->right = right;
+		if (layout->height * scale > pages->room_height) {
+			if (pages->y > 0 && !first)
+				next_page(pages);
+			put_network_rows(pages, layout, picture, scale);
+		} else {
+			put_whole(pages, picture, layout->height, scale, 0);
+		}
+	}
+	pages->left = pages->right = 0;
+}
+
+static void put_networks(struct pages *pages, const char *heading, int only)
+{
+	const struct pou *pou = &pages->project->pou[pages->pou];
+	const int count = fbd_layout_networks(pou), first = only ? only - 1 : 0, end = only ? MIN(only, count) : count;
+	struct fbd_layout **layout = g_new0(struct fbd_layout *, count + 1);
+	float width = 1, scale;
+
+	for (int i = first; i < end; i++) {
+		layout[i] = fbd_layout_new(pages->project, pou, i, pages->lettering);
+		width = fmaxf(width, layout[i]->width);
+	}
+	scale = fmaxf(fminf(1, pages->room_width / width), PAGE_LEAST);
+	put_heading(pages, heading, first < end ? fminf(layout[first]->height * scale, pages->room_height - 40) : 0);
+	for (int i = first; i < end; i++) {
+		put_network(pages, layout[i], scale, i == first);
+		fbd_layout_free(layout[i]);
+	}
+	g_free(layout);
+}
+
 /* ---- symbols ---- */
 
 static const float share[LISTING_COLUMNS + 1] = { 0, 0.24f, 0.40f, 0.52f, 0.66f, 1 };
@@ -1182,8 +1249,10 @@ static void put_pou(struct pages *pages, int index, int rung)
 	pages->pou = index;
 	pages->subject = name;
 	next_page(pages);
-	if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST || pou->fbd)
+	if (pou->language == LANGUAGE_IL || pou->language == LANGUAGE_ST)
 		put_list(pages, heading, listing_il(pages->project, pou));
+	else if (pou->fbd)
+		put_networks(pages, heading, rung);
 	else if (pou->sfc && !rung)
 		put_chart(pages, heading);
 	else

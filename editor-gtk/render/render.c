@@ -6,6 +6,7 @@
 #include "editor-gtk/render/render.h"
 
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/draw/fbd_layout.h"
 #include "editor-gtk/draw/pages.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
@@ -310,7 +311,7 @@ static bool is_there(const struct project *project, const struct render_options 
 	if (!options->rung || options->original)
 		return true;
 	first = pou >= 0 ? &project->pou[pou] : project->pou_count ? project->pou : NULL;
-	if (first && options->rung <= first->rung_count)
+	if (first && options->rung <= MAX(first->rung_count, fbd_layout_networks(first)))
 		return true;
 	fprintf(stderr, _("ladder-editor: %s has no rung %d\n"), options->file,
 		options->rung);

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/render/render_sheet.h"
 
+#include "editor-gtk/draw/fbd_draw.h"
 #include "editor-gtk/draw/grid_classic.h"
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/listing.h"
@@ -205,6 +206,55 @@ static float put_chart(const struct project *project, const struct pou *pou,
 	return y;
 }
 
+/* Marks the diagnostics of a network. */
+static int mark_network(const struct diag_list *diags, const struct fbd_layout *layout, const char *pou,
+			struct fbd_mark *mark)
+{
+	int count = 0;
+
+	for (int i = 0; diags && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		struct fbd_mark at;
+
+		if (!diag->pou || !name_equal(diag->pou, pou) ||
+		    !fbd_layout_of_diag(layout, diag, &at.box, &at.pin))
+			continue;
+		at.marks = diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR : MARK_WARNING;
+		mark[count++] = at;
+	}
+	return count;
+}
+
+static float put_networks(const struct project *project, const struct pou *pou, const struct render_options *options,
+			  struct lettering *lettering, float y, struct picture *picture)
+{
+	const int first = options->rung ? options->rung - 1 : 0;
+	const int count = fbd_layout_networks(pou), end = MIN(options->rung ? options->rung : count, count);
+	struct fbd_layout **layout = g_new0(struct fbd_layout *, count + 1);
+	float width = options->width;
+
+	for (int i = first; i < end; i++) {
+		layout[i] = fbd_layout_new(project, pou, i, lettering);
+		width = MAX(width, layout[i]->width);
+	}
+	for (int i = first; i < end; i++) {
+		struct fbd_mark mark[LIMIT_DIAGS];
+		const struct fbd_scene scene = {
+			.layout = layout[i], .theme = theme_get(options->theme, THEME_GREEN), .mark = mark,
+			.mark_count = mark_network(options->diags, layout[i], project_text(project, pou->name), mark),
+			.width = width };
+
+		picture_move(picture, 0, y);
+		fbd_draw(&scene, picture);
+		y += layout[i]->height;
+		picture_grow(picture, width, y);
+		fbd_layout_free(layout[i]);
+	}
+	picture_move(picture, 0, 0);
+	g_free(layout);
+	return y;
+}
+
 void render_sheets(const struct project *project, int pou,
 		   const struct render_options *options, struct lettering *lettering,
 		   struct picture *picture)
@@ -224,9 +274,11 @@ void render_sheets(const struct project *project, int pou,
 		if (several)
 			y += render_heading(lettering, heading, y, picture);
 		g_free(heading);
-		if (one->language == LANGUAGE_IL || one->language == LANGUAGE_ST || one->fbd)
+		if (one->language == LANGUAGE_IL || one->language == LANGUAGE_ST)
 			y = put_lines(listing_il(project, one), lettering, y + 8,
 				      picture);
+		else if (one->fbd)
+			y = put_networks(project, one, options, lettering, y, picture);
 		else if (one->sfc && !options->rung)
 			y = put_chart(project, one, options, lettering, y, picture);
 		else

@@ -80,6 +80,8 @@ void draw_rung(struct draw *draw);
 /** draw_sfc - a chart, and below it its rungs and lists (show_sfc.c).
  * Fails: false: no memory. */
 bool draw_sfc(struct draw *draw, const struct pou *pou);
+/** draw_network - network @index (from 0) of a POU in FBD (show_fbd.c). Fails: false: no memory. */
+bool draw_network(struct draw *draw, const struct pou *pou, int index);
 
 /** box_make - fills draw->box for the box whose first cell is (row, col). */
 void box_make(struct draw *draw, int row, int col);

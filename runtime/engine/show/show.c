@@ -8,6 +8,7 @@
 #include "engine/show/show.h"
 
 #include "engine/base/plain.h"
+#include "engine/model/fbd.h"
 #include "engine/show/draw.h"
 #include "engine/text/pou_print.h"
 
@@ -612,9 +613,28 @@ static int show_text(struct draw *draw, const struct pou *pou)
 	return good ? 1 : -1;
 }
 
+static int show_fbd(struct draw *draw, const struct pou *pou, int network)
+{
+	const int first = network ? network - 1 : 0, end = network ? network : pou->fbd->count;
+
+	if (network < 0 || end > pou->fbd->count)
+		return 0;
+	draw->margin = digits(end);
+	for (int i = first; i < end; i++) {
+		if (i > first)
+			sink_text(draw->sink, "\n");
+		draw->number = i + 1;
+		if (!draw_network(draw, pou, i))
+			return -1;
+	}
+	return end - first;
+}
+
 static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
-	if (pou->language == LANGUAGE_ST || pou->language == LANGUAGE_FBD)
+	const bool drawn = pou->rung_count || (pou->fbd && pou->fbd->count);
+
+	if (pou->language == LANGUAGE_ST)
 		return rung == 0 ? show_text(draw, pou) : 0;
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
@@ -628,11 +648,11 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 		plain_text(draw->sink, project_text(draw->project, pou->name));
 		if (draw->options && draw->options->instance)
 			sink_printf(draw->sink, " as %.100s", draw->options->instance);
-		sink_text(draw->sink, pou->rung_count && !pou->sfc ? "\n\n" : "\n");
+		sink_text(draw->sink, drawn && !pou->sfc ? "\n\n" : "\n");
 		if (pou->sfc)
 			return show_sfc(draw, pou);
 	}
-	return show_ld(draw, pou, rung);
+	return pou->fbd ? show_fbd(draw, pou, rung) : show_ld(draw, pou, rung);
 }
 
 int show_rungs(const struct project *project, int pou, int rung,
