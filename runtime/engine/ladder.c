@@ -19,6 +19,7 @@
 #include "engine/scan/symbol_index.h"
 #include "engine/text/mend.h"
 #include "engine/text/text.h"
+#include "engine/translate/located_calls.h"
 #include "engine/translate/translate.h"
 #include "engine/exchange/classic/sfc_ladder.h"
 #include "engine/exchange/iec_file/iec_file.h"
@@ -487,9 +488,11 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	} else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch)) {
 		return no_memory(ladder, unit->pou->file);
 	}
+	if (!generic_lines(t->scope, unit->pou, il, &ladder->scratch) || !located_calls(t, unit, il))
+		return no_memory(ladder, unit->pou->file);
 	*types = arena_alloc(&ladder->arena,
 			     ((size_t)il->count + 1) * sizeof(**types));
-	if (!*types || !generic_lines(t->scope, unit->pou, il, &ladder->scratch))
+	if (!*types)
 		return no_memory(ladder, unit->pou->file);
 	arena_reset(&ladder->scratch);
 	check_il(t->scope, unit->pou, il, &ladder->scratch, *types,

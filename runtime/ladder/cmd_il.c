@@ -10,6 +10,7 @@
 #include "ladder/report.h"
 
 #include "engine/exchange/image/image_il.h"
+#include "engine/text/pou_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,15 +21,15 @@
 static int pick_used(const struct project *project, const struct il *il,
 		     struct var *const *temp, int count, struct var *out)
 {
-	uint8_t *used = calloc((size_t)project->names.count + 1, 1);
+	uint8_t *used = calloc((size_t)count + 1, 1);
 	int kept = 0;
 
-	if (!used)
+	if (!used || !pou_uses(&project->names, il, temp, count, used)) {
+		free(used);
 		return -1;
-	for (int i = 0; i < il->count; i++)
-		used[il->line[i].operand] = used[il->line[i].pin] = 1;
+	}
 	for (int i = 0; i < count; i++)
-		if (used[temp[i]->name])
+		if (used[i])
 			out[kept++] = *temp[i];
 	free(used);
 	return kept;

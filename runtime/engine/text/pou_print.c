@@ -12,12 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Marks the ids that stand as operands in the list. */
-static void mark_used(const struct il *il, uint8_t *used, int count)
+/* Does the operand name @name, or a part of it? */
+static bool is_of(const char *operand, const char *name)
 {
-	for (int i = 0; i < il->count; i++)
-		if (il->line[i].operand < (uint32_t)count)
-			used[il->line[i].operand] = 1;
+	const size_t len = strlen(name);
+
+	return strncmp(operand, name, len) == 0 && (operand[len] == '.' || operand[len] == '[');
+}
+
+bool pou_uses(const struct names *names, const struct il *il, struct var *const *temps, int count, uint8_t *used)
+{
+	uint8_t *named = calloc((size_t)names->count + 1, 1);
+
+	for (int i = 0; named && i < il->count; i++)
+		named[il->line[i].operand] = named[il->line[i].pin] = 1;
+	for (int k = 0; named && k < count; k++) {
+		used[k] = named[temps[k]->name];
+		for (int i = 0; i < il->count && !used[k] && (temps[k]->type == IEC_NONE || temps[k]->array.count); i++)
+			used[k] = is_of(names_text(names, il->line[i].operand), names_text(names, temps[k]->name));
+	}
+	free(named);
+	return named != NULL;
 }
 
 /* @vars and, in a block of their own, the temporaries in use. */
@@ -25,12 +40,12 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 		      struct var *const *temps, int temp_count,
 		      const struct il *il, struct var_table *out)
 {
-	uint8_t *used = calloc((size_t)names->count + 1, 1);
+	uint8_t *used = calloc((size_t)temp_count + 1, 1);
 	size_t most = (size_t)vars->count + (size_t)temp_count;
 
 	out->var = calloc(most + 1, sizeof(*out->var));
 	out->block = calloc((size_t)vars->block_count + 1, sizeof(*out->block));
-	if (!used || !out->var || !out->block) {
+	if (!used || !out->var || !out->block || !pou_uses(names, il, temps, temp_count, used)) {
 		free(used);
 		return false;
 	}
@@ -41,10 +56,8 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 		memcpy(out->block, vars->block,
 		       (size_t)vars->block_count * sizeof(*out->block));
 	out->count = vars->count;
-	mark_used(il, used, names->count);
 	for (int i = 0; i < temp_count; i++)
-		if (temps[i]->name < (uint32_t)names->count &&
-		    used[temps[i]->name])
+		if (used[i])
 			out->var[out->count++] = *temps[i];
 	out->block_count = vars->block_count;
 	if (out->count > vars->count)
@@ -91,6 +104,23 @@ bool pou_print_il(const struct project *project, const struct pou *pou,
 	return begin != NULL;
 }
 
+/* The VAR_ACCESS of the POU, as those of POU 0. */
+static struct access_block *access_of(const struct project *project, const struct pou *pou, int *count)
+{
+	const char *name = project_text(project, pou->name);
+	const int number = project->access_block_count ? project_find_pou(project, name, strlen(name)) : -1;
+	struct access_block *out = number < 0 ? NULL : calloc((size_t)project->access_block_count, sizeof(*out));
+
+	*count = 0;
+	for (int i = 0; out && i < project->access_block_count; i++) {
+		if (project->access_block[i].pou != number + 1)
+			continue;
+		out[*count] = project->access_block[i];
+		out[(*count)++].pou = 1;
+	}
+	return out;
+}
+
 char *pou_print(const struct project *project, const struct pou *pou)
 {
 	struct pou only = *pou;
@@ -101,7 +131,11 @@ char *pou_print(const struct project *project, const struct pou *pou)
 
 	only.comment = 0;
 	only.included = 0;
+	one.access = project->access;
+	one.access_count = project->access_count;
+	one.access_block = access_of(project, pou, &one.access_block_count);
 	text = text_write(&one, &len);
+	free(one.access_block);
 	begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
 	if (begin)
 		memmove(text, begin, strlen(begin) + 1);

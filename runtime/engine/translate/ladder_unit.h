@@ -150,9 +150,6 @@ enum iec_type ld_test(struct ld *ld);
 /** ld_target - the operand of a variable, an element or a whole structure, array or instance. @good gets the
  * BOOL that tells whether its indices could be computed; 0: they can. */
 uint32_t ld_target(struct ld *ld, uint32_t *good);
-/** ld_copied - a copy of a structure or array at an address, as a call needs it; @place itself, if it has none.
- * @good: as that of ld_target(), which it may be. */
-uint32_t ld_copied(struct ld *ld, uint32_t place, uint32_t *good);
 /** ld_call - begins a formal call; ld_arg adds to it. */
 void ld_call(struct ld *ld, enum word function);
 void ld_arg(struct ld *ld, bool output, uint32_t pin, uint32_t operand);

@@ -678,128 +678,6 @@ static struct value keep_value(struct chain *c, struct value value)
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }
 
-/* ---- structures and arrays at an address ---- */
-
-#define PARTS_MOST 256 /* values that a copy is made of; more of them are told as LD334 */
-
-/* Their members do not lie as those of a variable without an address do. */
-static bool is_located(const struct meaning *m)
-{
-	return m && m->addr.area != AREA_NONE && (m->kind == MEANING_STRUCT || (m->kind == MEANING_ARRAY && m->var));
-}
-
-static struct var_array first_bounds(const struct meaning *m)
-{
-	return m->dims > 1 ? m->dim[0] : m->array;
-}
-
-/* `Whole[3]`, `Whole.Member`: part @index of the whole; 0: it has no more, or no memory. */
-static uint32_t part_of_whole(struct chain *c, uint32_t whole, const struct meaning *m, uint32_t index)
-{
-	const char *text = names_text(&c->ld->translation->project->names, whole);
-	const struct word_row *row = m->kind == MEANING_ARRAY ? NULL : ld_row(c->ld, (enum word)m->word);
-	char out[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
-	int size;
-
-	if (row ? index >= row->pin_count : index >= first_bounds(m).count)
-		return 0;
-	size = row ? snprintf(out, sizeof(out), "%s.%s", text, row->pin[index].name) :
-	       snprintf(out, sizeof(out), "%s[%ld]", text, (long)first_bounds(m).low + (long)index);
-	if (size < 0 || (size_t)size >= sizeof(out)) {
-		c->ld->failed = true;
-		return 0;
-	}
-	return chain_intern(c, out, (size_t)size);
-}
-
-/* How many values it has, PARTS_MOST + 1 at most. Structures are LIMIT_DEPTH deep. */
-static int count_parts(struct chain *c, uint32_t whole)
-{
-	const struct meaning *m = meaning(c, whole);
-	uint32_t part;
-	int count = 0;
-
-	if (!m || !meaning_is_whole(m))
-		return m ? 1 : PARTS_MOST + 1;
-	if (m->kind == MEANING_INSTANCE)
-		return PARTS_MOST + 1;
-	for (uint32_t i = 0; count <= PARTS_MOST && (part = part_of_whole(c, whole, m, i)); i++)
-		count += count_parts(c, part);
-	return count;
-}
-
-static bool same_whole(const struct meaning *a, const struct meaning *b)
-{
-	return a && b && a->kind == b->kind && a->type == b->type &&
-	       (a->type != IEC_NONE || a->word == b->word) &&
-	       (a->kind != MEANING_ARRAY || (a->array.count == b->array.count &&
-		first_bounds(a).low == first_bounds(b).low && first_bounds(a).count == first_bounds(b).count));
-}
-
-/* One value after the other. */
-static void move_parts(struct chain *c, uint32_t to, uint32_t from)
-{
-	const struct meaning *m = meaning(c, to), *other = meaning(c, from);
-	const struct value none = { .type = IEC_NONE };
-	uint32_t part;
-
-	if (c->ld->failed || !m || !other) {
-		c->ld->failed = true;
-		return;
-	}
-	if (!meaning_is_whole(m)) {
-		operate(c, FN_MOVE, (struct value){ .operand = from, .type = m->type }, none, m->type, to);
-		return;
-	}
-	for (uint32_t i = 0; (part = part_of_whole(c, to, m, i)); i++)
-		move_parts(c, part, part_of_whole(c, from, other, i));
-}
-
-/* target := place, one of which has an address. False: it is another assignment. */
-static bool moved_parts(struct chain *c, uint32_t target)
-{
-	const struct expr_node *root = &c->expr->node[c->expr->root];
-	const struct meaning *m = meaning(c, target);
-	const bool place = root->op == EXPR_NAME || root->op == EXPR_INDEX;
-	uint32_t from = place ? scope_first_of(c->ld->translation->scope, c->ld->unit->pou, c->expr, root) : 0;
-
-	if (!m || !meaning_is_whole(m) || count_parts(c, target) > PARTS_MOST ||
-	    (place ? (!is_located(m) && !is_located(meaning(c, from))) || !same_whole(m, meaning(c, from)) :
-	     root->op != EXPR_CALL || !is_located(m)))
-		return false;
-	if (place) {
-		from = chain_place(c, c->expr->root).operand;
-	} else {
-		from = chain_compute(c, c->expr->root, IEC_NONE, 0).operand;
-		if (!same_whole(m, meaning(c, from))) { /* check_il compares the types */
-			operate(c, FN_MOVE, (struct value){ .operand = from }, (struct value){ .type = IEC_NONE },
-				IEC_NONE, target);
-			return true;
-		}
-	}
-	move_parts(c, target, from);
-	return true;
-}
-
-/* A copy of @place without an address; @place itself, if it needs none. */
-static uint32_t chain_copied(struct chain *c, uint32_t place)
-{
-	const struct meaning *m = meaning(c, place);
-	uint32_t copy;
-
-	if (!is_located(m) || m->dims > 1 || count_parts(c, place) > PARTS_MOST)
-		return place;
-	copy = temps_whole(c->ld->temps, &(struct meaning){
-		.kind = m->kind, .type = m->type, .array = m->kind == MEANING_ARRAY ? m->array : (struct var_array){ 0 },
-		.word = m->word });
-	if (!copy) {
-		c->ld->failed = true;
-		return place;
-	}
-	move_parts(c, copy, place);
-	return copy;
-}
-
 /* ---- calls ---- */
 
 /* @in by argument. Into a temporary, if there is no @target. */
@@ -895,8 +773,6 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 					  pin->type);
 		if (pin->dir == PIN_IN_OUT)
 			ld_freeze(ld, in[i].operand);
-		else if (is_whole(pin))
-			in[i].operand = chain_copied(c, in[i].operand);
 	}
 	c->calls--;
 	ld_freeze_globals(ld);
@@ -1398,11 +1274,6 @@ void ld_assign(struct ld *ld, int element)
 	ld_place(ld, at->row, at->col);
 	target = chain_target(&c);
 	ld_freeze(ld, target);
-	if (!ld->expr->target_bit.len && moved_parts(&c, target)) {
-		ld->element[element].leaf = c.en;
-		ld->element[element].powered = true;
-		return;
-	}
 	value = chain_assigned(&c, target, target);
 	if (value.operand != target || is_place(ld->expr))
 		operate(&c, FN_MOVE, value, none, value.type, target);
@@ -1505,7 +1376,7 @@ void ld_store(struct ld *ld)
 		operate(&c, FN_MOVE, (struct value){ .operand = chain_intern(&c, "NULL", 4), .type = IEC_LWORD }, none, IEC_LWORD, target);
 		return;
 	}
-	if (store_cut(&c, target) || (!ld->expr->target_bit.len && moved_parts(&c, target)))
+	if (store_cut(&c, target))
 		return;
 	const bool other = !ld->expr->target_bit.len &&
 			   mixed_converts(infer_type(&c.in, ld->expr->root), type) &&
@@ -1544,16 +1415,6 @@ enum iec_type ld_test(struct ld *ld)
 	if (c.can_fail)
 		ld_emit(ld, OP_AND, 0, c.en);
 	return value.type;
-}
-
-uint32_t ld_copied(struct ld *ld, uint32_t place, uint32_t *good)
-{
-	struct chain c = statement(ld);
-
-	c.en = *good;
-	place = chain_copied(&c, place);
-	*good = c.can_fail ? c.en : *good;
-	return place;
 }
 
 uint32_t ld_target(struct ld *ld, uint32_t *good)

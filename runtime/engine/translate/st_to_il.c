@@ -871,8 +871,6 @@ static uint32_t argument(struct st_il *s, const struct word_pin *pin)
 		operand = ld_target(&s->ld, &good);
 	else
 		operand = ld_value(&s->ld, &type, &good);
-	if (pin && pin->dir == PIN_IN && place)
-		operand = ld_copied(&s->ld, operand, &good);
 	skip_unless(s, good);
 	return operand;
 }
