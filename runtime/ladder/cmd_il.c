@@ -24,7 +24,7 @@ static int pick_used(const struct project *project, const struct il *il,
 	uint8_t *used = calloc((size_t)count + 1, 1);
 	int kept = 0;
 
-	if (!used || !pou_uses(&project->names, il, temp, count, used)) {
+	if (!used || !pou_temps_used(&project->names, il, temp, count, used)) {
 		free(used);
 		return -1;
 	}

@@ -20,7 +20,7 @@ static bool is_of(const char *operand, const char *name)
 	return strncmp(operand, name, len) == 0 && (operand[len] == '.' || operand[len] == '[');
 }
 
-bool pou_uses(const struct names *names, const struct il *il, struct var *const *temps, int count, uint8_t *used)
+bool pou_temps_used(const struct names *names, const struct il *il, struct var *const *temps, int count, uint8_t *used)
 {
 	uint8_t *named = calloc((size_t)names->count + 1, 1);
 
@@ -45,7 +45,7 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 
 	out->var = calloc(most + 1, sizeof(*out->var));
 	out->block = calloc((size_t)vars->block_count + 1, sizeof(*out->block));
-	if (!used || !out->var || !out->block || !pou_uses(names, il, temps, temp_count, used)) {
+	if (!used || !out->var || !out->block || !pou_temps_used(names, il, temps, temp_count, used)) {
 		free(used);
 		return false;
 	}

@@ -16,9 +16,9 @@
  */
 char *pou_print(const struct project *project, const struct pou *pou);
 
-/** pou_uses - which of @temps, @count of them, the list names, or a part of: @used gets 1 for them. Scan-safe: no.
+/** pou_temps_used - which of @temps, @count of them, the list names, or a part of: @used gets 1 for them. Scan-safe: no.
  * Fails: false: no memory. */
-bool pou_uses(const struct names *names, const struct il *il, struct var *const *temps, int count, uint8_t *used);
+bool pou_temps_used(const struct names *names, const struct il *il, struct var *const *temps, int count, uint8_t *used);
 /**
  * pou_print_il - a POU as `PROGRAM Name IL … END_PROGRAM`
  * @pou:   of @project: its kind and name are used
