@@ -37,7 +37,12 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
-ENGINE   := $(filter-out %_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
+# XML=libxml2|none: PLCopen XML is read by libxml2 if it is installed for the target, or not read.
+XML      ?= $(if $(filter 1,$(STATIC)$(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libxml-2.0 2>/dev/null && echo libxml2)))
+override XML := $(or $(XML),none)
+XML_LIB  := $(if $(filter libxml2,$(XML)),$(shell $(PKG_CONFIG) --libs libxml-2.0))
+ENGINE   := $(filter-out %_small.c %/xml_$(if $(filter libxml2,$(XML)),none,libxml2).c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
+$(call obj,runtime/engine/exchange/plcopen/xml_libxml2.c): override CPPFLAGS += $(if $(XML_LIB),$(shell $(PKG_CONFIG) --cflags libxml-2.0))
 # The engine of a small board: without the files that read or translate, or that find, print or
 # store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
@@ -284,7 +289,7 @@ check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of th
 LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
 all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) $(XML_LIB) -lm
 
 # From the rows of runtime/ladder/commands.def, by a program that runs here, also in a cross build.
 HERE := $(if $(CROSS),build/here,$(BUILD))
@@ -399,7 +404,7 @@ ifneq ($(EDITOR),)
 # No warnings about headers of libraries.
 EDITOR_PKG := gtk4 libadwaita-1 gtksourceview-5 $(if $(filter yes,$(MD4C)),md4c)
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags $(EDITOR_PKG))) -I$(BUILD)
-EDITOR_LIB := $(shell $(PKG_CONFIG) --libs $(EDITOR_PKG)) $(GPIO_LIB) $(AVAHI_LIB)
+EDITOR_LIB := $(shell $(PKG_CONFIG) --libs $(EDITOR_PKG)) $(GPIO_LIB) $(AVAHI_LIB) $(XML_LIB)
 EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/*/test_*.c tests/editor/*/*/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
@@ -642,7 +647,7 @@ arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm
 $(ARM:%=arm-%): arm-%:
 	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi CFLAGS='$(filter-out -g,$(CFLAGS))' arm-programs
 $(BUILD)/tests/ladder_batch: $(BUILD)/tests/ladder_batch.o $(filter-out %/main.o,$(LADDER)) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) $(XML_LIB) -lm
 arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/tests/ladder_batch $(BUILD)/replay
 .PHONY: arm arm-programs $(ARM:%=arm-%)
 # ---- end of ARM ----

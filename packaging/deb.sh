@@ -28,7 +28,7 @@ user=
 [ "$(id -u)" = 0 ] || user='--map-root-user --map-auto'
 
 # What the editor and the command line are linked with; dpkg-shlibdeps asks the packages.
-libraries='libadwaita-1-0 libavahi-client3 libcrypt1 libgtk-4-1 libgtksourceview-5-0 libmd4c0 libmodbus5'
+libraries='libadwaita-1-0 libavahi-client3 libcrypt1 libgtk-4-1 libgtksourceview-5-0 libmd4c0 libmodbus5 libxml2'
 control=packaging/debian/control
 
 # Makes the Debian for architecture $1 if it is not in the cache, and sets root. It is the release

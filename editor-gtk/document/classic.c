@@ -241,7 +241,7 @@ char *classic_import(const char *path, gsize *len, struct ladder **from, GError 
 	if (!ladder || !ladder_take_classic(ladder, false))
 		g_error("out of memory");
 	ladder_classic_task(ladder, true);
-	ladder_classic_language(ladder, said);
+	ladder_import_language(ladder, said);
 	if (ladder_load(ladder, path) && ladder_import_report(ladder))
 		text = ladder_write(ladder, len);
 	else

@@ -78,13 +78,24 @@ static void unload(struct ladder *ladder)
 	ladder->loaded = NULL;
 	ladder->image = NULL;
 	ladder->image_len = 0;
-	if (ladder->foreign) {
-		ladder->foreign->forget(ladder->foreign);
-		ladder->foreign->loaded = false;
+	for (struct foreign *each = ladder->foreign; each; each = each->next) {
+		each->forget(each);
+		each->loaded = false;
 	}
 	ladder->good = ladder->built = false;
 	memset(&ladder->translation, 0, sizeof(ladder->translation));
 	memset(&ladder->program, 0, sizeof(ladder->program));
+}
+
+static void free_foreign(struct ladder *ladder)
+{
+	struct foreign *next;
+
+	for (struct foreign *each = ladder->foreign; each; each = next) {
+		next = each->next;
+		each->free(each);
+	}
+	ladder->foreign = NULL;
 }
 
 void ladder_free(struct ladder *ladder)
@@ -92,21 +103,29 @@ void ladder_free(struct ladder *ladder)
 	if (!ladder)
 		return;
 	unload(ladder);
-	ladder_set_foreign(ladder, NULL);
+	free_foreign(ladder);
 	ladder_set_files(ladder, NULL);
 	free(ladder);
 }
 
-void ladder_set_foreign(struct ladder *ladder, struct foreign *foreign)
+void ladder_add_foreign(struct ladder *ladder, struct foreign *foreign)
 {
-	if (ladder->foreign)
-		ladder->foreign->free(ladder->foreign);
+	foreign->next = ladder->foreign;
 	ladder->foreign = foreign;
 }
 
 struct foreign *ladder_foreign(const struct ladder *ladder)
 {
 	return ladder->foreign;
+}
+
+static struct foreign *loaded_foreign(const struct ladder *ladder)
+{
+	struct foreign *each = ladder->foreign;
+
+	while (each && !each->loaded)
+		each = each->next;
+	return each;
 }
 
 static bool no_memory(struct ladder *ladder, const char *file)
@@ -260,9 +279,21 @@ static bool read_texts(struct ladder *ladder, const struct text_file *files, int
 	return good;
 }
 
+/* The reader of a file, or of the folder @file if @bytes is NULL; NULL: none. */
+static struct foreign *find_foreign(const struct ladder *ladder, const char *file,
+				    const void *bytes, size_t len)
+{
+	struct foreign *each = ladder->foreign;
+
+	while (each && !(bytes ? each->is(bytes, len) : each->is_folder && each->is_folder(file)))
+		each = each->next;
+	return each;
+}
+
 static bool load_bytes(struct ladder *ladder, const char *file,
 		       const void *bytes, size_t len)
 {
+	struct foreign *foreign;
 
 	if (bytes && is_image(bytes, len)) {
 		ladder->loaded = malloc(len);
@@ -271,20 +302,22 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 		memcpy(ladder->loaded, bytes, len);
 		return open_image(ladder, file, ladder->loaded, len);
 	}
-	if (ladder->foreign && (!bytes || ladder->foreign->is(bytes, len))) {
-		bytes = ladder->foreign->read(ladder->foreign, file, bytes, len, &len, &file,
-					      &ladder->diags);
+	foreign = find_foreign(ladder, file, bytes, len);
+	if (foreign) {
+		bytes = foreign->read(foreign, file, bytes, len, &len, &file, &ladder->diags);
+		foreign->loaded = bytes != NULL;
 		if (!bytes)
 			return false;
-		ladder->foreign->loaded = true;
+		foreign->text = bytes;
+		foreign->text_len = len;
 	}
 	return read_texts(ladder, &(struct text_file){ file, bytes, len, false }, 1);
 }
 
 static void place_foreign(struct ladder *ladder)
 {
-	if (ladder->foreign)
-		ladder->foreign->place(ladder->foreign, &ladder->diags);
+	for (struct foreign *each = ladder->foreign; each; each = each->next)
+		each->place(each, &ladder->diags);
 }
 
 /* Diagnostics point to names in the project, so a project with errors is kept until the
@@ -311,7 +344,7 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	unload(ladder);
 	diag_init(&ladder->diags);
 	bytes = file_read(path, LIMIT_TEXT, &len, &ladder->diags);
-	folder = !bytes && ladder->foreign && ladder->foreign->is_folder(path);
+	folder = !bytes && find_foreign(ladder, path, NULL, 0);
 	ladder->unreadable = !bytes && !folder;
 	if (ladder->unreadable)
 		return false;
@@ -725,7 +758,7 @@ bool ladder_build(struct ladder *ladder)
 	}
 
 	place_foreign(ladder);
-	ladder->program.classic = ladder->foreign && ladder->foreign->loaded;
+	ladder->program.classic = loaded_foreign(ladder) && loaded_foreign(ladder)->classic;
 	return good;
 }
 

@@ -43,16 +43,21 @@ bool ladder_is_classic(const char *path);
 /** ladder_classic_task - whether converted projects get a TASK with their period, for
  * text that is saved as a file. Off at first. */
 void ladder_classic_task(struct ladder *ladder, bool task);
-/** ladder_classic_language - the report of later loads is in the language of @translate,
+/** ladder_import_language - reports of later loads are in the language of @translate,
  * which gets each text, or printf format, in English. */
-void ladder_classic_language(struct ladder *ladder,
-			     const char *(*translate)(const char *text));
+void ladder_import_language(struct ladder *ladder, const char *(*translate)(const char *text));
+/** ladder_take_plcopen - makes later loads accept projects in PLCopen XML, too, as
+ * ladder_take_classic() does. */
+bool ladder_take_plcopen(struct ladder *ladder);
 /** ladder_import_report - the report of the last load; NULL: it was no such project.
  * Valid until the next load. */
 const struct classic_report *ladder_import_report(const struct ladder *ladder);
 /** ladder_import_io - the I/O map of such a project; NULL: it has none. Valid until the
  * next load. */
 const char *ladder_import_io(const struct ladder *ladder);
+/** ladder_import_text - the text that the last load made of such a project, also with errors in it;
+ * NULL: none. Valid until the next load. */
+const char *ladder_import_text(const struct ladder *ladder, size_t *len);
 /** ladder_import_line - the line in the imported project that line @line of the result
  * comes from; 0: none. For a rung file @line itself. @ladder is a struct ladder. */
 int ladder_import_line(const void *ladder, int line);
@@ -330,9 +335,18 @@ struct foreign {
 	void (*place)(struct foreign *foreign, struct diag_list *diags);
 	void (*forget)(struct foreign *foreign); /* frees the results of the last read */
 	void (*free)(struct foreign *foreign);
+	/* The line of the file that a line of the text comes from; 0: none. */
+	int (*line)(const struct foreign *foreign, int line);
+	struct classic_report *report; /* of the last read                    */
+	const char *text; /* that the last load read, @text_len bytes         */
+	size_t text_len;
+	bool classic;     /* names of ClassicLadder are known where values are typed */
 	bool loaded;      /* the last load used it                            */
+	struct foreign *next;
 };
-/** ladder_set_foreign - the reader for later loads; NULL: none. Owns: @ladder. */
-void ladder_set_foreign(struct ladder *ladder, struct foreign *foreign);
+/** ladder_add_foreign - one more reader for later loads; the last one is asked first.
+ * Owns: @ladder. */
+void ladder_add_foreign(struct ladder *ladder, struct foreign *foreign);
+/** ladder_foreign - the first reader; the others follow it. NULL: none. */
 struct foreign *ladder_foreign(const struct ladder *ladder);
 #endif

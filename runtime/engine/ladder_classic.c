@@ -27,9 +27,15 @@ struct classic_foreign {
 	const char *name;         /* lines of the text: their origin in the project */
 };
 
+static void free_foreign(struct foreign *foreign);
+
 static struct classic_foreign *classic_of(const struct ladder *ladder)
 {
-	return (struct classic_foreign *)ladder_foreign(ladder);
+	struct foreign *each = ladder_foreign(ladder);
+
+	while (each && each->free != free_foreign)
+		each = each->next;
+	return (struct classic_foreign *)each;
 }
 
 static void forget(struct foreign *foreign)
@@ -140,18 +146,24 @@ static void place_diags(struct foreign *foreign, struct diag_list *diags)
 	}
 }
 
+static int line_in(const struct foreign *foreign, int line)
+{
+	return line_of((const struct classic_foreign *)foreign, line);
+}
+
 bool ladder_take_classic(struct ladder *ladder, bool faithful)
 {
 	struct classic_foreign *classic = calloc(1, sizeof(*classic));
 
 	if (!classic)
 		return false;
-	classic->foreign = (struct foreign){ classic_is, is_folder, read_foreign,
-					     place_diags, forget, free_foreign, false };
+	classic->foreign = (struct foreign){ .is = classic_is, .is_folder = is_folder,
+		.read = read_foreign, .place = place_diags, .forget = forget,
+		.free = free_foreign, .line = line_in, .report = &classic->report, .classic = true };
 	classic->options.faithful = faithful;
 	arena_init(&classic->arena);
 	report_init(&classic->report);
-	ladder_set_foreign(ladder, &classic->foreign);
+	ladder_add_foreign(ladder, &classic->foreign);
 	return true;
 }
 
@@ -163,41 +175,11 @@ void ladder_classic_task(struct ladder *ladder, bool task)
 		classic->options.task = task;
 }
 
-void ladder_classic_language(struct ladder *ladder, const char *(*translate)(const char *text))
-{
-	struct classic_foreign *classic = classic_of(ladder);
-
-	if (classic)
-		classic->report.translate = translate;
-}
-
-const struct classic_report *ladder_import_report(const struct ladder *ladder)
-{
-	const struct classic_foreign *classic = classic_of(ladder);
-
-	return classic && classic->project ? &classic->report : NULL;
-}
-
 const char *ladder_import_io(const struct ladder *ladder)
 {
 	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic ? classic->io : NULL;
-}
-
-int ladder_import_line(const void *ladder, int line)
-{
-	const struct classic_foreign *classic = classic_of(ladder);
-
-	return classic && classic->project ? line_of(classic, line) : line;
-}
-
-void ladder_import_places(const struct ladder *ladder, struct diag_list *diags)
-{
-	struct classic_foreign *classic = classic_of(ladder);
-
-	if (classic)
-		place_diags(&classic->foreign, diags);
 }
 
 const struct classic_project *ladder_import_project(const struct ladder *ladder)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * cmd_import - `ladder import`: makes a rung file, an I/O map and a report from a project
- * of ClassicLadder.
+ * of another tool.
  */
 #include "ladder/paths.h"
 #include "ladder/report.h"
@@ -84,16 +84,18 @@ static bool save_io(const char *out, const char *map)
 	return good;
 }
 
+/* A project with errors is written as the import made it, so that they can be corrected. */
 static enum status write_files(struct ladder *ladder, const char *out)
 {
-	const char *map = ladder_import_io(ladder);
+	const char *map = ladder_import_io(ladder), *raw;
 	size_t len;
-	char *text = ladder_write(ladder, &len);
+	char *text = ladder_project(ladder) ? ladder_write(ladder, &len) : NULL;
 	bool good;
 
-	if (!text)
+	raw = text ? text : ladder_import_text(ladder, &len);
+	if (!raw)
 		return report_no_memory(out);
-	good = report_save(out, text, len) == STATUS_GOOD && (!map || save_io(out, map));
+	good = report_save(out, raw, len) == STATUS_GOOD && (!map || save_io(out, map));
 	free(text);
 	return good ? STATUS_GOOD : STATUS_WRONG;
 }
@@ -101,21 +103,22 @@ static enum status write_files(struct ladder *ladder, const char *out)
 static enum status import(struct call *call, struct ladder *ladder)
 {
 	const char *path = call->arg[0], *out = call_option(call, "-o");
-	const struct classic_report *report;
-	enum status status = report_load(ladder, path, true);
+	enum status status = report_load(ladder, path, true), written;
+	const struct classic_report *report = ladder_import_report(ladder);
 
-	if (status != STATUS_GOOD)
-		return status;
-	report = ladder_import_report(ladder);
 	if (!report) {
-		report_diag((struct diag){ .id = DIAG_NOT_CLASSIC, .file = path }, "%s", "");
-		return STATUS_WRONG;
+		if (status == STATUS_GOOD)
+			report_diag((struct diag){ .id = DIAG_NOT_CLASSIC, .file = path }, "%s", "");
+		return status == STATUS_GOOD ? STATUS_WRONG : status;
 	}
-	if (out)
-		status = write_files(ladder, out);
-	if (status == STATUS_GOOD && call_flag(call, "--json"))
+	if (status != STATUS_GOOD && ladder_import_project(ladder))
+		return status;
+	written = out ? write_files(ladder, out) : STATUS_GOOD;
+	if (written != STATUS_GOOD)
+		return written;
+	if (call_flag(call, "--json"))
 		print_json(path, report, &call->out);
-	else if (status == STATUS_GOOD)
+	else
 		print_text(path, report, &call->out);
 	return status;
 }

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen - the import as a whole: header, types, POUs, configuration, and what is left over.
+ */
+#include "engine/exchange/plcopen/plcopen_convert.h"
+
+#include "engine/base/limits.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOOK_MOST = 4096 };
+
+static bool has(const char *bytes, size_t len, const char *word)
+{
+	const size_t size = strlen(word);
+
+	for (size_t i = 0; i + size <= len && i < LOOK_MOST; i++)
+		if (bytes[i] == *word && !memcmp(bytes + i, word, size))
+			return true;
+	return false;
+}
+
+bool plcopen_is(const void *bytes, size_t len)
+{
+	const char *text = bytes;
+	size_t at = len >= 3 && !memcmp(text, "\xef\xbb\xbf", 3) ? 3 : 0;
+
+	while (at < len && text[at] && strchr(" \t\r\n", text[at]))
+		at++;
+	return xml_is_built() && at < len && text[at] == '<' &&
+	       (has(text, len, "plcopen.org/xml") || (has(text, len, "<project") &&
+						     has(text, len, "<fileHeader")));
+}
+
+/* ---- header ---- */
+
+static void put_property(struct plcopen *c, struct xml_node *node, const char *attribute,
+			 const char *word)
+{
+	const char *value = xml_take(node, attribute);
+
+	if (!value || !*value || !strcmp(value, "Unknown") || !strcmp(value, "Unnamed"))
+		return;
+	plc_put(c, "%s ", word);
+	plc_string(c, value);
+	plc_put(c, "\n");
+}
+
+static void put_header(struct plcopen *c, struct xml_node *project)
+{
+	struct xml_node *file = xml_child(project, "fileHeader");
+	struct xml_node *content = xml_child(project, "contentHeader");
+	const char *name = xml_take(content, "name"), *product = xml_take(file, "productName");
+	struct xml_node *comment = xml_child(content, "Comment");
+
+	xml_take(file, "creationDateTime");
+	xml_take(content, "modificationDateTime");
+	xml_take(content, "language");
+	xml_take(file, "productVersion");
+	if (xml_child(content, "coordinateInfo"))
+		xml_take_all(xml_look(content, "coordinateInfo"));
+	if (!name || !*name || !strcmp(name, "Unnamed"))
+		name = product;
+	plc_put(c, "RUNGBOARD 1\n");
+	if (name && *name && strcmp(name, "Unnamed") != 0) {
+		plc_put(c, "PROJECT ");
+		plc_string(c, name);
+		plc_put(c, "\n");
+	}
+	put_property(c, content, "author", "AUTHOR");
+	put_property(c, file, "companyName", "COMPANY");
+	if (content && xml_value(content, "organization") && file && !xml_value(file, "companyName"))
+		put_property(c, content, "organization", "COMPANY");
+	put_property(c, content, "version", "VERSION");
+	if (comment && *xml_text(c->arena, comment, NULL)) {
+		plc_put(c, "DESCRIPTION ");
+		plc_string(c, xml_text(c->arena, comment, NULL));
+		plc_put(c, "\n");
+	} else {
+		put_property(c, file, "contentDescription", "DESCRIPTION");
+	}
+}
+
+/* ---- what tools add ---- */
+
+/* They repeat what the file says elsewhere, or say where something is drawn. */
+static bool repeats(const char *name)
+{
+	static const char *const endings[] = {
+		"/objectid", "/projectstructure", "/interfaceasplaintext", "/fbdcalltype",
+		"/fbdelementtype", "/fbdattributes", "/inputparamtypes", "/outputparamtypes",
+		"/sfcelementid", "/projectinformation",
+	};
+	const size_t len = name ? strlen(name) : 0;
+
+	for (size_t i = 0; i < sizeof(endings) / sizeof(*endings); i++) {
+		const size_t end = strlen(endings[i]);
+
+		if (len >= end && !strcmp(name + len - end, endings[i]))
+			return true;
+	}
+	return false;
+}
+
+/* Whether everything in @node only repeats. */
+static bool all_repeat(const struct xml_node *node)
+{
+	for (const struct xml_node *data = node->first; data; data = data->next)
+		if (!repeats(xml_value(data, "name")))
+			return false;
+	return true;
+}
+
+static struct xml_node *next_of(struct xml_node *node)
+{
+	if (node->first)
+		return node->first;
+	while (node && !node->next)
+		node = node->parent;
+	return node ? node->next : NULL;
+}
+
+static void take_repeated(struct xml_node *project)
+{
+	for (struct xml_node *node = project; node; node = next_of(node)) {
+		struct xml_node *above = node->parent;
+
+		if (xml_is(node, "data") && above && xml_is(above, "addData") &&
+		    repeats(xml_value(node, "name"))) {
+			xml_take_all(node);
+			above->taken = true;
+		} else if (xml_is(node, "addData") && all_repeat(node)) {
+			xml_take_all(node);
+			if (above && xml_is(above, "vendorElement"))
+				xml_take_all(above);
+		}
+	}
+}
+
+/* CODESYS: lists of global variables. */
+static void put_lists(struct plcopen *c, struct xml_node *node)
+{
+	for (struct xml_node *add = node ? node->first : NULL; add; add = add->next)
+		for (struct xml_node *data = xml_is(add, "addData") ? add->first : NULL; data;
+		     data = data->next) {
+			struct xml_node *list = xml_look(data, "globalVars");
+
+			if (!list)
+				continue;
+			add->taken = data->taken = true;
+			xml_take(data, "name");
+			xml_take(data, "handleUnknown");
+			xml_take(list, "name");
+			plc_put(c, "\n");
+			plc_variables(c, list, "VAR_GLOBAL");
+		}
+}
+
+/* ---- the whole ---- */
+
+static bool refuse(struct plcopen *c, enum diag_id id, const struct xml_node *node, const char *arg)
+{
+	const struct diag place = { .id = id, .file = c->file, .line = node->line };
+
+	diag_add(c->diags, place, "%.60s", arg);
+	return false;
+}
+
+/* These differ in nothing that is read here; a later one may. CODESYS 3.3 gives none. */
+static bool is_version(const char *space)
+{
+	static const char *const known[] = {
+		"", "http://www.plcopen.org/xml/tc6.xsd", "http://www.plcopen.org/xml/tc6_0100",
+		"http://www.plcopen.org/xml/tc6_0101", "http://www.plcopen.org/xml/tc6_0200",
+		"http://www.plcopen.org/xml/tc6_0201",
+	};
+
+	for (size_t i = 0; i < sizeof(known) / sizeof(*known); i++)
+		if (!strcmp(space, known[i]))
+			return true;
+	return false;
+}
+
+static bool check_root(struct plcopen *c, struct xml_node *root, const char *space)
+{
+	if (!is_version(space))
+		return refuse(c, DIAG_PLCOPEN_VERSION, root, space);
+	if (!xml_is(root, "project"))
+		return refuse(c, DIAG_PLCOPEN_ROOT, root, root->name);
+	root->taken = true;
+	for (struct xml_attribute *a = root->attribute; a; a = a->next)
+		a->taken = true;
+	if (!xml_look(root, "types") && !xml_look(root, "instances"))
+		return refuse(c, DIAG_PLCOPEN_ROOT, root, "");
+	return true;
+}
+
+static void put_all(struct plcopen *c, struct xml_node *project)
+{
+	struct xml_node *types = xml_child(project, "types");
+	struct xml_node *instances = xml_child(project, "instances");
+
+	take_repeated(project);
+	c->types = xml_look(types, "dataTypes");
+	plc_find_pous(c, xml_child(types, "pous"));
+	plc_find_renames(c, project);
+	put_header(c, project);
+	if (xml_child(types, "dataTypes"))
+		plc_types(c, xml_look(types, "dataTypes"));
+	put_lists(c, project);
+	plc_lost_globals(c, project);
+	plc_pous(c);
+	if (instances)
+		plc_configurations(c, instances);
+}
+
+static void report_counts(struct plcopen *c)
+{
+	static const struct xml_node *const nowhere = NULL;
+
+	if (c->count.types)
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d types")),
+			   c->count.types);
+	plc_report(c, REPORT_TAKEN, nowhere,
+		   report_said(c->report, REPORTED("%d POUs, %d variables")), c->count.pous,
+		   c->count.variables);
+	if (c->count.rungs)
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d rungs")),
+			   c->count.rungs);
+	if (c->count.networks)
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d networks")),
+			   c->count.networks);
+	if (c->count.steps)
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d steps")),
+			   c->count.steps);
+}
+
+static bool finish(struct plcopen *c, struct plcopen_text *out)
+{
+	const struct diag place = { .id = DIAG_NO_MEMORY, .file = c->file };
+	const bool good = !c->arena->failed && !c->text.failed;
+
+	*out = (struct plcopen_text){ NULL, c->text.len, c->place, c->lines };
+	if (good)
+		out->text = arena_copy(c->arena, sink_memory_text(&c->text), c->text.len);
+	if (!out->text)
+		diag_add(c->diags, place, "%s", "");
+	return out->text != NULL;
+}
+
+bool plcopen_to_rung(const char *file, const void *bytes, size_t len, struct arena *arena,
+		     struct plcopen_text *out, struct classic_report *report,
+		     struct diag_list *diags)
+{
+	struct plcopen c = { .arena = arena, .file = file, .report = report, .diags = diags, .at = 1 };
+	const int errors = diags->errors;
+	struct arena tree;
+	struct xml_node *root;
+	const char *space;
+	bool good = false;
+
+	arena_init(&tree);
+	root = xml_read(&tree, file, bytes, len, &space, diags);
+	if (root && check_root(&c, root, space)) {
+		sink_memory_init(&c.text);
+		c.out = sink_to_memory(&c.text);
+		put_all(&c, root);
+		if (diags->errors == errors) {
+			plc_leftovers(&c, root);
+			report_counts(&c);
+			good = finish(&c, out);
+		}
+		sink_memory_free(&c.text);
+	}
+	/* Texts of the report are copies, names of POUs are not. */
+	for (int i = 0; i < report->count; i++)
+		if (report->line[i].pou)
+			report->line[i].pou = arena_copy(arena, report->line[i].pou, strlen(report->line[i].pou));
+	arena_free(&tree);
+	return good;
+}

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_body - POUs: heading, variables, body.
+ */
+#include "engine/exchange/plcopen/plcopen_graph.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum plcopen_language plc_language(struct xml_node *body, struct xml_node **element)
+{
+	static const char *const names[] = {
+		[PLCOPEN_ST] = "ST", [PLCOPEN_IL] = "IL", [PLCOPEN_LD] = "LD", [PLCOPEN_FBD] = "FBD",
+		[PLCOPEN_SFC] = "SFC",
+	};
+
+	for (struct xml_node *each = body ? body->first : NULL; each; each = each->next)
+		for (int i = PLCOPEN_ST; i <= PLCOPEN_SFC; i++)
+			if (xml_is(each, names[i])) {
+				*element = each;
+				return (enum plcopen_language)i;
+			}
+	*element = NULL;
+	return PLCOPEN_NONE;
+}
+
+/* ---- a part that is written before what stands above it ---- */
+
+struct plc_part plc_part_begin(struct plcopen *c)
+{
+	struct plc_part part = { c->text, c->place, c->lines };
+
+	sink_memory_init(&c->text);
+	c->out = sink_to_memory(&c->text);
+	c->place = NULL;
+	c->lines = 0;
+	return part;
+}
+
+/* Changes what is written now with @part. */
+void plc_part_swap(struct plcopen *c, struct plc_part *part)
+{
+	const struct plc_part own = { c->text, c->place, c->lines };
+
+	c->text = part->text;
+	c->place = part->place;
+	c->lines = part->lines;
+	*part = own;
+}
+
+void plc_part_append(struct plcopen *c, struct plc_part *part)
+{
+	const char *text = sink_memory_text(&part->text);
+	int *place;
+
+	for (int i = 0; i < part->lines; i++) {
+		place = arena_push(c->arena, &c->place, &c->lines, sizeof(*place));
+		if (place)
+			*place = part->place[i];
+	}
+	if (part->text.failed)
+		c->text.failed = true;
+	sink_text(&c->out, text);
+	sink_memory_free(&part->text);
+}
+
+/* ---- text ---- */
+
+/* Of an inner `(*` nothing is left where comments do not nest, as in the compiler of Beremiz: the
+ * first `*)` ends the comment. Only a text that would not end otherwise is read like that. */
+static const char *flat_comments(struct plcopen *c, const struct xml_node *element, const char *text)
+{
+	int depth = 0, inner = 0;
+	char *flat;
+
+	for (const char *at = text; *at; at++) {
+		depth += at[0] == '(' && at[1] == '*';
+		depth -= at[0] == '*' && at[1] == ')';
+	}
+	if (depth <= 0)
+		return text;
+	flat = arena_copy(c->arena, text, strlen(text));
+	depth = 0;
+	for (char *at = flat; at && *at; at++) {
+		if (at[0] == '*' && at[1] == ')') {
+			depth = 0;
+		} else if (at[0] == '(' && at[1] == '*') {
+			inner += depth;
+			at[1] = depth ? ' ' : '*';
+			depth = 1;
+		}
+	}
+	if (!flat || !inner)
+		return text;
+	plc_report(c, REPORT_CHANGED, element, "%s",
+		   report_said(c->report, REPORTED("comments do not nest in this text: a (* inside one is left out")));
+	return flat;
+}
+
+void plc_put_text(struct plcopen *c, struct xml_node *element)
+{
+	int line = element->line;
+	const char *text = xml_text(c->arena, element, &line);
+	size_t len = strlen(text);
+
+	/* Blank lines at both ends say nothing. */
+	for (const char *at = text; *at && (unsigned char)*at <= ' '; at++)
+		if (*at == '\n') {
+			line++;
+			text = at + 1;
+		}
+	len = strlen(text);
+	while (len && (unsigned char)text[len - 1] <= ' ')
+		len--;
+	c->at = line;
+	text = arena_copy(c->arena, text, len);
+	if (!text || !*text)
+		return;
+	plc_text(c, plc_renamed(c, flat_comments(c, element, text)));
+	plc_put(c, "\n");
+}
+
+/* Writes a body; returns the language that it has here. */
+static enum plcopen_language put_drawn(struct plcopen *c, struct plcopen_pou *pou,
+				       enum plcopen_language language, struct xml_node *element)
+{
+	struct plc_groups groups;
+	struct plc_graph graph;
+
+	if (!plc_graph_read(c, pou, element, &graph))
+		return language;
+	plc_groups_make(c, &graph, &groups);
+	if (language == PLCOPEN_LD && plc_ladder(c, &graph, &groups, ""))
+		return PLCOPEN_LD;
+	if (language == PLCOPEN_LD)
+		plc_report(c, REPORT_CHANGED, element, "%s",
+			   report_said(c->report, REPORTED("not every network can be a rung: the ladder becomes Structured Text")));
+	plc_networks(c, &graph, &groups, true, "  ");
+	return PLCOPEN_ST;
+}
+
+static enum plcopen_language put_body(struct plcopen *c, struct plcopen_pou *pou)
+{
+	if (pou->body)
+		pou->body->taken = true;
+	switch ((int)pou->language) {
+	case PLCOPEN_ST:
+	case PLCOPEN_IL:
+		plc_put_text(c, pou->body);
+		return pou->language;
+	case PLCOPEN_LD:
+	case PLCOPEN_FBD:
+		return put_drawn(c, pou, pou->language, pou->body);
+	case PLCOPEN_SFC:
+		if (pou->kind == POU_PROGRAM) {
+			plc_chart(c, pou);
+			return PLCOPEN_SFC;
+		}
+		pou->body->taken = false;
+		plc_report(c, REPORT_LOST, pou->body,
+			   report_said(c->report, REPORTED("%s is a chart, and only a program can be one here: it does nothing")), pou->name);
+		return PLCOPEN_ST;
+	default:
+		return PLCOPEN_ST;
+	}
+}
+
+bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body,
+		   const char *indent)
+{
+	struct xml_node *element;
+	const enum plcopen_language language = plc_language(body, &element);
+	struct plc_groups groups;
+	struct plc_graph graph;
+
+	if (!element)
+		return false;
+	body->taken = element->taken = true;
+	switch ((int)language) {
+	case PLCOPEN_ST:
+	case PLCOPEN_IL:
+		plc_put_text(c, element);
+		return true;
+	case PLCOPEN_LD:
+	case PLCOPEN_FBD:
+		if (!plc_graph_read(c, pou, element, &graph))
+			return true;
+		plc_groups_make(c, &graph, &groups);
+		if (language != PLCOPEN_LD || !plc_ladder(c, &graph, &groups, indent))
+			plc_networks(c, &graph, &groups, true, indent);
+		return true;
+	default:
+		return false;
+	}
+}
+
+/* ---- POUs ---- */
+
+static const char *const language_word[] = { "ST", "ST", "IL", "LD", "FBD", "SFC" };
+
+static const char *return_type(struct plcopen *c, struct plcopen_pou *pou)
+{
+	struct xml_node *interface = xml_child(pou->node, "interface");
+	struct xml_node *type = xml_child(interface, "returnType");
+
+	if (type)
+		return plc_type(c, type);
+	plc_report(c, REPORT_CHANGED, pou->node,
+		   report_said(c->report, REPORTED("the function %s has no result; it gets one of BOOL")),
+		   pou->name);
+	return "BOOL";
+}
+
+static void put_heading(struct plcopen *c, struct plcopen_pou *pou, enum plcopen_language language)
+{
+	c->at = pou->node->line;
+	plc_put(c, "\n");
+	if (*plc_documentation(c, pou->node)) {
+		plc_comment(c, plc_documentation(c, pou->node));
+		plc_put(c, "\n");
+	}
+	if (pou->kind == POU_FUNCTION)
+		plc_put(c, "FUNCTION %s : %s", plc_renamed(c, pou->name), return_type(c, pou));
+	else
+		plc_put(c, "%s %s", pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM",
+			plc_renamed(c, pou->name));
+	plc_put(c, " %s\n", language_word[language]);
+}
+
+static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
+{
+	struct plc_part before;
+	enum plcopen_language language;
+
+	c->pou_name = pou->name;
+	c->rungs = 0;
+	c->made.count = 0;
+	c->made.name = NULL;
+	before = plc_part_begin(c);
+	language = put_body(c, pou);
+	plc_part_swap(c, &before);
+	put_heading(c, pou, language);
+	plc_interface(c, pou);
+	plc_part_append(c, &before);
+	c->at = pou->node->line;
+	plc_put(c, "END_%s\n", pou->kind == POU_FUNCTION ? "FUNCTION" :
+		pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM");
+	c->count.pous++;
+	c->pou_name = NULL;
+}
+
+static void find_pou(struct plcopen *c, struct xml_node *node)
+{
+	const char *name = xml_take(node, "name"), *type = xml_take(node, "pouType");
+	struct xml_node *body = xml_look(node, "body");
+	struct plcopen_pou pou = { .node = node, .name = name };
+	struct plcopen_pou *added;
+
+	if (!name || !type)
+		return;
+	if (plc_same(type, "function"))
+		pou.kind = POU_FUNCTION;
+	else if (plc_same(type, "functionBlock"))
+		pou.kind = POU_BLOCK;
+	else if (plc_same(type, "program"))
+		pou.kind = POU_PROGRAM;
+	else
+		return;
+	node->taken = true;
+	if (body)
+		body->taken = true;
+	pou.language = plc_language(body, &pou.body);
+	added = arena_push(c->arena, &c->pou, &c->pous, sizeof(*added));
+	if (added)
+		*added = pou;
+}
+
+void plc_find_pous(struct plcopen *c, struct xml_node *pous)
+{
+	for (struct xml_node *each = pous ? pous->first : NULL; each; each = each->next)
+		if (xml_is(each, "pou"))
+			find_pou(c, each);
+}
+
+void plc_pous(struct plcopen *c)
+{
+	for (int i = 0; i < c->pous; i++)
+		put_pou(c, &c->pou[i]);
+}

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_convert - types and functions that the files of the import share. Private to
+ * plcopen_*.c.
+ */
+#ifndef PLCOPEN_CONVERT_H
+#define PLCOPEN_CONVERT_H
+
+#include "engine/base/sink.h"
+#include "engine/exchange/plcopen/plcopen.h"
+#include "engine/exchange/plcopen/xml_tree.h"
+
+enum plcopen_language {
+	PLCOPEN_NONE, PLCOPEN_ST, PLCOPEN_IL, PLCOPEN_LD, PLCOPEN_FBD, PLCOPEN_SFC
+};
+
+/* A POU of the file. */
+struct plcopen_pou {
+	struct xml_node *node;
+	const char *name;
+	enum { POU_PROGRAM, POU_FUNCTION, POU_BLOCK } kind;
+	struct xml_node *body;          /* the element of its language; NULL: none */
+	enum plcopen_language language; /* that of the file                        */
+};
+
+struct plcopen {
+	struct arena *arena;
+	const char *file;
+	struct classic_report *report;
+	struct diag_list *diags;
+	struct sink_memory text;
+	struct sink out;
+	int *place, lines;      /* of the lines that are written               */
+	int at;                 /* the line of the XML that is written now     */
+	const char *pou_name;   /* for the report; NULL: outside of POUs        */
+	int rungs;              /* written in this POU                         */
+	const struct xml_node *types; /* of the project; NULL: none              */
+	struct plcopen_pou *pou;
+	int pous;
+	struct { struct plc_rename { const char *from, *to; } *one; int count; } rename;
+	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
+	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
+	struct { int types, pous, variables, rungs, networks, steps; } count;
+};
+
+/* Text that waits until what stands above it is written. */
+struct plc_part { struct sink_memory text; int *place, lines; };
+
+/* ---- plcopen_text.c ---- */
+void plc_put(struct plcopen *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/** plc_text - any text as it is; each of its lines after the first is one further in the XML. */
+void plc_text(struct plcopen *c, const char *text);
+/** plc_print - formatted text in the arena; "" without memory. */
+const char *plc_print(struct plcopen *c, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+/* Text that grows; plc_built ends it. */
+struct plc_build { struct sink_memory memory; };
+void plc_build(struct plc_build *build);
+void plc_add(struct plc_build *build, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/** plc_add_text - the same of any length. */
+void plc_add_text(struct plc_build *build, const char *text);
+/** plc_built - the text in the arena; "" without memory. */
+const char *plc_built(struct plcopen *c, struct plc_build *build);
+/** plc_comment - ` (* … *)` with @text in one line; nothing for "". */
+void plc_comment(struct plcopen *c, const char *text);
+/** plc_string - @text in quotes. */
+void plc_string(struct plcopen *c, const char *text);
+/** plc_report - a line of the report, at @node; of a sink's format. */
+void plc_report(struct plcopen *c, enum report_kind kind, const struct xml_node *node,
+		const char *text, ...) __attribute__((format(printf, 4, 5)));
+/** plc_documentation - the text of an element's documentation; "". */
+const char *plc_documentation(struct plcopen *c, struct xml_node *node);
+/** plc_is_name - whether something can have this name here. */
+bool plc_is_name(const char *name);
+/** plc_trim - @text without blanks around it. */
+const char *plc_trim(struct plcopen *c, const char *text);
+/** plc_leftovers - reports each element and attribute below @root that nobody took. */
+void plc_leftovers(struct plcopen *c, struct xml_node *root);
+/** plc_renamed - @text with the names that the import changes. */
+const char *plc_renamed(struct plcopen *c, const char *text);
+/** plc_find_renames - which names of the project nothing can have here. */
+void plc_find_renames(struct plcopen *c, struct xml_node *project);
+/** plc_same - whether two names are the same, in any case of ASCII letters. */
+bool plc_same(const char *a, const char *b);
+/** plc_pou - the POU of this name; NULL: none. */
+struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
+
+/* ---- plcopen_declare.c ---- */
+/** plc_type - the text of a type: of the first element in @node. */
+const char *plc_type(struct plcopen *c, struct xml_node *node);
+/** plc_data_type - whether the project has a type of this name. */
+bool plc_data_type(const struct plcopen *c, const char *name);
+/** plc_value - the text of an initialValue; NULL: it has none. */
+const char *plc_value(struct plcopen *c, struct xml_node *node);
+/** plc_types - all types of the project. */
+void plc_types(struct plcopen *c, struct xml_node *types);
+/** plc_variables - a block of declarations. @word: VAR … */
+void plc_variables(struct plcopen *c, struct xml_node *list, const char *word);
+/** plc_interface - the blocks of a POU, and the instances in c->made. */
+void plc_interface(struct plcopen *c, struct plcopen_pou *pou);
+/** plc_lost_globals - declares variables of VAR_EXTERNAL that are no global variables of the file. */
+void plc_lost_globals(struct plcopen *c, struct xml_node *project);
+/** plc_find_variable - the declaration of a variable of @pou; NULL: none. */
+const struct xml_node *plc_find_variable(const struct plcopen_pou *pou, const char *name);
+/** plc_make - a name for a further variable of the POU in work, which begins with @stem. Declares it
+ * with this type. */
+const char *plc_make(struct plcopen *c, struct plcopen_pou *pou, const char *stem,
+		     const char *type);
+
+/* ---- plcopen_config.c ---- */
+void plc_configurations(struct plcopen *c, struct xml_node *instances);
+
+/* ---- plcopen_body.c ---- */
+/** plc_find_pous - what POUs there are; before all else. */
+void plc_find_pous(struct plcopen *c, struct xml_node *pous);
+void plc_pous(struct plcopen *c);
+/** plc_part_begin - what is written from now on waits; returns what was written so far. */
+struct plc_part plc_part_begin(struct plcopen *c);
+/** plc_part_swap - exchanges what is written now with @part. */
+void plc_part_swap(struct plcopen *c, struct plc_part *part);
+/** plc_part_append - writes all of @part, which ends. */
+void plc_part_append(struct plcopen *c, struct plc_part *part);
+/** plc_put_text - the text of a body in ST or IL. */
+void plc_put_text(struct plcopen *c, struct xml_node *element);
+/** plc_put_inner - the body of an action: text, rungs or statements. false: it has none of these. */
+bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body,
+		   const char *indent);
+/** plc_language - the language of a body, and its element. */
+enum plcopen_language plc_language(struct xml_node *body, struct xml_node **element);
+
+#endif

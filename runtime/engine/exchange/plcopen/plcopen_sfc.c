@@ -1,0 +1,481 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_sfc - charts: what leads from which steps to which, conditions and actions.
+ *
+ * Blocks that a drawn condition needs are called by an action that stays on, as Beremiz does it.
+ */
+#include "engine/exchange/plcopen/plcopen_graph.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/lex.h"
+#include "engine/base/limits.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_DEEP = 60 };
+
+struct steps { const char **name; int count; };
+
+struct chart {
+	struct plcopen *c;
+	struct plcopen_pou *pou;
+	struct plc_graph *graph;
+	struct steps *to;       /* of each element that is a transition          */
+	const char **condition; /* the same; NULL: none                         */
+	bool il;                /* @condition is a list                          */
+	int inlines;            /* actions that stand in their step, so far      */
+	struct plc_part calls;  /* of blocks that conditions need                */
+	const char *compute;    /* the action with them; NULL: there are none    */
+	struct chart *outer;    /* of a macro-step; NULL: of the POU             */
+};
+
+static void add_step(struct chart *chart, struct steps *steps, const char *name)
+{
+	const char **added;
+
+	for (int i = 0; i < steps->count; i++)
+		if (plc_same(steps->name[i], name))
+			return;
+	added = arena_push(chart->c->arena, &steps->name, &steps->count, sizeof(*added));
+	if (added)
+		*added = name;
+}
+
+static struct plc_element *source_of(const struct chart *chart, const struct plc_pin *pin, int i)
+{
+	return &chart->graph->element[chart->graph->source[pin->first + i].element];
+}
+
+/* The steps above a transition. */
+static void find_from(struct chart *chart, const struct plc_element *e, struct steps *from, int depth)
+{
+	for (int i = 0; i < e->ins && depth < MOST_DEEP; i++) {
+		const struct plc_pin *pin = plc_in(chart->graph, e, i);
+
+		for (int s = 0; s < pin->sources; s++) {
+			const struct plc_element *above = source_of(chart, pin, s);
+
+			if (above->kind == PLC_STEP || above->kind == PLC_MACRO)
+				add_step(chart, from, above->name);
+			else if (above->kind == PLC_CHOICE || above->kind == PLC_PARALLEL_END)
+				find_from(chart, above, from, depth + 1);
+		}
+	}
+}
+
+/* Gives @step to the transitions above @e. */
+static void find_to(struct chart *chart, const struct plc_element *e, const char *step, int depth)
+{
+	for (int i = 0; i < e->ins && depth < MOST_DEEP; i++) {
+		const struct plc_pin *pin = plc_in(chart->graph, e, i);
+
+		for (int s = 0; s < pin->sources; s++) {
+			const struct plc_element *above = source_of(chart, pin, s);
+
+			if (above->kind == PLC_TRANSITION)
+				add_step(chart, &chart->to[above - chart->graph->element], step);
+			else if (above->kind == PLC_CHOICE_END || above->kind == PLC_PARALLEL)
+				find_to(chart, above, step, depth + 1);
+		}
+	}
+}
+
+/* ---- conditions ---- */
+
+/* `:= Start;` and `Name := Start;` are Start. */
+static const char *bare_condition(struct plcopen *c, const char *text)
+{
+	struct lex lex;
+	size_t len;
+
+	text = plc_trim(c, text);
+	lex_init(&lex, text, strlen(text));
+	if (lex_next(&lex) == TOKEN_NAME)
+		lex_next(&lex);
+	if (lex_is(&lex, ":="))
+		text = plc_trim(c, lex.at);
+	len = strlen(text);
+	while (len && (text[len - 1] == ';' || (unsigned char)text[len - 1] <= ' '))
+		len--;
+	text = arena_copy(c->arena, text, len);
+	return text ? text : "";
+}
+
+/* The value of a pin; calls of blocks go to chart->calls. */
+static const char *drawn_condition(struct chart *chart, struct plc_graph *graph, struct plc_pin *pin)
+{
+	struct plcopen *c = chart->c;
+	struct plc_part before = plc_part_begin(c);
+	struct plc_lines lines;
+	const char *value = NULL;
+
+	if (plc_lines_init(&lines, c, graph, false, "  "))
+		value = plc_lines_value(&lines, pin);
+	plc_part_swap(c, &before);
+	if (!before.text.len) {
+		sink_memory_free(&before.text);
+	} else if (!chart->compute) {
+		chart->compute = plc_print(c, "%s_blocks", chart->pou->name);
+		chart->calls = before;
+	} else {
+		plc_part_swap(c, &chart->calls);
+		plc_part_append(c, &before);
+		plc_part_swap(c, &chart->calls);
+	}
+	return value;
+}
+
+/* The coil or the variable with the name of the transition. */
+static struct plc_element *result_of(struct plc_graph *graph, const char *name)
+{
+	struct plc_element *only = NULL;
+
+	for (int i = 0; i < graph->steps; i++) {
+		struct plc_element *e = &graph->element[graph->step[i]];
+
+		if (e->kind != PLC_COIL && e->kind != PLC_OUT)
+			continue;
+		if (plc_same(e->name, name))
+			return e;
+		only = e;
+	}
+	return only;
+}
+
+static const char *condition_of_body(struct chart *chart, struct xml_node *body, const char *name)
+{
+	struct plcopen *c = chart->c;
+	struct xml_node *element;
+	const enum plcopen_language language = plc_language(body, &element);
+	struct plc_graph *graph;
+	struct plc_element *result;
+	const char *text;
+
+	if (!element)
+		return NULL;
+	body->taken = true;
+	element->taken = true;
+	if (language == PLCOPEN_ST)
+		return bare_condition(c, xml_text(c->arena, element, NULL));
+	if (language == PLCOPEN_IL) {
+		chart->il = true;
+		return plc_trim(c, xml_text(c->arena, element, NULL));
+	}
+	graph = arena_alloc(c->arena, sizeof(*graph));
+	if (!graph || language == PLCOPEN_SFC || !plc_graph_read(c, chart->pou, element, graph))
+		return NULL;
+	result = result_of(graph, name);
+	if (!result || !result->ins)
+		return NULL;
+	text = drawn_condition(chart, graph, plc_in(graph, result, 0));
+	return text && result->negated ? plc_print(c, "NOT (%s)", text) : text;
+}
+
+static const char *named_condition(struct chart *chart, const char *name)
+{
+	struct xml_node *list = xml_child(chart->pou->node, "transitions");
+
+	for (struct xml_node *each = list ? list->first : NULL; each; each = each->next) {
+		if (!xml_is(each, "transition") || !xml_value(each, "name") ||
+		    !plc_same(xml_value(each, "name"), name))
+			continue;
+		each->taken = true;
+		xml_take(each, "name");
+		return condition_of_body(chart, xml_child(each, "body"), name);
+	}
+	return name;
+}
+
+static const char *find_condition(struct chart *chart, struct plc_element *e)
+{
+	struct xml_node *condition = xml_child(e->node, "condition"), *inner;
+	struct plcopen *c = chart->c;
+	const char *text = NULL;
+	bool negated;
+
+	if (!condition)
+		return NULL;
+	negated = xml_flag(condition, "negated");
+	if ((inner = xml_child(condition, "reference"))) {
+		text = xml_take(inner, "name");
+		text = text ? named_condition(chart, text) : NULL;
+	} else if ((inner = xml_child(condition, "inline"))) {
+		xml_take(inner, "name");
+		text = condition_of_body(chart, inner, "");
+	} else {
+		struct plc_pin *pin = plc_condition_pin(c, chart->graph, condition);
+
+		text = pin ? drawn_condition(chart, chart->graph, pin) : NULL;
+	}
+	if (text && negated)
+		text = chart->il ? plc_print(c, "%s\nNOT", text) : plc_print(c, "NOT (%s)", text);
+	return text;
+}
+
+static void put_list(struct plcopen *c, const struct steps *steps)
+{
+	plc_put(c, steps->count > 1 ? "(" : "");
+	for (int i = 0; i < steps->count; i++)
+		plc_put(c, "%s%s", i ? ", " : "", steps->name[i]);
+	plc_put(c, steps->count > 1 ? ")" : "");
+}
+
+static void put_transition(struct chart *chart, struct plc_element *e)
+{
+	struct plcopen *c = chart->c;
+	struct steps from = { NULL, 0 }, *to = &chart->to[e - chart->graph->element];
+	const char *priority = xml_take(e->node, "priority"), *condition;
+
+	chart->il = false;
+	condition = find_condition(chart, e);
+	find_from(chart, e, &from, 0);
+	c->at = e->node->line;
+	if (!from.count || !to->count) {
+		plc_report(c, REPORT_LOST, e->node,
+			   report_said(c->report, REPORTED("the transition %s leads from no step or to no step and is left out")),
+			   condition ? condition : "");
+		return;
+	}
+	if (!condition || !*condition) {
+		plc_report(c, REPORT_CHANGED, e->node, "%s",
+			   report_said(c->report, REPORTED("the transition has no condition; it gets FALSE")));
+		condition = "FALSE";
+	}
+	plc_comment(c, plc_documentation(c, e->node));
+	plc_put(c, "\nTRANSITION");
+	if (priority && *priority)
+		plc_put(c, " (PRIORITY := %s)", priority);
+	plc_put(c, " FROM ");
+	put_list(c, &from);
+	plc_put(c, " TO ");
+	put_list(c, to);
+	plc_put(c, chart->il ? ":\n" : " := ");
+	plc_text(c, condition);
+	c->at = e->node->line;
+	plc_put(c, chart->il ? "\nEND_TRANSITION\n" : "; END_TRANSITION\n");
+}
+
+/* ---- steps and actions ---- */
+
+static bool is_qualifier(const char *text)
+{
+	static const char *const known[] = { "N", "S", "R", "L", "D", "P", "P0", "P1", "SD", "DS", "SL" };
+
+	for (size_t i = 0; i < sizeof(known) / sizeof(*known); i++)
+		if (!strcmp(text, known[i]))
+			return true;
+	return false;
+}
+
+/* The name of the thing that a line of a step does; NULL: it does nothing. */
+static const char *action_name(struct chart *chart, const struct plc_element *step,
+			       struct xml_node *action)
+{
+	struct plcopen *c = chart->c;
+	struct xml_node *reference = xml_child(action, "reference"), *body = xml_child(action, "inline");
+	const char *name = xml_take(reference, "name");
+	struct plc_part before;
+
+	if (reference && name && *name)
+		return name;
+	if (!body)
+		return NULL;
+	xml_take(body, "name");
+	name = plc_print(c, "%s_Inline%d", step->name, ++chart->inlines);
+	before = plc_part_begin(c);
+	plc_put(c, "\nACTION %s:\n", name);
+	if (!plc_put_inner(c, chart->pou, body, "  "))
+		name = NULL;
+	plc_put(c, "END_ACTION\n");
+	plc_part_swap(c, &before);
+	if (name)
+		plc_part_append(c, &before);
+	else
+		sink_memory_free(&before.text);
+	return name;
+}
+
+static void put_action(struct chart *chart, const struct plc_element *step, struct xml_node *action,
+		       struct plc_part *lines)
+{
+	struct plcopen *c = chart->c;
+	const char *qualifier = xml_take(action, "qualifier"), *time = xml_take(action, "duration");
+	const char *indicator = xml_take(action, "indicator"), *name;
+	bool timed;
+
+	action->taken = true;
+	if (!qualifier || !*qualifier)
+		qualifier = "N";
+	name = action_name(chart, step, action);
+	if (!name || !is_qualifier(qualifier)) {
+		plc_report(c, REPORT_LOST, action,
+			   report_said(c->report, REPORTED("the line %s %s of step %s is left out")), qualifier,
+			   name ? name : "", step->name);
+		return;
+	}
+	if (indicator && *indicator)
+		plc_report(c, REPORT_LOST, action,
+			   report_said(c->report, REPORTED("the indicator %s is left out")), indicator);
+	timed = time && *time && strchr("LDS", qualifier[0]) && strcmp(qualifier, "S") != 0;
+	plc_part_swap(c, lines);
+	c->at = action->line;
+	plc_put(c, "  %s(%s%s%s);", name, qualifier, timed ? ", " : "", timed ? time : "");
+	plc_comment(c, plc_documentation(c, action));
+	plc_put(c, "\n");
+	plc_part_swap(c, lines);
+}
+
+/* All blocks of actions that are connected with @step. */
+static void put_actions(struct chart *chart, const struct plc_element *step, struct plc_part *lines)
+{
+	for (int i = 0; i < chart->graph->elements; i++) {
+		const struct plc_element *e = &chart->graph->element[i];
+
+		if (e->kind != PLC_ACTIONS || !e->ins || !plc_in(chart->graph, e, 0)->sources ||
+		    source_of(chart, plc_in(chart->graph, e, 0), 0) != step)
+			continue;
+		for (struct xml_node *each = e->node->first; each; each = each->next)
+			if (xml_is(each, "action"))
+				put_action(chart, step, each, lines);
+	}
+}
+
+static void put_items(struct chart *chart);
+
+static void put_macro(struct chart *chart, struct plc_element *step)
+{
+	struct plcopen *c = chart->c;
+	struct xml_node *body = xml_child(step->node, "body"), *element;
+	struct chart inner = { .c = c, .pou = chart->pou, .outer = chart, .inlines = chart->inlines };
+	struct plc_graph *graph = arena_alloc(c->arena, sizeof(*graph));
+
+	if (!graph || !body || plc_language(body, &element) != PLCOPEN_SFC ||
+	    !plc_graph_read(c, chart->pou, element, graph))
+		return;
+	body->taken = true;
+	inner.graph = graph;
+	put_items(&inner);
+	chart->inlines = inner.inlines;
+}
+
+static void put_step(struct chart *chart, struct plc_element *step)
+{
+	struct plcopen *c = chart->c;
+	const bool initial = xml_flag(step->node, "initialStep");
+	struct plc_part lines = plc_part_begin(c);
+
+	plc_part_swap(c, &lines);
+	put_actions(chart, step, &lines);
+	c->at = step->node->line;
+	plc_put(c, "\n");
+	if (*plc_documentation(c, step->node)) {
+		plc_comment(c, plc_documentation(c, step->node));
+		plc_put(c, "\n");
+	}
+	plc_put(c, "%sSTEP %s:\n", step->kind == PLC_MACRO ? "MACRO_" : initial ? "INITIAL_" : "",
+		step->name);
+	plc_part_append(c, &lines);
+	if (initial && chart->compute)
+		plc_put(c, "  %s(S);\n", chart->compute);
+	if (step->kind == PLC_MACRO)
+		put_macro(chart, step);
+	plc_put(c, "END_STEP\n");
+	c->count.steps++;
+}
+
+static void find_targets(struct chart *chart)
+{
+	for (int i = 0; i < chart->graph->elements; i++) {
+		const struct plc_element *e = &chart->graph->element[i];
+
+		if (e->kind == PLC_STEP || e->kind == PLC_MACRO || e->kind == PLC_JUMP_STEP)
+			find_to(chart, e, e->name, 0);
+	}
+}
+
+struct stand { int x, y, element; };
+
+static int compare_places(const void *a, const void *b)
+{
+	const struct stand *one = a, *two = b;
+
+	return one->y != two->y ? one->y - two->y : one->x != two->x ? one->x - two->x :
+	       one->element - two->element;
+}
+
+static void put_transitions(struct chart *chart)
+{
+	const struct plc_graph *graph = chart->graph;
+	struct stand *place = arena_alloc(chart->c->arena, sizeof(*place) * ((size_t)graph->elements + 1));
+	int count = 0;
+
+	for (int i = 0; place && i < graph->elements; i++)
+		if (graph->element[i].kind == PLC_TRANSITION)
+			place[count++] = (struct stand){ graph->element[i].x, graph->element[i].y, i };
+	if (!place)
+		return;
+	qsort(place, (size_t)count, sizeof(*place), compare_places);
+	for (int i = 0; i < count; i++)
+		put_transition(chart, &graph->element[place[i].element]);
+}
+
+/* Conditions come first: they tell whether an action must call blocks. */
+static void put_items(struct chart *chart)
+{
+	struct plcopen *c = chart->c;
+	struct plc_part before;
+
+	chart->to = arena_alloc(c->arena, sizeof(*chart->to) * ((size_t)chart->graph->elements + 1));
+	if (!chart->to)
+		return;
+	find_targets(chart);
+	before = plc_part_begin(c);
+	put_transitions(chart);
+	plc_part_swap(c, &before);
+	for (int i = 0; i < chart->graph->elements; i++) {
+		struct plc_element *e = &chart->graph->element[i];
+
+		if (e->kind == PLC_STEP || e->kind == PLC_MACRO)
+			put_step(chart, e);
+		else if (e->kind == PLC_COMMENT && *plc_trim(c, e->name)) {
+			plc_comment(c, e->name);
+			plc_put(c, "\n");
+		}
+	}
+	plc_part_append(c, &before);
+	if (!chart->compute)
+		return;
+	plc_put(c, "\nACTION %s:\n", chart->compute);
+	plc_part_append(c, &chart->calls);
+	plc_put(c, "END_ACTION\n");
+}
+
+static void put_named_actions(struct plcopen *c, struct plcopen_pou *pou)
+{
+	struct xml_node *list = xml_child(pou->node, "actions");
+
+	for (struct xml_node *each = list ? list->first : NULL; each; each = each->next) {
+		const char *name = xml_take(each, "name");
+
+		if (!xml_is(each, "action") || !name)
+			continue;
+		each->taken = true;
+		c->at = each->line;
+		plc_put(c, "\nACTION %s:\n", name);
+		plc_put_inner(c, pou, xml_child(each, "body"), "  ");
+		plc_put(c, "END_ACTION\n");
+	}
+}
+
+void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
+{
+	struct chart chart = { .c = c, .pou = pou };
+	struct plc_graph *graph = arena_alloc(c->arena, sizeof(*graph));
+
+	if (!graph || !plc_graph_read(c, pou, pou->body, graph))
+		return;
+	chart.graph = graph;
+	put_items(&chart);
+	put_named_actions(c, pou);
+}

@@ -1,0 +1,220 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# plcopen.t - projects in PLCopen XML: what each element becomes, and that each one reaches the
+# program or the report. docs.t runs the example of docs/plcopen.md.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname);
+use File::Temp qw(tempdir);
+use JSON::PP;
+use Test::More;
+
+my $tests = dirname(abs_path(__FILE__));
+my $build = abs_path($ENV{BUILD} // "$tests/../build");
+my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
+my $folder = tempdir(CLEANUP => 1);
+chdir $folder or die;
+
+sub spew { my ($name, $text) = @_; open my $out, '>', $name or die; print $out $text; close $out or die }
+sub slurp { my ($name) = @_; local $/; open my $in, '<', $name or return ''; return <$in> }
+sub answer { my ($command) = @_; my $text = `$command 2>&1`; return ($text, $? >> 8) }
+
+# This build may be one without libxml2.
+spew('probe.xml', '<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types/></project>');
+if ((answer("$ladder check probe.xml"))[0] =~ /LD040/) {
+	plan skip_all => 'built without libxml2';
+}
+
+my $head = <<'END';
+<?xml version="1.0" encoding="utf-8"?>
+<project xmlns="http://www.plcopen.org/xml/tc6_0201" xmlns:xhtml="http://www.w3.org/1999/xhtml">
+<fileHeader companyName="C" productName="P" productVersion="1" creationDateTime="2026-01-01T00:00:00"/>
+<contentHeader name="All"><coordinateInfo><fbd><scaling x="1" y="1"/></fbd><ld><scaling x="1" y="1"/></ld><sfc><scaling x="1" y="1"/></sfc></coordinateInfo></contentHeader>
+<types>
+END
+my $tail = "<instances><configurations/></instances>\n</project>\n";
+
+sub variable {
+	my ($name, $type, $more) = @_;
+	$type = $type =~ /^[A-Z]+$/ && $type !~ /^(TON|CTU|R_TRIG)$/ ? "<$type/>" : $type =~ /^</ ? $type : "<derived name=\"$type\"/>";
+	return "<variable name=\"$name\"><type>$type</type>" . ($more // '') . "</variable>\n";
+}
+sub pou {
+	my ($name, $kind, $interface, $body) = @_;
+	return "<pou name=\"$name\" pouType=\"$kind\">\n<interface>$interface</interface>\n$body</pou>\n";
+}
+sub project { my ($types, $pous) = @_; return "$head<dataTypes>$types</dataTypes>\n<pous>\n$pous</pous>\n</types>\n$tail" }
+sub text_body { my ($language, $text) = @_; return "<body><$language><xhtml:p><![CDATA[\n$text\n]]></xhtml:p></$language></body>\n" }
+
+# The rung file of a project without its heading lines, and the report.
+sub imported {
+	my ($name, $xml, $status) = @_;
+	spew("$name.xml", $xml);
+	unlink "$name.rung";
+	my ($said, $got) = answer("$ladder import $name.xml -o $name.rung");
+	is($got, $status // 0, "$name: status") or diag $said;
+	return (slurp("$name.rung"), $said);
+}
+# What a script prints with the XML itself.
+sub trace_is {
+	my ($name, $script, $expected) = @_;
+	spew('script', $script);
+	is(scalar `$ladder trace --changes $name.xml script 2>warnings`, $expected, "$name: trace");
+}
+
+# ---- declarations ----
+my $types = <<'END';
+<dataType name="Color"><baseType><enum><values><value name="Red"/><value name="Green" value="5"/></values></enum></baseType>
+<initialValue><simpleValue value="Green"/></initialValue></dataType>
+<dataType name="Part"><baseType><struct>
+<variable name="Speed"><type><INT/></type><initialValue><simpleValue value="7"/></initialValue></variable>
+<variable name="Times"><type><array><dimension lower="1" upper="3"/><baseType><TIME/></baseType></array></type></variable>
+</struct></baseType></dataType>
+<dataType name="Percent"><baseType><subrangeSigned><range lower="0" upper="100"/><baseType><INT/></baseType></subrangeSigned></baseType></dataType>
+<dataType name="Speed2"><baseType><REAL/></baseType></dataType>
+END
+my $values = '<initialValue><arrayValue><value repetitionValue="2"><simpleValue value="4"/></value><value><simpleValue value="9"/></value></arrayValue></initialValue>';
+my $members = '<initialValue><structValue><value member="Speed"><simpleValue value="3"/></value></structValue></initialValue>';
+my ($rung, $said) = imported('types', project($types, pou('Main', 'program', "<localVars>\n"
+	. variable('Table', '<array><dimension lower="0" upper="2"/><baseType><INT/></baseType></array>', $values)
+	. variable('Now', 'Part', $members) . variable('Lamp', 'Color') . variable('Share', 'Percent')
+	. variable('Name', '<string length="12"/>', '<initialValue><simpleValue value="it"/></initialValue>')
+	. variable('Sum', 'INT', '<documentation><xhtml:p>of all</xhtml:p></documentation>') . '</localVars>',
+	text_body('ST', "Sum := Table[0] + Table[2] + Now.Speed;"))));
+like($rung, qr/^  Color\s*: \(Red, Green := 5\) := Green;/m, 'an enumeration');
+like($rung, qr/^    Speed\s*: INT := 7;/m, 'a structure');
+like($rung, qr/^  Percent\s*: INT \(0\.\.100\);/m, 'a subrange');
+like($rung, qr/Table\s*: ARRAY\[0\.\.2\] OF INT := \[2\(4\), 9\];/, 'values of an array');
+like($rung, qr/Now\s*: Part := \(Speed := 3\);/, 'values of a structure');
+like($rung, qr/Name\s*: STRING\[12\] := 'it';/, 'a text without its quotes');
+like($rung, qr/Sum\s*: INT; \(\* of all \*\)/, 'documentation');
+trace_is('types', "\@print Sum\n.\n", "1 t=10 Sum=16\n");
+
+# ---- lists, and an error in the line of the XML ----
+my $count = variable('Count', 'INT') . variable('Go', 'BOOL');
+imported('list', project('', pou('Main', 'program', "<localVars>$count</localVars>", text_body('IL', "LD Count\nADD 1\nST Count"))));
+trace_is('list', "\@print Count\n. x2\n", "1 t=10 Count=1\n2 t=20 Count=2\n");
+($rung, $said) = imported('wrong', project('', pou('Main', 'program', "<localVars>$count</localVars>",
+	text_body('ST', "Count := 1;\nCount := Nowhere;"))), 1);
+my $line = () = slurp('wrong.xml') =~ /\n(?=.*Nowhere)/gs;
+like($said, qr/^wrong\.xml:@{[$line + 1]}: error LD301: "Nowhere"/m, 'the line of an error is that of the XML');
+like($rung, qr/Count := Nowhere;/, 'a project with errors is written, too');
+
+# ---- ladders ----
+my $rail = '<leftPowerRail localId="1"/>';
+sub wires { return '<connectionPointIn>' . join('', map { my ($id, $pin) = split /\./; "<connection refLocalId=\"$id\"" . ($pin ? " formalParameter=\"$pin\"" : '') . '/>' } @_) . '</connectionPointIn>' }
+sub contact { my ($id, $name, $more, @from) = @_; return "<contact localId=\"$id\" $more>" . wires(@from) . "<connectionPointOut/><variable>$name</variable></contact>\n" }
+sub coil { my ($id, $name, $more, @from) = @_; return "<coil localId=\"$id\" $more>" . wires(@from) . "<variable>$name</variable></coil>\n" }
+sub given { my ($id, $text) = @_; return "<inVariable localId=\"$id\"><connectionPointOut/><expression>$text</expression></inVariable>\n" }
+sub box {
+	my ($id, $type, $name, $in, @out) = @_;
+	my @in = map { my ($pin, @from) = split / /; "<variable formalParameter=\"$pin\">" . wires(@from) . '</variable>' } @$in;
+	return "<block localId=\"$id\" typeName=\"$type\"" . ($name ? " instanceName=\"$name\"" : '') . '><inputVariables>' . join('', @in)
+		. '</inputVariables><inOutVariables/><outputVariables>' . join('', map { "<variable formalParameter=\"$_\"><connectionPointOut/></variable>" } @out)
+		. "</outputVariables></block>\n";
+}
+my $bits = join '', map { variable($_, 'BOOL') } 'A' .. 'F';
+sub ladder_of { my ($name, $body, $more, $status) = @_; return imported($name, project('', pou('Main', 'program', "<localVars>$bits" . ($more // '') . '</localVars>', "<body><LD>\n$rail\n$body</LD></body>\n")), $status) }
+sub rungs_are {
+	my ($rung, $expected, $what) = @_;
+	my ($rows) = $rung =~ /^((?:(?:\(\*.*\n)?RUNG.*\n(?:  .*\n)+)+)/m;
+	is($rows // $rung, $expected, $what);
+}
+rungs_are((ladder_of('kinds', contact(2, 'A', '', 1) . contact(3, 'B', 'negated="true"', 2) . contact(4, 'C', 'edge="rising"', 3) . contact(5, 'D', 'edge="falling"', 4)
+	. coil(6, 'E', 'storage="set"', 5) . coil(7, 'F', 'negated="true"', 5)))[0],
+	"RUNG\n  | NO A | NC B | P C | N D | S E       |\n  |      |      |     |    ^| COILNOT F |\n", 'contacts and coils of each kind');
+rungs_are((ladder_of('parallel', contact(2, 'A', '', 1) . contact(3, 'B', '', 2) . contact(4, 'C', '', 2) . contact(5, 'D', '', 1) . coil(6, 'E', '', 3, 4, 5)))[0],
+	"RUNG\n  | NO A | NO B  | COIL E |\n  |     ^| NO C ^|\n  | NO D | ---  ^|\n", 'series and parallel');
+rungs_are((ladder_of('splits', contact(2, 'A', '', 1) . coil(3, 'B', '', 2) . contact(4, 'B', '', 2) . coil(5, 'C', '', 4)))[0],
+	"RUNG\n  | NO A | COIL B |\nRUNG\n  | NO A | NO B | COIL C |\n", 'a coil that the next output reads ends the rung');
+trace_is('splits', "\@print A B C\n.\nA=1\n", "2 t=20 A=1 B=1 C=1\n");
+rungs_are((ladder_of('boxes', contact(2, 'A', '', 1) . given(3, 'T#1s') . box(4, 'TON', 'Wait', ['IN 2', 'PT 3'], 'Q', 'ET') . coil(5, 'B', '', '4.Q'), variable('Wait', 'TON')))[0],
+	"RUNG\n  | NO A | TON Wait PT:=T#1s | COIL B |\n", 'a block');
+($rung, $said) = ladder_of('unknown', contact(2, 'A', '', 1) . box(4, 'NOBODY', 'Wait', ['IN 2'], 'Q') . coil(5, 'B', '', '4.Q') . contact(6, 'C', '', 1) . coil(7, 'D', '', 6));
+like($rung, qr/^RUNG OFF "NOBODY is not known"\n.*Wait\(IN := A\);\n.*B := Wait\.Q;/ms, 'a block of a type that is not known stays, OFF');
+like($said, qr/:\d+: changed: Main: the type of the block "NOBODY" is not known/, 'and is in the report');
+
+# ---- charts ----
+my $chart = <<'END';
+<body><SFC>
+<step localId="1" name="Rest" initialStep="true"><connectionPointIn><connection refLocalId="7"/></connectionPointIn><connectionPointOut/></step>
+<selectionDivergence localId="2"><connectionPointIn><connection refLocalId="1"/></connectionPointIn><connectionPointOut/></selectionDivergence>
+<transition localId="3"><position x="0" y="1"/><connectionPointIn><connection refLocalId="2"/></connectionPointIn><connectionPointOut/><condition><inline name=""><ST><xhtml:p>A AND B</xhtml:p></ST></inline></condition></transition>
+<transition localId="4"><position x="9" y="1"/><connectionPointIn><connection refLocalId="2"/></connectionPointIn><connectionPointOut/><condition><reference name="Named"/></condition></transition>
+<step localId="5" name="Left"><connectionPointIn><connection refLocalId="3"/></connectionPointIn><connectionPointOut/></step>
+<jumpStep localId="6" targetName="Left"><connectionPointIn><connection refLocalId="4"/></connectionPointIn></jumpStep>
+<transition localId="7"><position x="0" y="9"/><connectionPointIn><connection refLocalId="5"/></connectionPointIn><connectionPointOut/><condition><connectionPointIn><connection refLocalId="9"/></connectionPointIn></condition></transition>
+<leftPowerRail localId="8"/>
+<contact localId="9" negated="true"><connectionPointIn><connection refLocalId="8"/></connectionPointIn><connectionPointOut/><variable>A</variable></contact>
+<actionBlock localId="10"><connectionPointIn><connection refLocalId="5"/></connectionPointIn>
+<action localId="0" qualifier="D" duration="T#20ms"><reference name="E"/></action>
+<action localId="0"><reference name="Work"/></action>
+<action localId="0" qualifier="P1"><inline><ST><xhtml:p>F := NOT F;</xhtml:p></ST></inline></action></actionBlock>
+</SFC></body>
+<actions><action name="Work"><body><ST><xhtml:p>D := TRUE;</xhtml:p></ST></body></action></actions>
+<transitions><transition name="Named"><body><ST><xhtml:p>:= C;</xhtml:p></ST></body></transition></transitions>
+END
+($rung, $said) = imported('chart', project('', pou('Main', 'program', "<localVars>$bits</localVars>", $chart)));
+like($rung, qr/TRANSITION FROM Rest TO Left := A AND B; END_TRANSITION\n\n  TRANSITION FROM Rest TO Left := C; END_TRANSITION\n\n  TRANSITION FROM Left TO Rest := NOT A;/, 'transitions');
+like($rung, qr/STEP Left:\n    E\(D, T#20ms\);\n    Work\(N\);\n    Left_Inline1\(P1\);/, 'actions');
+like($said, qr/0 changed, 0 lost/, 'nothing of it is lost');
+
+# ---- configuration ----
+my $config = <<'END';
+<instances><configurations><configuration name="Plant"><resource name="Cpu 1">
+<task name="Fast" interval="PT0.005S" priority="1"><pouInstance name="One" typeName="Main"/></task>
+<globalVars constant="true"><variable name="Step1"><type><INT/></type><initialValue><simpleValue value="2"/></initialValue></variable></globalVars>
+</resource><globalVars><variable name="All"><type><INT/></type></variable></globalVars></configuration></configurations></instances>
+END
+($rung, $said) = imported('config', project('', pou('Main', 'program', '<externalVars>' . variable('All', 'INT') . variable('Lost', 'INT') . '</externalVars>',
+	text_body('ST', "All := All + Step1;\nLost := All;"))) =~ s/<instances>.*<\/instances>\n/$config/sr);
+like($rung, qr/TASK Fast \(INTERVAL := T#5ms, PRIORITY := 1\);/, 'a task');
+like($rung, qr/PROGRAM One WITH Fast : Main;/, 'an instance');
+like($said, qr/changed: the name "Cpu 1" becomes Cpu_1/, 'a name with a blank');
+like($said, qr/changed: "Lost" is in VAR_EXTERNAL, and nothing declares it/, 'a global variable that is missing');
+
+# ---- nothing is lost without a word ----
+# An element that nobody knows, at each place of these projects: the report must name its line.
+for my $name (qw(types kinds boxes chart config)) {
+	my @lines = split /(?<=\n)/, slurp("$name.xml");
+	my (@silent, $tried);
+	for my $at (2 .. $#lines) {
+		next if $lines[$at - 1] !~ />\s*$/ || $lines[$at - 1] =~ /CDATA|<\/project>|<xhtml|\?>/ || $lines[$at] =~ /\]\]/;
+		spew('more.xml', join '', @lines[0 .. $at - 1], "<unheard name=\"of\"/>\n", @lines[$at .. $#lines]);
+		my ($text) = answer("$ladder import more.xml");
+		my $here = $at + 1;
+		push @silent, $here if $text !~ /^more\.xml:$here: (?:lost: .*unheard|error)/m;
+		$tried++;
+	}
+	is("@silent", '', "$name: each of $tried further elements is in the report");
+}
+
+# The report as JSON says the same.
+my $json = decode_json(scalar `$ladder import --json config.xml 2>warnings`);
+is(scalar(grep { $_->{kind} eq 'changed' } @{$json->{report}}), 2, 'the report as JSON');
+
+# Every name of a variable is in the result.
+for my $name (qw(types kinds boxes chart config)) {
+	my $result = slurp("$name.rung");
+	my @missing = grep { $result !~ /\b\Q$_\E\b/ } slurp("$name.xml") =~ /<variable name="([^"]+)"/g;
+	is("@missing", '', "$name: all variables are there");
+}
+
+# ---- hostile files ----
+for my $name (qw(kinds chart)) {
+	my $xml = slurp("$name.xml");
+	my @wrong;
+	for my $cut (map { int(length($xml) * $_ / 40) } 1 .. 39) {
+		spew('cut.xml', substr $xml, 0, $cut);
+		my ($text, $status) = answer("timeout 20 $ladder import cut.xml");
+		push @wrong, $cut if $status != 1 || $text !~ /^cut\.xml(?::\d+)*: error LD/m;
+	}
+	is("@wrong", '', "$name: a part of it is refused");
+}
+spew('large.xml', project('', '') . ' ' x (101 << 20));
+my ($large, $status) = answer("timeout 60 $ladder import large.xml");
+ok($status && $large =~ /^large\.xml: error LD/, '100 MB') or diag $large;
+
+done_testing;
