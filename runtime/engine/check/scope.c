@@ -1039,8 +1039,8 @@ static bool begin(struct path *path)
 	if (begin_wire(path, text) || scope_mean_name(path->scope, path->table, text, len, &path->m) ||
 	    begin_program(path, text, len))
 		return follow(path);
-	if (*text == '%' && path->at[0] == '.' && path->end - path->at > 1 && path->at[1] == '%')
-		return scope_mean_address(path->scope, text, len, &path->m, &path->why); /* %MW0.%X3 */
+	if (path->at[0] == '.' && path->end - path->at > 1 && path->at[1] == '%') /* %MW0.%X3, MW0.%X3 */
+		return scope_mean_address(path->scope, text, len, &path->m, &path->why);
 	if (path->why == DIAG_NO_PIN)
 		return false;
 	path->at = start;

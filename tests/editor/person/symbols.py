@@ -188,10 +188,10 @@ def added(screen):
     path = new_file(screen, PROGRAM.replace('END_VAR', many + 'END_VAR', 1))
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
-    cell = None
     for name in 'Pump', 'Valve':
+        before = editor.focused()  # the cell of another symbol may have the focus
         editor.click(editor.find('Add a symbol', 'push button'))
-        cell = editor.focus_on(', Name', 'text', but=cell)
+        cell = editor.focus_on(', Name', 'text', but=before)
         editor.type(name)  # the old text was selected
         until(lambda: cell.text() == name, 'the name that is typed')
         time.sleep(0.3)  # the table is read again meanwhile
