@@ -711,7 +711,7 @@ push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## test ladder push with a real ssh
 	BUILD=$(BUILD) prove tests/push.t
 # `ladder` with the fake chips of the HAL tests, for `ladder io`.
 $(HAL_TEST)/ladder_%: $(LADDER) $(HAL_TEST)/%/io_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) $(filter %.a,$^) $(AVAHI_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) $(filter %.a,$^) $(AVAHI_LIB) $(XML_LIB) -lm
 $(HAL_TEST)/ladder_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladder_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladder_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
