@@ -387,8 +387,8 @@ $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
 PLAIN_ALONE := $(foreach t,$(EDITOR_TESTS_PLAIN),$(if $(findstring /test_plain_,$t),$t))
 PLAIN_ROOM  := $(filter-out $(PLAIN_ALONE),$(EDITOR_TESTS_PLAIN))
 $(PLAIN_ALONE:%=%.o): COLD = $(TEST_C)
-$(PLAIN_ALONE): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(PLAIN_ALONE): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(call obj,$(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) -o $@ $^ -lm
 $(foreach r,$(call folders,$(PLAIN_ROOM)),$(eval $(call room,$r,$(filter $r/test_%,$(PLAIN_ROOM)),$(patsubst %,%.o,$(filter $r/test_%,$(PLAIN_ROOM))))))
 $(patsubst %,%/tests,$(call folders,$(PLAIN_ROOM))): $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
 	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm

@@ -91,6 +91,9 @@ bool iomap_fits(const struct iomap *map, const struct areas *areas,
 bool iomap_check_program(const struct iomap *map, const struct program *program,
 			 struct arena *arena, struct diag_list *diags);
 
+/** iomap_group_read - of "%IW100" or "%IW100..106": the first address, and how many bits all have
+ * together; 0: what stands behind ".." is wrong. False: it is no address. */
+bool iomap_group_read(const char *text, size_t len, struct iec_addr *addr, uint32_t *bits);
 /** io_place - the place of a point in its file, for diag_add. */
 struct diag io_place(const struct iomap *map, const struct io_point *point,
 		     enum diag_id id);

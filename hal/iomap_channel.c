@@ -125,14 +125,13 @@ static bool read_last(const char *text, size_t len, struct iec_addr first, uint3
 	return true;
 }
 
-/* "%IW100" or "%IW100..106", without regard to what stands behind ".." if it is wrong: *@bits is 0 then. */
-static bool read_span_of(const char *text, size_t whole, struct iec_addr *addr, uint32_t *bits)
+bool iomap_group_read(const char *text, size_t whole, struct iec_addr *addr, uint32_t *bits)
 {
 	const char *dots = find_dots(text, whole);
 	const size_t len = dots ? (size_t)(dots - text) : whole;
 	uint32_t last;
 
-	if (iec_addr_parse(text, len, addr) != ADDR_OK || !iec_area_is_io(addr->area))
+	if (iec_addr_parse(text, len, addr) != ADDR_OK)
 		return false;
 	last = first_bit(*addr);
 	if (dots && (!read_last(dots + 2, whole - len - 2, *addr, &last) || last < first_bit(*addr)))
@@ -147,7 +146,7 @@ static bool read_addresses(struct line_reader *line, const struct map_word *word
 	struct iec_addr *addr = &line->point.addr;
 	uint32_t bits;
 
-	if (!read_span_of(word->text, word->len, addr, &bits))
+	if (!iomap_group_read(word->text, word->len, addr, &bits) || !iec_area_is_io(addr->area))
 		return complain(line->reader, DIAG_IO_ADDRESS, word);
 	line->point.output = iec_area_row(addr->area)->access == ACCESS_WRITE;
 	line->count = bits / addr->bits;
@@ -374,7 +373,8 @@ static bool set_of(struct line_reader *line, const struct option_word *option)
 {
 	struct io_channel *channel = &line->channel;
 
-	return read_span_of(option->value, option->len, &channel->of, &channel->of_bits) &&
+	return iomap_group_read(option->value, option->len, &channel->of, &channel->of_bits) &&
+	       iec_area_is_io(channel->of.area) &&
 	       channel->of_bits && iec_area_row(channel->of.area)->access == ACCESS_READ;
 }
 

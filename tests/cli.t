@@ -690,4 +690,12 @@ for my $text ("\0" x 10000, "PROGRAM" . "\0" x 10, 'PROGRAM', 'PROGRAM A VAR', "
 }
 
 chdir '/';
+# libmodbus would take 9600 for a speed that serial lines do not have.
+SKIP: {
+	my $modbus = $ladder =~ s/ladder$/ladder-modbus/r;
+	skip 'no ladder-modbus', 2 unless -x $modbus;
+	my $said = `$modbus scan --port /dev/none --baud 12345 2>&1`;
+	is($? >> 8, 2, 'ladder-modbus: a speed that does not exist');
+	like($said, qr/--baud is no option here, or its value is wrong/, 'is told');
+}
 done_testing();

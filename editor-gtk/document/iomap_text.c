@@ -9,6 +9,8 @@
 
 #include "editor-gtk/kit/i18n.h"
 
+#include "hal/iomap.h"
+
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
@@ -1552,54 +1554,15 @@ enum io_refusal io_text_move(const struct io_text *io, int number, int target, b
 
 /* ---- values ---- */
 
-static bool read_digits(const char *text, size_t len, uint32_t *out)
-{
-	uint32_t number = 0;
-
-	if (len == 0 || len > 9)
-		return false;
-	for (size_t i = 0; i < len; i++) {
-		if (!ascii_digit(text[i]))
-			return false;
-		number = 10 * number + (uint32_t)(text[i] - '0');
-	}
-	*out = number;
-	return true;
-}
-
-/* The last bit behind "..", counted from the start of the area: "5" of bytes and words and of the bits of
- * one byte, "3.5" of bits. */
-static bool read_last(const char *text, size_t len, struct iec_addr first, uint64_t *last)
-{
-	const char *dot = memchr(text, '.', len);
-	uint32_t byte, bit = 0;
-
-	if (first.bits == 1 && dot && !read_digits(dot + 1, len - (size_t)(dot - text) - 1, &bit))
-		return false;
-	if (!read_digits(text, dot ? (size_t)(dot - text) : len, &byte) || (dot && first.bits != 1))
-		return false;
-	*last = first.bits == 1 && !dot ? 8 * (uint64_t)first.byte + byte : 8 * (uint64_t)byte + bit;
-	return true;
-}
-
 bool io_values_read(const char *text, size_t len, struct io_values *out)
 {
-	size_t head = 0;
-	uint64_t last, first;
+	uint32_t bits;
 
-	while (head < len && !(head + 1 < len && text[head] == '.' && text[head + 1] == '.'))
-		head++;
-	*out = (struct io_values){ .count = 1 };
-	if (iec_addr_parse(text, head, &out->first) != ADDR_OK)
+	*out = (struct io_values){ .count = 0 };
+	if (!iomap_group_read(text, len, &out->first, &bits))
 		return false;
-	if (head == len)
-		return true;
-	first = 8 * (uint64_t)out->first.byte + out->first.bit;
-	if (!read_last(text + head + 2, len - head - 2, out->first, &last) || last < first ||
-	    (last - first) / out->first.bits >= LIMIT_IO_POINTS)
-		return false;
-	out->count = (uint32_t)((last - first) / out->first.bits) + 1;
-	return true;
+	out->count = bits / out->first.bits;
+	return out->count > 0 && out->count <= LIMIT_IO_POINTS;
 }
 
 bool io_values_have(const struct io_values *values, struct iec_addr addr)

@@ -126,22 +126,3 @@ void io_uses_free(struct io_uses *uses)
 	uses->use = NULL;
 	uses->count = 0;
 }
-
-const struct io_use *io_uses_find(const struct io_uses *uses, struct iec_addr addr)
-{
-	const struct io_use key = { .addr = addr, .name = "", .comment = "" };
-	int low = 0, high = uses->count;
-
-	while (low < high) {
-		const int middle = (low + high) / 2;
-		const int order = compare_addr(uses->use[middle].addr, key.addr);
-
-		if (order == 0)
-			return &uses->use[middle];
-		if (order < 0)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return NULL;
-}

@@ -26,7 +26,5 @@ struct io_uses {
  * Owns: io_uses_free(), always.   Fails: false: no memory. */
 bool io_uses_make(struct io_uses *out, struct project *project);
 void io_uses_free(struct io_uses *uses);
-/** io_uses_find - NULL: the program does not use it. */
-const struct io_use *io_uses_find(const struct io_uses *uses, struct iec_addr addr);
 
 #endif

@@ -7,6 +7,7 @@
  */
 #include "modbus/check.h"
 #include "modbus/find.h"
+#include "modbus/line.h"
 #include "modbus/session.h"
 
 #include "engine/base/file.h"
@@ -106,7 +107,8 @@ static bool scan_option(struct request *out, const char *word, const char *value
 		return is_number(value, 0, 255, &out->to);
 	if (strcmp(word, "--timeout") == 0)
 		return is_number(value, 1, 60000, &out->timeout_ms);
-	if (strcmp(word, "--baud") == 0 && is_number(value, 1, 4000000, &number)) {
+	if (strcmp(word, "--baud") == 0 && is_number(value, 1, 4000000, &number) &&
+	    line_baud_is_known((uint32_t)number)) {
 		out->bus.baud = (uint32_t)number;
 		return true;
 	}

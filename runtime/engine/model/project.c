@@ -116,14 +116,6 @@ bool pou_has_frame(const struct pou *pou)
 	return pou->kind == POU_FUNCTION || pou->kind == POU_BLOCK;
 }
 
-bool pou_has_edges(const struct pou *pou)
-{
-	for (int i = 0; i < pou->vars.count; i++)
-		if (pou->vars.var[i].edge)
-			return true;
-	return false;
-}
-
 bool pou_has_any_bounds(const struct pou *pou)
 {
 	for (int i = 0; pou->kind == POU_FUNCTION && i < pou->vars.count; i++)

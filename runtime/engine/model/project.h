@@ -251,8 +251,6 @@ bool project_has(const struct project *project, struct iec_addr addr);
 bool pou_has_frame(const struct pou *pou);
 /** pou_has_any_bounds - a function with ARRAY[*]: check/generic.h. Scan-safe: yes. */
 bool pou_has_any_bounds(const struct pou *pou);
-/** pou_has_edges - a block with an input R_EDGE or F_EDGE. Scan-safe: yes. */
-bool pou_has_edges(const struct pou *pou);
 /** pou_boxed - the statements of the EXECUTE box at a cell, 0-based; NULL: there are none. */
 const struct boxed *pou_boxed(const struct pou *pou, int rung, int row, int col);
 /** project_view - the text from VIEW to END_VIEW of the file itself; "" if it has none. */
