@@ -373,7 +373,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # (tests/editor/edit/ and test_plain_*.c) need none of them.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(filter 1,$(SMALL))$(if $(CROSS),$(if $(PKG_CONFIG_LIBDIR),,without)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim online canvas ladder sfc text iomap live panels render window)
+EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim online canvas ladder sfc fbd text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_uses.c iomap_check.c)
 # MD4C=no: without the library for the pages of the manual, which another program shows then.
 MD4C     ?= $(shell $(PKG_CONFIG) --exists md4c 2>/dev/null && echo yes)

@@ -46,11 +46,11 @@ editor-gtk/online         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/
 editor-gtk/canvas         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online
 "
 sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online editor-gtk/canvas'
-for room in ladder sfc text iomap live; do
+for room in ladder sfc fbd text iomap live; do
 	rooms="$rooms
 editor-gtk/$room $doors $sheets hal online"
 done
-sheets="$sheets editor-gtk/ladder editor-gtk/sfc editor-gtk/text editor-gtk/iomap editor-gtk/live"
+sheets="$sheets editor-gtk/ladder editor-gtk/sfc editor-gtk/fbd editor-gtk/text editor-gtk/iomap editor-gtk/live"
 rooms="$rooms
 editor-gtk/panels $doors $sheets online hal
 editor-gtk/render $doors $sheets online hal

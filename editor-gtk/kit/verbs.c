@@ -49,10 +49,12 @@ const char *verb_found(enum verb verb)
 static unsigned usual_needs(enum verb verb)
 {
 	static const unsigned sheet[] = { [VERB_SHEET] = WITH_RUNGS, [VERB_CHART] = WITH_CHART,
+					  [VERB_NETWORK] = WITH_NETWORK,
 					  [VERB_BOTH] = WITH_CANVAS, [VERB_TEXT] = WITH_ST,
 					  [VERB_WINDOW] = 0 };
 	const enum verb_group group = rows[verb].group;
-	const bool edits = group == VERBS_DRAW || group == VERBS_RUNG || group == VERBS_CHART;
+	const bool edits = group == VERBS_DRAW || group == VERBS_RUNG || group == VERBS_CHART ||
+			   group == VERBS_NETWORK;
 
 	return sheet[rows[verb].where] | (edits ? WITH_FREE : 0u);
 }
@@ -117,7 +119,7 @@ const char *verb_group_label(enum verb_group group)
 		[VERBS_FILE] = N_("File"), [VERBS_PROJECT] = N_("Project"),
 		[VERBS_EDIT] = N_("Edit"),
 		[VERBS_DRAW] = N_("Draw"), [VERBS_RUNG] = N_("Rungs"),
-		[VERBS_CHART] = N_("Charts"),
+		[VERBS_CHART] = N_("Charts"), [VERBS_NETWORK] = N_("Networks"),
 		[VERBS_GO] = N_("Go"), [VERBS_RUN] = N_("Simulation"),
 		[VERBS_VIEW] = N_("View"),
 		[VERBS_HELP] = N_("Help"),
@@ -148,7 +150,7 @@ static const struct key_row key_rows[] = {
 /* The keys in use; only verbs_use_scheme() changes them. */
 static char *keys_now[VERB_COUNT];
 static enum key_scheme scheme_now;
-static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets, charts and texts */
+static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets, charts, networks and texts */
 
 const char *key_scheme_name(enum key_scheme scheme)
 {

@@ -26,9 +26,9 @@ enum verb_with {
 #define FACT(id, why) WITH_##id = 1 << FACT_##id,
 #include "editor-gtk/kit/verbs.def"
 };
-enum verb_where { VERB_WINDOW, VERB_SHEET, VERB_CHART, VERB_TEXT, VERB_BOTH };
+enum verb_where { VERB_WINDOW, VERB_SHEET, VERB_CHART, VERB_NETWORK, VERB_TEXT, VERB_BOTH };
 enum verb_group {
-	VERBS_FILE, VERBS_PROJECT, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_CHART, VERBS_GO,
+	VERBS_FILE, VERBS_PROJECT, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_CHART, VERBS_NETWORK, VERBS_GO,
 	VERBS_RUN, VERBS_VIEW, VERBS_HELP,
 	VERBS_GROUPS
 };
@@ -94,9 +94,9 @@ void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
 /** verb_of_key - the WINDOW verb of a key; VERB_COUNT: none. For widgets that handle keys
  * before the window. */
 enum verb verb_of_key(GdkEvent *key);
-/** verb_of_sheet_key - the same of the verbs of a kind of sheet: SHEET or CHART, and BOTH. */
+/** verb_of_sheet_key - the same of the verbs of a kind of sheet: SHEET, CHART or NETWORK, and BOTH. */
 enum verb verb_of_sheet_key(GdkEvent *key, enum verb_where where);
-/** verbs_controller - handles the keys of all SHEET or CHART verbs, and of those of BOTH; or of all
+/** verbs_controller - handles the keys of all SHEET, CHART or NETWORK verbs, and of those of BOTH; or of all
  * TEXT verbs; in the scheme in use. Owns: the widget it is added to. */
 GtkEventController *verbs_controller(enum verb_where where);
 

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/sfc_icon.h"
+#include "editor-gtk/fbd/fbd_view.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/ladder/grid_view.h"
@@ -25,6 +26,7 @@ enum rank { RANK_IS, RANK_BEGINS, RANK_TOLD, RANK_NONE };
 /* A tile: the word or the tool of a chart that it places. */
 struct offer {
 	int id;                     /* enum word, or enum sfc_tool               */
+	bool box;                   /* of networks: it is dragged there          */
 	const struct word_row *row; /* NULL: a tool of a chart. Of a word of the project: as long
 				       as it is shown */
 	GArray *more;               /* of struct offer: its kinds for other types; or NULL */
@@ -83,13 +85,18 @@ static GdkContentProvider *drag_word(int word)
 	return ladder_grid_view_drag((enum word)word);
 }
 
+static GdkContentProvider *drag_box(int word)
+{
+	return ladder_fbd_view_drag(word);
+}
+
 static GtkWidget *word_tile(const struct offer *offer)
 {
-	char *key = key_of_word((enum word)offer->id);
+	char *key = offer->box ? g_strdup("") : key_of_word((enum word)offer->id);
 	const struct tile tile = {
 		.name = name_of(offer->row), .told = said(words_explain(offer->row)),
 		.key = key, .draw = draw_word, .of = offer->row, .action = "win.place",
-		.drag = drag_word, .id = offer->id,
+		.drag = offer->box ? drag_box : drag_word, .id = offer->id,
 	};
 	GtkWidget *widget = tile_new(&tile);
 
@@ -320,25 +327,32 @@ static void open_families(GHashTable *families, bool all)
 			gtk_expander_set_expanded(family, TRUE);
 }
 
+/* In networks only functions and blocks are boxes. */
+static bool is_wanted(const LadderPalette *palette, const struct word_row *row)
+{
+	return is_offered(row) && (palette->kind != PALETTE_NETWORK || row->kind == WORD_FN || row->kind == WORD_FB) &&
+	       fits(row, search_of(palette));
+}
+
 static void add_words(LadderPalette *palette, GHashTable *families)
 {
 	const struct project *project = ladder_document_project(palette->document);
-	const char *search = search_of(palette);
+	const bool box = palette->kind == PALETTE_NETWORK;
 
 	for (int i = 0; i < WORD_COUNT; i++) {
 		const struct word_row *row = word_row((enum word)i);
 
-		if (is_offered(row) && fits(row, search))
-			add_offer(palette, families, explain_family(row), &(struct offer){ i, row, NULL });
+		if (is_wanted(palette, row))
+			add_offer(palette, families, explain_family(row), &(struct offer){ i, box, row, NULL });
 	}
 	palette->own = project ? project->words.count : 0;
 	for (int i = 0; i < palette->own; i++) {
 		const int word = WORD_FIRST_OWN + i;
 		const struct word_row *row = words_row(&project->words, (enum word)word);
 
-		if (is_offered(row) && fits(row, search))
+		if (is_wanted(palette, row))
 			add_offer(palette, families, explain_family(row),
-				  &(struct offer){ word, row, NULL });
+				  &(struct offer){ word, box, row, NULL });
 	}
 }
 
@@ -351,7 +365,7 @@ static void add_tools(LadderPalette *palette, GHashTable *families)
 
 		if (has(search, sfc_tool_name((enum sfc_tool)i), sfc_tool_told((enum sfc_tool)i),
 			_(family), NULL))
-			add_offer(palette, families, family, &(struct offer){ i, NULL, NULL });
+			add_offer(palette, families, family, &(struct offer){ i, false, NULL, NULL });
 	}
 	palette->own = 0;
 }
@@ -401,7 +415,7 @@ static void project_changed(LadderPalette *palette)
 {
 	const struct project *project = ladder_document_project(palette->document);
 
-	if (palette->kind != PALETTE_LADDER ||
+	if ((palette->kind != PALETTE_LADDER && palette->kind != PALETTE_NETWORK) ||
 	    (palette->own == 0 && (!project || project->words.count == 0)))
 		return;
 	palette->stale = true;
@@ -464,7 +478,7 @@ void ladder_palette_show(GtkWidget *widget, enum palette_kind kind)
 {
 	LadderPalette *palette = LADDER_PALETTE(widget);
 	const char *prompt = kind == PALETTE_CHART ? _("Find a part of a chart") :
-			     _("Find an element");
+			     kind == PALETTE_NETWORK ? _("Find a box") : _("Find an element");
 
 	/* the still picture around it would keep the room */
 	gtk_widget_set_visible(gtk_widget_get_parent(widget), kind != PALETTE_NONE);

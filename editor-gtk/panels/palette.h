@@ -13,10 +13,10 @@
 
 #include <gtk/gtk.h>
 
-enum palette_kind { PALETTE_NONE, PALETTE_LADDER, PALETTE_CHART };
+enum palette_kind { PALETTE_NONE, PALETTE_LADDER, PALETTE_CHART, PALETTE_NETWORK };
 
 /** ladder_palette_new - a click activates "win.place" with a word, or "win.place-part" with a
- * tool of a chart; a drag is ladder_grid_view_drag() or ladder_sfc_view_drag(). */
+ * tool of a chart; a drag is ladder_grid_view_drag(), ladder_sfc_view_drag() or ladder_fbd_view_drag(). */
 GtkWidget *ladder_palette_new(LadderDocument *document);
 /** ladder_palette_show - the tiles for the sheet in front; PALETTE_NONE: its parent is hidden. */
 void ladder_palette_show(GtkWidget *palette, enum palette_kind kind);

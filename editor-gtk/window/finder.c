@@ -23,8 +23,12 @@ static void mark_hit(struct finder *finder)
 {
 	LadderGridView *sheet = front_rungs(finder->core->front);
 	LadderSfcView *chart = front_chart(finder->core->front);
+	LadderFbdView *networks = front_networks(finder->core->front);
 	const struct find_hit *hit = hit_of(finder);
 
+	if (networks)
+		ladder_fbd_view_set_found(networks, hit && hit->rung < 0 &&
+			hit->pou == ladder_canvas_pou(LADDER_CANVAS(networks)) ? hit->row : -1);
 	if (chart)
 		ladder_sfc_view_set_found(chart, hit && hit->rung < 0 &&
 			hit->pou == ladder_canvas_pou(LADDER_CANVAS(chart)) ? hit->row : -1);
@@ -51,11 +55,14 @@ static void give_keys(struct finder *finder)
 {
 	const struct find_hit *hit = hit_of(finder);
 	LadderSfcView *chart = front_chart(finder->core->front);
+	LadderFbdView *networks = front_networks(finder->core->front);
 	LadderGridView *sheet = chart && (!hit || hit->rung < 0) ? NULL :
 				front_rungs(finder->core->front);
 	AdwTabPage *page = front_tab(finder->core->front);
 
-	if (sheet || chart)
+	if (networks)
+		gtk_widget_grab_focus(GTK_WIDGET(networks));
+	else if (sheet || chart)
 		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
 	else if (page)
 		gtk_widget_child_focus(page_content(page), GTK_DIR_TAB_FORWARD);
@@ -67,7 +74,10 @@ static void closed(struct finder *finder)
 {
 	LadderGridView *sheet = front_rungs(finder->core->front);
 	LadderSfcView *chart = front_chart(finder->core->front);
+	LadderFbdView *networks = front_networks(finder->core->front);
 
+	if (networks)
+		ladder_fbd_view_set_found(networks, -1);
 	if (chart)
 		ladder_sfc_view_set_found(chart, -1);
 	if (sheet)
@@ -85,14 +95,27 @@ static bool is_at_hit(struct finder *finder, LadderSfcView *chart)
 	       ladder_sfc_view_is_at(chart, place[2]);
 }
 
+/* The same of networks. */
+static bool is_in_networks(struct finder *finder, LadderFbdView *networks)
+{
+	const int *place = ladder_find_bar_place(finder->bar);
+
+	return place[0] == ladder_canvas_pou(LADDER_CANVAS(networks)) && place[1] < 0 &&
+	       ladder_fbd_view_is_at(networks, place[2]);
+}
+
 static void tell_place(struct finder *finder)
 {
 	LadderGridView *sheet = front_sheet(finder->core->front);
 	LadderSfcView *chart = sheet ? NULL : front_chart(finder->core->front);
+	LadderFbdView *networks = front_networks(finder->core->front);
 	struct grid_cursor cursor;
 
 	if (ladder_find_bar_has_keys(finder->bar))
 		return; /* the cursor moved from hit to hit */
+	if (networks && !is_in_networks(finder, networks))
+		ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(networks)), -1,
+					  ladder_fbd_view_row(networks), -1);
 	if (chart && !is_at_hit(finder, chart))
 		ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(chart)), -1,
 					  ladder_sfc_view_row(chart), -1);

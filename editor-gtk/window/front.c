@@ -68,10 +68,20 @@ LadderSfcView *front_seen_chart(struct front *front)
 	       ladder_sfc_page_chart(LADDER_SFC_PAGE(content)) : NULL;
 }
 
+LadderFbdView *front_seen_networks(struct front *front)
+{
+	GtkWidget *content = seen(front);
+
+	return LADDER_IS_FBD_VIEW(content) ? LADDER_FBD_VIEW(content) : NULL;
+}
+
 LadderCanvas *front_seen_canvas(struct front *front)
 {
 	LadderGridView *sheet = front_seen_sheet(front);
+	LadderFbdView *networks = front_seen_networks(front);
 
+	if (networks)
+		return LADDER_CANVAS(networks);
 	return sheet ? LADDER_CANVAS(sheet) : LADDER_CANVAS(front_seen_chart(front));
 }
 
@@ -83,6 +93,11 @@ LadderGridView *front_sheet(struct front *front)
 LadderSfcView *front_chart(struct front *front)
 {
 	return front_is_older(front) ? NULL : front_seen_chart(front);
+}
+
+LadderFbdView *front_networks(struct front *front)
+{
+	return front_is_older(front) ? NULL : front_seen_networks(front);
 }
 
 LadderGridView *front_rungs(struct front *front)
@@ -287,16 +302,18 @@ static void program_changed(struct front *front)
 
 /* ---- going to a number ---- */
 
-/* The range of numbers to go to: rungs as they are shown, or lines, from 1. */
+/* The range of numbers to go to: rungs as they are shown, networks, or lines, from 1. */
 struct numbers {
 	LadderGridView *sheet;
+	LadderFbdView *networks;
 	GtkTextBuffer *text;
 	int first, last;       /* 1 and 0: nothing to go to                    */
 };
 
 static struct numbers numbers_of(struct front *front)
 {
-	struct numbers of = { front_seen_sheet(front), page_text(front_tab(front)), 1, 0 };
+	struct numbers of = { front_seen_sheet(front), front_seen_networks(front),
+			      page_text(front_tab(front)), 1, 0 };
 	const struct project *project;
 
 	if (of.sheet) {
@@ -305,6 +322,8 @@ static struct numbers numbers_of(struct front *front)
 		of.last = of.last < 0 ?
 			project->pou[ladder_canvas_pou(LADDER_CANVAS(of.sheet))].rung_count :
 			of.first - 1 + of.last;
+	} else if (of.networks) {
+		of.last = ladder_fbd_view_count(of.networks);
 	} else if (of.text) {
 		of.last = gtk_text_buffer_get_line_count(of.text);
 	}
@@ -365,6 +384,8 @@ static void answered(AdwMessageDialog *dialog, const char *answer, struct front 
 		return;
 	if (of.sheet)
 		ladder_grid_view_go(of.sheet, to - of.first, -1, -1);
+	else if (of.networks)
+		ladder_fbd_view_go(of.networks, to - 1);
 	else
 		go_line(front, of.text, to);
 }
@@ -397,10 +418,11 @@ void front_ask_number(struct front *front)
 			      _("There are no rungs or lines to go to"));
 		return;
 	}
-	dialog = ask_new(front->core->window, of.sheet ? _("Go to rung") : _("Go to line"),
+	dialog = ask_new(front->core->window, of.sheet ? _("Go to rung") : of.networks ?
+			 _("Go to network") : _("Go to line"),
 			 NULL, "go", _("Go"), ADW_RESPONSE_DEFAULT);
 	adw_message_dialog_format_body(dialog, _("%d to %d"), of.first, of.last);
-	number = ask_entry(of.sheet ? _("Rung") : _("Line"));
+	number = ask_entry(of.sheet ? _("Rung") : of.networks ? _("Network") : _("Line"));
 	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
 	adw_message_dialog_set_extra_child(dialog, number);
 	adw_message_dialog_set_response_enabled(dialog, "go", FALSE);

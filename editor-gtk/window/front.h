@@ -38,11 +38,14 @@ AdwTabPage *front_tab(struct front *front);
  * NULL: none. */
 LadderGridView *front_seen_sheet(struct front *front);
 LadderSfcView *front_seen_chart(struct front *front);
-/** front_seen_canvas - the visible sheet, else the visible chart; NULL: none. */
+/** front_seen_networks - the visible function block diagram; NULL: none. */
+LadderFbdView *front_seen_networks(struct front *front);
+/** front_seen_canvas - the visible sheet, chart or networks; NULL: none. */
 LadderCanvas *front_seen_canvas(struct front *front);
-/** front_sheet, front_chart - the same, of the document of the window only. */
+/** front_sheet, front_chart, front_networks - the same, of the document of the window only. */
 LadderGridView *front_sheet(struct front *front);
 LadderSfcView *front_chart(struct front *front);
+LadderFbdView *front_networks(struct front *front);
 /** front_rungs - the sheet, else the rungs below a chart, with or without the focus. */
 LadderGridView *front_rungs(struct front *front);
 /** front_list - the text of a POU, also below a chart while it is used. front_file - a file beside the project. */

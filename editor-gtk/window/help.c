@@ -184,6 +184,14 @@ static void show_chart(struct help *help, LadderSfcView *chart)
 	}
 }
 
+static void show_networks(struct help *help, LadderFbdView *networks)
+{
+	const char *word = ladder_fbd_view_word(networks);
+
+	if (!word || !show_word(help, word))
+		show_place(help, "networks");
+}
+
 /* The word that the text cursor is in or behind. Caller frees. */
 static char *word_at(GtkTextBuffer *buffer)
 {
@@ -268,6 +276,8 @@ static void show_front(struct help *help)
 
 	if (front_seen_sheet(front)) {
 		show_element(help, front_seen_sheet(front));
+	} else if (front_seen_networks(front)) {
+		show_networks(help, front_seen_networks(front));
 	} else if (front_seen_chart(front)) {
 		show_chart(help, front_seen_chart(front));
 	} else if (front_list(front)) {

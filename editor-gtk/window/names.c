@@ -88,6 +88,11 @@ static int use_here(struct core *core, const struct xref *xref)
 	LadderGridView *sheet = front_sheet(core->front);
 	int row, col;
 
+	if (front_networks(core->front)) {
+		const struct xref_use *use = ladder_fbd_view_use(front_networks(core->front), xref);
+
+		return use ? (int)(use - xref->use) : -1;
+	}
 	if (!sheet && front_chart(core->front)) {
 		const struct xref_use *use = ladder_sfc_view_use(front_chart(core->front), xref);
 

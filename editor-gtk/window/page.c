@@ -5,6 +5,7 @@
 #include "editor-gtk/window/page.h"
 
 #include "editor-gtk/iomap/iomap_view.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/panels/interface_view.h"
 #include "editor-gtk/text/file_view.h"
 #include "editor-gtk/window/messages.h"
@@ -41,13 +42,15 @@ bool page_fits(GtkWidget *content, const struct project *project, int pou)
 {
 	if (project->pou[pou].sfc)
 		return LADDER_IS_SFC_PAGE(content);
+	if (project->pou[pou].fbd)
+		return LADDER_IS_FBD_VIEW(content);
 	return project->pou[pou].language == LANGUAGE_LD ? LADDER_IS_GRID_VIEW(content) :
 	       LADDER_IS_TEXT_VIEW(content);
 }
 
 int page_pou(GtkWidget *content)
 {
-	if (LADDER_IS_GRID_VIEW(content))
+	if (LADDER_IS_CANVAS(content))
 		return ladder_canvas_pou(LADDER_CANVAS(content));
 	if (LADDER_IS_SFC_PAGE(content))
 		return ladder_canvas_pou(LADDER_CANVAS(ladder_sfc_page_chart(LADDER_SFC_PAGE(content))));
@@ -60,6 +63,8 @@ void page_set_pou(GtkWidget *content, int pou)
 		return;
 	if (LADDER_IS_TEXT_VIEW(content))
 		ladder_text_view_set_pou(LADDER_TEXT_VIEW(content), pou);
+	else if (LADDER_IS_FBD_VIEW(content))
+		ladder_canvas_set_pou(LADDER_CANVAS(content), pou);
 	else if (LADDER_IS_GRID_VIEW(content))
 		ladder_rung_page_set_pou(ladder_rung_page_of(content), pou);
 	else
@@ -131,7 +136,7 @@ void page_follow(struct core *core, AdwTabPage *page)
 			     G_CONNECT_SWAPPED);
 }
 
-/* @view: a sheet or a chart. */
+/* @view: a sheet, a chart or networks. */
 static void listen(struct core *core, gpointer view)
 {
 	core_connect(core, view, "cursor-moved", G_CALLBACK(moved), core, G_CONNECT_SWAPPED);
@@ -174,6 +179,17 @@ static GtkWidget *new_chart(struct core *core, LadderDocument *document, int pou
 	return with_interface(document, chart, page);
 }
 
+static GtkWidget *new_networks(struct core *core, LadderDocument *document, int pou)
+{
+	GtkWidget *networks = ladder_fbd_view_new(document, pou), *scroller = gtk_scrolled_window_new();
+
+	ladder_canvas_set_sim(LADDER_CANVAS(networks), core->sim);
+	listen(core, networks);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), networks);
+	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
+	return with_interface(document, networks, scroller);
+}
+
 GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
 {
 	const struct project *project = ladder_document_project(document);
@@ -181,6 +197,8 @@ GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
 
 	if (project->pou[pou].language == LANGUAGE_LD)
 		return new_sheet(core, document, pou);
+	if (project->pou[pou].fbd)
+		return new_networks(core, document, pou);
 	if (project->pou[pou].sfc)
 		return new_chart(core, document, pou);
 	page = ladder_text_view_new(document, pou);

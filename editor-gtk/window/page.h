@@ -8,6 +8,7 @@
 #ifndef EDITOR_PAGE_H
 #define EDITOR_PAGE_H
 
+#include "editor-gtk/fbd/fbd_view.h"
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/text/text_view.h"
 #include "editor-gtk/window/core.h"

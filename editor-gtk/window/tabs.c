@@ -430,6 +430,15 @@ static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
 		ladder_sfc_view_go_row(ladder_sfc_page_chart(page), row);
 }
 
+/* A row counts lines of the text of the POU. */
+static void go_in_networks(LadderFbdView *networks, int network, int row, int col)
+{
+	if (row >= 0 && network < 0)
+		ladder_fbd_view_go_row(networks, row, col);
+	else
+		ladder_fbd_view_go(networks, network);
+}
+
 /* Without a rung: to a line of the program, in the statements of a box. */
 static void go_in_ladder(LadderGridView *sheet, int rung, int row, int col)
 {
@@ -476,7 +485,9 @@ void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
 	tabs_show(tabs, pou);
 	page = front_tab(tabs->core->front);
 	content = page_content(page);
-	if (LADDER_IS_SFC_PAGE(content))
+	if (LADDER_IS_FBD_VIEW(content))
+		go_in_networks(LADDER_FBD_VIEW(content), rung, row, col);
+	else if (LADDER_IS_SFC_PAGE(content))
 		go_in_chart(LADDER_SFC_PAGE(content), rung, row, col);
 	else if (LADDER_IS_GRID_VIEW(content) && page_pou(content) == pou &&
 		 !front_is_older(tabs->core->front))
@@ -603,6 +614,7 @@ static struct step_cursor cursor_now(gpointer data)
 	struct front *front = ((struct tabs *)data)->core->front;
 	LadderGridView *sheet = front_sheet(front);
 	LadderSfcView *chart = front_chart(front);
+	LadderFbdView *networks = front_networks(front);
 
 	if (sheet) {
 		const struct grid_cursor at = ladder_grid_view_cursor(sheet);
@@ -613,6 +625,9 @@ static struct step_cursor cursor_now(gpointer data)
 	if (chart)
 		return (struct step_cursor){ ladder_canvas_pou(LADDER_CANVAS(chart)), -1,
 			ladder_sfc_view_row(chart), 0 };
+	if (networks)
+		return (struct step_cursor){ ladder_canvas_pou(LADDER_CANVAS(networks)), -1,
+			ladder_fbd_view_row(networks), 0 };
 	return (struct step_cursor){ .pou = -1 };
 }
 

@@ -52,9 +52,10 @@
 
 #include <string.h>
 
-/* New projects with a chart, or with statements. */
+/* New projects with a chart, with statements, or with networks. */
 #define CHART "RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n"
 #define STATEMENTS "RUNGBOARD 1\n\nPROGRAM Main ST\nEND_PROGRAM\n"
+#define NETWORKS "RUNGBOARD 1\n\nPROGRAM Main FBD\nNETWORK\nEND_PROGRAM\n"
 #define ABOVE_SIDE 80 /* px of heading and status bar                              */
 #define DISK_SECONDS 2 /* between checks for changed files                     */
 
@@ -340,6 +341,7 @@ static bool do_project(LadderWindow *window, enum verb verb)
 	case VERB_new_program: pou_new_ask(core, POU_PROGRAM, LANGUAGE_LD); return true;
 	case VERB_new_list: pou_new_ask(core, POU_PROGRAM, LANGUAGE_IL); return true;
 	case VERB_new_chart: pou_new_ask(core, POU_PROGRAM, LANGUAGE_SFC); return true;
+	case VERB_new_networks: pou_new_ask(core, POU_PROGRAM, LANGUAGE_FBD); return true;
 	case VERB_new_statements: pou_new_ask(core, POU_PROGRAM, LANGUAGE_ST); return true;
 	case VERB_new_block: pou_new_ask(core, POU_BLOCK, LANGUAGE_LD); return true;
 	case VERB_new_function: pou_new_ask(core, POU_FUNCTION, LANGUAGE_LD); return true;
@@ -382,6 +384,14 @@ static void do_on_chart(LadderWindow *window, enum verb verb)
 
 	if (chart)
 		ladder_canvas_do(LADDER_CANVAS(chart), verb);
+}
+
+static void do_on_networks(LadderWindow *window, enum verb verb)
+{
+	LadderFbdView *networks = front_seen_networks(&window->front);
+
+	if (networks)
+		ladder_canvas_do(LADDER_CANVAS(networks), verb);
 }
 
 static bool do_in_file(LadderWindow *window, enum verb verb)
@@ -505,6 +515,8 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 	case VERB_bookmark:
 		if (sheet)
 			do_on_sheet(window, sheet, verb);
+		else
+			do_on_networks(window, verb);
 		break;
 	default:
 		if (!do_in_file(window, verb) && !do_project(window, verb) &&
@@ -526,6 +538,8 @@ static void do_verb(LadderWindow *window, enum verb verb)
 		return;
 	if (where == VERB_WINDOW || where == VERB_TEXT)
 		do_in_window(window, verb);
+	else if (where == VERB_NETWORK || (where == VERB_BOTH && front_seen_networks(&window->front)))
+		do_on_networks(window, verb);
 	else if (sheet && where != VERB_CHART)
 		do_on_sheet(window, sheet, verb);
 	else if (!sheet)
@@ -567,7 +581,8 @@ static gboolean key_left(GtkEventController *keys, guint key, guint code, GdkMod
 	(void)code;
 	(void)state;
 	if (verb == VERB_COUNT && LADDER_IS_CANVAS(focus))
-		verb = verb_of_sheet_key(event, LADDER_IS_GRID_VIEW(focus) ? VERB_SHEET : VERB_CHART);
+		verb = verb_of_sheet_key(event, LADDER_IS_GRID_VIEW(focus) ? VERB_SHEET :
+					 LADDER_IS_FBD_VIEW(focus) ? VERB_NETWORK : VERB_CHART);
 	return refuses(window, verb);
 }
 
@@ -663,13 +678,14 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 				      strcmp(name, "win.open-sample") == 0);
 }
 
-/* From the welcome page to the empty sheet, or to an empty chart or text in its place. */
+/* From the welcome page to the empty sheet, or to an empty chart, text or network in its place. */
 static void begin(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderWindow *window = LADDER_WINDOW(widget);
 	AdwTabPage *page = front_tab(&window->front);
 	const char *text = strcmp(action, "win.begin-chart") == 0 ? CHART :
-			   strcmp(action, "win.begin-statements") == 0 ? STATEMENTS : NULL;
+			   strcmp(action, "win.begin-statements") == 0 ? STATEMENTS :
+			   strcmp(action, "win.begin-networks") == 0 ? NETWORKS : NULL;
 
 	(void)unused;
 	if (text && ladder_window_is_untouched(window)) {
@@ -694,9 +710,12 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 {
 	LadderWindow *window = LADDER_WINDOW(widget);
 	LadderGridView *sheet = front_sheet(&window->front);
+	LadderFbdView *networks = front_networks(&window->front);
 
 	(void)name;
-	if (sheet)
+	if (networks)
+		ladder_fbd_view_put(networks, (enum word)g_variant_get_int32(word));
+	else if (sheet)
 		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
 	else
 		messages_tell(&window->messages, _("Elements are placed in rungs. Open a "
@@ -767,6 +786,7 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-statements", NULL, begin);
+	gtk_widget_class_install_action(class, "win.begin-networks", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.place-part", "i", place_part);
@@ -849,18 +869,21 @@ static void tell_front(LadderWindow *window)
 	struct front *front = &window->front;
 	LadderCanvas *canvas = front_seen_canvas(front);
 	const bool sheet = front_seen_sheet(front) != NULL;
+	const bool networks = front_seen_networks(front) != NULL;
 	const bool free = canvas && !ladder_document_is_fixed(ladder_canvas_document(canvas));
 
 	core_with(core, WITH_PROJECT, ladder_document_project(core->document) != NULL);
 	core_with(core, WITH_PAGE, front_tab(front) != NULL);
 	core_with(core, WITH_CANVAS, canvas != NULL);
 	core_with(core, WITH_RUNGS, sheet);
-	core_with(core, WITH_CHART, canvas && !sheet);
+	core_with(core, WITH_CHART, canvas && !sheet && !networks);
+	core_with(core, WITH_NETWORK, networks);
+	core_with(core, WITH_PARTS, sheet || networks);
 	core_with(core, WITH_FREE, free);
-	core_with(core, WITH_ENTRY, free || (canvas && !sheet));
+	core_with(core, WITH_ENTRY, free || (canvas && !sheet && !networks));
 	core_with(core, WITH_LIST, front_list(front) != NULL);
 	core_with(core, WITH_ST, front_list(front) && ladder_text_view_is_st(front_list(front)));
-	core_with(core, WITH_LINES, (canvas && !sheet) || front_has_numbers(front));
+	core_with(core, WITH_LINES, (canvas && !sheet && !networks) || front_has_numbers(front));
 	core_with(core, WITH_ZOOM, canvas || LADDER_IS_PREVIEW_VIEW(page_content(front_tab(front))));
 }
 
@@ -925,6 +948,7 @@ static void select_in_tree(LadderWindow *window)
 static void show_palette(LadderWindow *window)
 {
 	ladder_palette_show(window->palette, front_sheet(&window->front) ? PALETTE_LADDER :
+			    front_networks(&window->front) ? PALETTE_NETWORK :
 			    front_chart(&window->front) ? PALETTE_CHART : PALETTE_NONE);
 }
 

@@ -140,17 +140,35 @@ static int closing(const struct maker *m, int open)
 	return m->pieces - 1;
 }
 
-/* Does the parenthesis at @open belong to the name before it? */
-static bool is_of_call(const struct maker *m, int open)
+static bool is_word(const struct maker *m, int at)
 {
 	static const char *const words[] = { "NOT", "AND", "OR", "XOR", "MOD", "AND_THEN", "OR_ELSE", "IF" };
 
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (is_piece(m, at, words[i]))
+			return true;
+	return false;
+}
+
+/* Does an operand end there? An operator may follow. */
+static bool is_operand(const struct maker *m, int at)
+{
+	const struct piece *piece = at >= 0 ? &m->piece[at] : NULL;
+
+	if (!piece || is_word(m, at))
+		return false;
+	return piece->word || is_piece(m, at, ")") || is_piece(m, at, "]") || is_piece(m, at, "^") ||
+	       !strchr("(,:=<>+-*/&[", piece->text[0]);
+}
+
+/* Does the parenthesis at @open belong to the name before it? AND( ) may be a call, too. */
+static bool is_of_call(const struct maker *m, int open)
+{
 	if (open <= 0 || !m->piece[open - 1].word)
 		return false;
-	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (is_piece(m, open - 1, words[i]))
-			return false;
-	return true;
+	if (is_piece(m, open - 1, "NOT") || is_piece(m, open - 1, "IF"))
+		return false;
+	return !is_word(m, open - 1) || !is_operand(m, open - 2);
 }
 
 /* With the parentheses around it. */
@@ -670,6 +688,21 @@ static struct value edge_value(struct maker *m, const struct expr *expr, const s
 	return box_value(m, box ? add_pin(m, "", NULL, true) : -1, part);
 }
 
+/* Open inputs, `IN3 :=`, which the parser leaves out. */
+static void take_open(const struct maker *m, struct span part, struct call *call)
+{
+	int depth = 0;
+
+	for (int i = part.first; i + 2 <= part.last && call->count < ARGUMENTS; i++) {
+		depth += is_piece(m, i, "(") || is_piece(m, i, "[");
+		depth -= is_piece(m, i, ")") || is_piece(m, i, "]");
+		if (depth == 1 && m->piece[i].word && is_piece(m, i + 1, ":=") &&
+		    (is_piece(m, i + 2, ",") || is_piece(m, i + 2, ")")))
+			call->arg[call->count++] = (struct argument){ .name = m->piece[i].text,
+								      .len = m->piece[i].len, .empty = true };
+	}
+}
+
 static struct value call_value(struct maker *m, const struct expr *expr, const struct expr_node *node)
 {
 	const struct span part = path_at(m, node->text);
@@ -693,6 +726,7 @@ static struct value call_value(struct maker *m, const struct expr *expr, const s
 		return box_value(m, -1, part);
 	call->count = 0;
 	take_arguments(m, expr, node->left, call);
+	take_open(m, part, call);
 	return finish_call(m, call, function_row(m, node->text, node->len), part);
 }
 

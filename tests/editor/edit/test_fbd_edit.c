@@ -17,7 +17,7 @@ static struct fbd_edit *edit;
 static char *now;
 
 static const char declared[] =
-	"RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n  Level, Raw, Tare, Weight : REAL;\n"
+	"RUNGBOARD 1\n\nPROGRAM Main FBD\nVAR\n  Level, Raw, Tare, Weight : REAL;\n"
 	"  Stop, Ready, Valve, Horn, A, B, C : BOOL;\n  Delay, Late : TON;\n  N : INT;\n  T : ARRAY[0..9] OF INT;\nEND_VAR\nEND_PROGRAM\n";
 
 static void keep(void)
@@ -391,6 +391,28 @@ static bool any_edit(void)
 	}
 }
 
+/* A rung file with these lines can be read, and is written with the same. */
+static bool is_readable(const char *text)
+{
+	struct ladder *other = ladder_new();
+	const size_t head = sizeof(declared) - sizeof("END_PROGRAM\n"), size = sizeof(declared) + strlen(text) + 16;
+	char *whole = malloc(size), *written = NULL;
+	size_t len;
+	bool good;
+
+	snprintf(whole, size, "%.*sNETWORK\n%sEND_PROGRAM\n", (int)head, declared, text);
+	good = ladder_load_text(other, "test.rung", whole, strlen(whole));
+	if (good)
+		written = ladder_write(other, &len);
+	good = good && written && strstr(written, text);
+	if (!good)
+		printf("# cannot be read, or is written in another way:\n%s# written:\n%s\n", whole, written ? written : "");
+	free(written);
+	free(whole);
+	ladder_free(other);
+	return good;
+}
+
 /* The text reads again, all lines are lines of a network, and written anew they are the same. */
 static bool is_sound(const char *text)
 {
@@ -426,7 +448,7 @@ static void check_random(void)
 				keep();
 			done += good;
 			refused += !good;
-			sound &= good ? is_sound(now) : edit->why != NULL;
+			sound &= good ? is_sound(now) && is_readable(now) : edit->why != NULL;
 			if (!sound)
 				printf("# round %d, edit %d, before:\n%s", round, i, before);
 			begin(sound && good ? now : before);

@@ -129,6 +129,7 @@ int main(void)
 
 	for (int i = 0; i < KEY_SCHEMES; i++) {
 		test_scheme((enum key_scheme)i, VERB_CHART);
+		test_scheme((enum key_scheme)i, VERB_NETWORK);
 		test_scheme((enum key_scheme)i, VERB_SHEET);
 		test_scheme((enum key_scheme)i, VERB_TEXT);
 	}

@@ -35,6 +35,7 @@ static const struct { enum verb verb; const char *states; } works[] = {
 	{ VERB_previous_sheet, "ulicsfor" }, { VERB_print, READ }, { VERB_print_preview, READ },
 	{ VERB_export_pdf, READ }, { VERB_export_classic, READ }, { VERB_properties, READ },
 	{ VERB_new_program, READ }, { VERB_new_list, READ }, { VERB_new_chart, READ }, { VERB_new_statements, READ },
+	{ VERB_new_networks, READ },
 	{ VERB_format, "i" }, { VERB_mend, "i" }, { VERB_fold, "i" }, { VERB_unfold, "i" }, { VERB_fold_all, "i" },
 	{ VERB_unfold_all, "i" },
 	{ VERB_new_block, READ }, { VERB_new_function, READ }, { VERB_new_subroutine, READ },
@@ -71,7 +72,7 @@ static bool should_work(enum verb verb, char state)
 		if (works[i].verb == verb)
 			return strchr(works[i].states, state);
 	return strchr(group == VERBS_DRAW || group == VERBS_RUNG ? "lsor" :
-		      group == VERBS_CHART ? "c" : ALL, state);
+		      group == VERBS_CHART ? "c" : group == VERBS_NETWORK ? "" : ALL, state);
 }
 
 /* Their sensitivity follows the actions. */
@@ -340,7 +341,7 @@ static void check_pages(void)
 
 int main(void)
 {
-	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_CANVAS | WITH_RUNGS | WITH_FREE |
+	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_CANVAS | WITH_RUNGS | WITH_PARTS | WITH_FREE |
 				WITH_ENTRY | WITH_LINES | WITH_ZOOM;
 
 	check_facts('o', "a board runs", ladder | WITH_SIM | WITH_STOP | WITH_LINK | WITH_ANSWER | WITH_MAY_STOP |

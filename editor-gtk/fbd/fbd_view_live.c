@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * fbd_view_live - values of the running program on the pins and wires of networks.
+ *
+ * It shows what the scan has computed and evaluates nothing: the value of a name in place, of an output of an
+ * instance, of a wire that has a name or that a variable or an instance gets. The result of another nested box is kept
+ * nowhere, so its wire is not known.
+ */
+#include "editor-gtk/fbd/fbd_view_inside.h"
+
+
+#include <string.h>
+
+/* Where the values of a network are, looked up once a program. */
+struct fbd_places {
+	LadderFbdView *view;
+	int network;
+	struct location *pin;      /* by pin                                    */
+	struct location *now, *goal; /* by box: what it counts, and up to where   */
+	struct location at[];
+};
+
+static struct location find(LadderFbdView *view, const char *name)
+{
+	return live_map_find(view->map, name, strlen(name));
+}
+
+/* A wire is a variable of the POU, with the number of its network. */
+static struct location find_wire(LadderFbdView *view, int network, const char *name, bool before)
+{
+	char *text = g_strdup_printf("%s.%c%d", name, before ? 'P' : 'N', network + 1);
+	const struct location at = find(view, text);
+
+	g_free(text);
+	return at;
+}
+
+static bool is_wire(const struct fbd_graph *graph, const char *name)
+{
+	for (int i = 0; i < graph->wire_count; i++)
+		if (graph->wire[i].name && strcmp(graph->wire[i].name, name) == 0)
+			return true;
+	return false;
+}
+
+static struct location find_output(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin)
+{
+	const struct fbd_pin *p = &graph->pin[pin];
+	const struct fbd_box *box = &graph->box[p->box];
+
+	if (box->kind == FBD_BLOCK && box->instance && p->name[0])
+		return live_map_find_pin(view->map, box->instance, p->name);
+	if (p->operand)
+		return find(view, p->operand);
+	for (int i = 0; i < graph->wire_count; i++)
+		if (graph->wire[i].from_pin == pin && graph->wire[i].name)
+			return find_wire(view, network, graph->wire[i].name, false);
+	for (int i = 0; i < graph->box_count; i++) { /* what is stored from it */
+		const struct fbd_box *store = &graph->box[i];
+
+		if (store->kind == FBD_STORE && store->pins > 0 && !graph->pin[store->first_pin].negated &&
+		    fbd_graph_source(graph, store->first_pin) == pin && store->target)
+			return find(view, store->target);
+	}
+	for (int i = 0; i < graph->pin_count; i++) { /* what an instance was given from it */
+		const struct fbd_box *reader = &graph->box[graph->pin[i].box];
+
+		if (!graph->pin[i].output && reader->kind == FBD_BLOCK && reader->instance &&
+		    !graph->pin[i].negated && !graph->pin[i].previous && fbd_graph_source(graph, i) == pin)
+			return live_map_find_pin(view->map, reader->instance, graph->pin[i].name);
+	}
+	return (struct location){ .type = IEC_NONE };
+}
+
+static struct location find_pin(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin)
+{
+	const struct fbd_pin *p = &graph->pin[pin];
+	const int source = p->output ? pin : fbd_graph_source(graph, pin);
+
+	if (p->operand && p->previous && is_wire(graph, p->operand))
+		return find_wire(view, network, p->operand, true);
+	if (!p->output && p->operand)
+		return find(view, p->operand);
+	return source >= 0 ? find_output(view, network, graph, source) : (struct location){ .type = IEC_NONE };
+}
+
+static void find_count(LadderFbdView *view, const struct fbd_box *box, struct location *now, struct location *goal)
+{
+	const char *counts, *up_to;
+
+	if (box->kind != FBD_BLOCK || !box->row || !box->instance ||
+	    !live_word_counts(box->row, &counts, &up_to))
+		return;
+	*now = live_map_find_pin(view->map, box->instance, counts);
+	*goal = live_map_find_pin(view->map, box->instance, up_to);
+}
+
+static void make_map(LadderFbdView *view)
+{
+	if (view->map)
+		return;
+	view->map = live_map_new(&ladder_sim_twin(view->canvas->sim)->resource,
+		project_text(ladder_document_project(view->canvas->document), fbd_pou(view)->name), NULL);
+	live_map_set_sim(view->map, view->canvas->sim);
+}
+
+static struct fbd_places *find_places(LadderFbdView *view, int network)
+{
+	const struct fbd_graph *graph = fbd_graph_of(view, network);
+	const size_t pins = (size_t)graph->pin_count, boxes = (size_t)graph->box_count;
+	struct fbd_places *places = g_malloc0(sizeof(*places) + (pins + 2 * boxes + 1) * sizeof(struct location));
+
+	*places = (struct fbd_places){ .view = view, .network = network };
+	places->pin = places->at;
+	places->now = places->at + pins;
+	places->goal = places->now + boxes;
+	for (int i = 0; i < graph->pin_count; i++)
+		places->pin[i] = find_pin(view, network, graph, i);
+	for (int i = 0; i < graph->box_count; i++)
+		find_count(view, &graph->box[i], &places->now[i], &places->goal[i]);
+	return places;
+}
+
+static unsigned int pin_state(void *context, int pin, char *text, size_t size)
+{
+	const struct fbd_places *places = context;
+	const struct image *image = &ladder_sim_twin(places->view->canvas->sim)->resource.image;
+	const struct location at = places->pin[pin];
+
+	text[0] = '\0';
+	if (at.type == IEC_NONE)
+		return 0;
+	if (at.type == IEC_BOOL)
+		return LIVE_KNOWN | (image_get(image, at).i ? LIVE_OUT : 0);
+	live_value_print(at.type, image_get(image, at), text, size);
+	return LIVE_KNOWN;
+}
+
+static unsigned int box_state(void *context, int box, float *part)
+{
+	const struct fbd_places *places = context;
+	const struct fbd_graph *graph = fbd_graph_of(places->view, places->network);
+	const struct image *image = &ladder_sim_twin(places->view->canvas->sim)->resource.image;
+	const struct fbd_box *of = &graph->box[box];
+	const struct location enable = of->pins > 0 && strcmp(graph->pin[of->first_pin].name, "EN") == 0 ?
+				       places->pin[of->first_pin] : (struct location){ .type = IEC_NONE };
+	double goal;
+
+	*part = -1;
+	if (places->now[box].type != IEC_NONE && places->goal[box].type != IEC_NONE) {
+		goal = live_value_number(places->goal[box].type, image_get(image, places->goal[box]));
+		if (goal > 0)
+			*part = (float)CLAMP(live_value_number(places->now[box].type,
+				image_get(image, places->now[box])) / goal, 0, 1);
+	}
+	return LIVE_KNOWN | (enable.type == IEC_BOOL && !image_get(image, enable).i ? 0 : LIVE_OUT);
+}
+
+bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out)
+{
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !ladder_sim_twin(view->canvas->sim) || !fbd_pou(view))
+		return false;
+	make_map(view);
+	if (!view->map)
+		return false;
+	if (!view->strip[network].places)
+		view->strip[network].places = find_places(view, network);
+	*out = (struct fbd_live){ pin_state, box_state, view->strip[network].places };
+	return true;
+}
+
+struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at)
+{
+	const struct fbd_box *box = fbd_box_at(view, at);
+	struct fbd_live live;
+	const struct location none = { .type = IEC_NONE };
+
+	if (!box || !fbd_live_look(view, at.network, &live))
+		return none;
+	if (at.pin >= 0)
+		return view->strip[at.network].places->pin[at.pin];
+	return box->target && box->kind != FBD_JUMP ? find(view, box->target) : none;
+}
+
+char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
+{
+	const struct location place = fbd_live_place(view, at);
+	char text[IEC_VALUE_TEXT];
+
+	if (place.type == IEC_NONE)
+		return NULL;
+	live_value_print(place.type, image_get(&ladder_sim_twin(view->canvas->sim)->resource.image, place), text,
+			 sizeof(text));
+	return g_strdup(text);
+}

@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Networks of a function block diagram are drawn by keyboard alone and by pointer alone; undo, live values, find,
+problems at the pin."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+HEAD = '''RUNGBOARD 1
+
+VAR
+  Stop  AT %IX0.0 : BOOL;
+  Ready AT %IX0.1 : BOOL;
+  Valve AT %QX0.0 : BOOL;
+  Level : REAL;
+END_VAR
+
+PROGRAM Main FBD
+'''
+EMPTY = HEAD + 'NETWORK\nEND_PROGRAM\n'
+FILL = HEAD.replace('FBD\n', 'FBD\nVAR\n  Delay : TON;\nEND_VAR\n') + '''NETWORK Fill "Fill the tank while there is room"
+  Low := LT(IN1 := Level, IN2 := 20.0)
+  Delay(IN := Low AND NOT Stop AND Ready, PT := T#3s)
+  Valve := Delay.Q
+NETWORK "Not used yet"
+  Room := Level + 5.0
+END_PROGRAM
+'''
+
+
+def sheet(editor):
+    return until(lambda: [node for node in editor.all('Networks') if node.name == 'Networks'], 'the networks')[0]
+
+
+def part(editor, name):
+    """The heading, box or pin with exactly this name."""
+    def look():
+        found = [node for node in editor.all(role='table cell') if node.name == name]
+        return found[0] if found else None
+    return until(look, 'what is called ' + name)
+
+
+def at(editor, name):
+    """Waits until the cursor is there."""
+    until(lambda: part(editor, name).has(23), 'the cursor at ' + name)
+
+
+def on_sheet(editor):
+    until(lambda: sheet(editor).has(12), 'the focus on the networks')
+
+
+def typed(editor, text):
+    """Types into the entry that the first letter opens."""
+    on_sheet(editor)
+    editor.type(text[0])
+    editor.opened()
+    editor.entry(text[1:])
+    on_sheet(editor)
+
+
+def asked(editor, key, text):
+    on_sheet(editor)
+    editor.keys(key)
+    editor.opened()
+    editor.entry(text)
+    on_sheet(editor)
+
+
+def by_keyboard(screen):
+    """by the keyboard alone"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1')
+    typed(editor, 'LT')
+    at(editor, 'LT, executed as number 1')
+    editor.keys('Left')
+    at(editor, 'LT, input IN1: open')
+    typed(editor, 'Level')
+    at(editor, 'LT, input IN1: Level')
+    editor.keys('Down')
+    at(editor, 'LT, input IN2: open')
+    typed(editor, '20.0')
+    at(editor, 'LT, input IN2: 20.0')
+    editor.keys('Right')
+    at(editor, 'LT, executed as number 1')
+    typed(editor, 'AND')
+    at(editor, 'AND, executed as number 2')
+    editor.keys('ctrl+i')
+    part(editor, 'AND, input IN3: open')
+    at(editor, 'AND, executed as number 2')
+    editor.keys('Left', 'Down')
+    at(editor, 'AND, input IN2: open')
+    typed(editor, 'Stop')
+    at(editor, 'AND, input IN2: Stop')
+    editor.keys('slash')
+    at(editor, 'AND, input IN2, negated: Stop')
+    editor.keys('Down')
+    at(editor, 'AND, input IN3: open')
+    typed(editor, 'Ready')
+    at(editor, 'AND, input IN3: Ready')
+    editor.keys('Right')
+    at(editor, 'AND, executed as number 2')
+    typed(editor, 'TON')
+    at(editor, 'TON Delay1, executed as number 3')
+    editor.keys('Left', 'Down')
+    at(editor, 'TON Delay1, input PT: open')
+    typed(editor, '3s')
+    at(editor, 'TON Delay1, input PT: T#3s')
+    editor.keys('Right')
+    at(editor, 'TON Delay1, executed as number 3')
+    asked(editor, 'F7', 'Valve')
+    at(editor, 'Store in Valve')
+    asked(editor, 'ctrl+shift+t', 'Fill the tank')
+    part(editor, 'Network 1, Fill the tank')
+    editor.shot('fbd-keyboard')
+    text = editor.save(path)
+    for line in ('NETWORK "Fill the tank"', ' := LT(IN1 := Level, IN2 := 20.0)', ', IN2 := NOT Stop, IN3 := Ready)',
+                 'PT := T#3s)', 'Valve := Delay1.Q', 'Delay1 : TON;'):
+        assert line in text, (line, text)
+    check(path)
+    editor.finish()
+
+
+def menu(editor, node, verb):
+    """By its accessible action: the places of rows of a menu are not known."""
+    editor.click(node, button=3)
+    until(lambda: editor.all(verb, 'menu item'), 'the menu')[0].press()
+
+
+def by_pointer(screen):
+    """by the pointer alone: boxes from the palette, wires from pin to pin, symbols from the menu"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    editor.drag(editor.tile('TON: '), part(editor, 'Network 1'), look='fbd-drop')
+    at(editor, 'TON Delay1, executed as number 1')
+    editor.click(part(editor, 'Network 1'))
+    at(editor, 'Network 1')
+    editor.click(editor.tile('TOF: '))
+    at(editor, 'TOF Delay2, executed as number 2')
+    editor.drag(part(editor, 'TON Delay1, output Q: open'), part(editor, 'TOF Delay2, input IN: open'), look='fbd-wire')
+    part(editor, 'TOF Delay2, input IN: wire')
+    menu(editor, part(editor, 'TON Delay1, input IN: open'), 'Ready')
+    part(editor, 'TON Delay1, input IN: Ready')
+    menu(editor, part(editor, 'TON Delay1, input IN: Ready'), 'Negate the pin')
+    part(editor, 'TON Delay1, input IN, negated: Ready')
+    # A box in the wire, and a place for it.
+    editor.click(part(editor, 'TOF Delay2, input IN: wire'))
+    at(editor, 'TOF Delay2, input IN: wire')
+    editor.click(editor.tile('TP: '))
+    at(editor, 'TP Delay3, executed as number 2')
+    box = part(editor, 'TOF Delay2, executed as number 3')
+    before = editor.place(box)
+    editor.drag(editor.centre(box), (editor.centre(box)[0] + 150, editor.centre(box)[1] + 90), look='fbd-move')
+    until(lambda: editor.place(part(editor, 'TOF Delay2, executed as number 3'))[1] > before[1], 'the box to be lower')
+    editor.shot('fbd-pointer')
+    text = editor.save(path)
+    for line in ('Delay1(IN := NOT Ready)', 'Delay3(IN := Delay1.Q)', 'Delay2(IN := Delay3.Q)  { at '):
+        assert line in text, (line, text)
+    editor.finish()
+
+
+def changes(screen):
+    """delete, copy, paste, undo and redo; networks are added, moved and switched off; a wire by two keys"""
+    path = new_file(screen, FILL)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1, Fill, Fill the tank while there is room')
+    editor.click(part(editor, 'AND, executed as number 2'))
+    at(editor, 'AND, executed as number 2')
+    editor.keys('Delete')
+    part(editor, 'TON Delay, input IN: open')
+    editor.keys('ctrl+z')
+    part(editor, 'AND, input 2, negated: Stop')
+    editor.keys('ctrl+y')
+    part(editor, 'TON Delay, input IN: open')
+    # From the output of LT to the input of the timer.
+    editor.click(part(editor, 'LT, output OUT: wire Low'))
+    at(editor, 'LT, output OUT: wire Low')
+    editor.keys('F6')
+    editor.click(part(editor, 'TON Delay, input IN: open'))
+    at(editor, 'TON Delay, input IN: open')
+    editor.keys('F6')
+    part(editor, 'TON Delay, input IN: wire Low')
+    editor.click(part(editor, '+, executed as number 1'))
+    at(editor, '+, executed as number 1')
+    editor.keys('ctrl+c', 'ctrl+v')
+    part(editor, '+, executed as number 2')
+    part(editor, '+, output 1: wire Wire1')
+    editor.keys('Insert')
+    at(editor, 'Network 3')
+    editor.keys('alt+Up')
+    at(editor, 'Network 2')
+    editor.keys('ctrl+slash')
+    at(editor, 'Network 2, off')
+    asked(editor, 'ctrl+l', 'Later')
+    at(editor, 'Network 2, Later, off')
+    text = editor.save(path)
+    for line in ('Delay(IN := Low, PT := T#3s)', 'NETWORK OFF Later\nNETWORK "Not used yet"', '  Wire1 := Level + 5.0\n'):
+        assert line in text, (line, text)
+    editor.keys(*['ctrl+z'] * 7)
+    part(editor, 'AND, input 2, negated: Stop')
+    text = editor.save(path)
+    assert text == FILL, text
+    editor.finish()
+
+
+def shown(screen):
+    """a problem is told at its pin, find goes to a box, values are shown while the program runs"""
+    path = new_file(screen, FILL.replace('Level + 5.0', 'Level + Nothing'))
+    editor = Editor(screen, path)
+    at(editor, 'Network 1, Fill, Fill the tank while there is room')
+    until(lambda: editor.all('"Nothing" is not declared'), 'the problem')
+    editor.keys('ctrl+period')
+    at(editor, '+, input 2: Nothing')
+    editor.shot('fbd-problem')
+    editor.keys('Return')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.entry('5.0')
+    at(editor, '+, input 2: 5.0')
+    editor.keys('ctrl+f')
+    editor.focus_on('Find')
+    editor.type('Delay.Q')
+    editor.keys('Return', 'Escape')
+    on_sheet(editor)
+    at(editor, 'Store in Valve, input 1: wire')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    part(editor, 'LT, input IN1: Level, 0')
+    part(editor, 'LT, output OUT: wire Low, TRUE')
+    part(editor, 'AND, input 2, negated: Stop, FALSE')
+    part(editor, 'Store in Valve, FALSE')
+    editor.click(part(editor, 'AND, input 3: Ready, FALSE'))
+    at(editor, 'AND, input 3: Ready, FALSE')
+    editor.keys('ctrl+shift+f')
+    part(editor, 'AND, input 3: Ready, TRUE')
+    part(editor, 'Store in Valve, TRUE')
+    editor.shot('fbd-live')
+    editor.finish()
+
+
+if __name__ == '__main__':
+    main([by_keyboard, by_pointer, changes, shown])
