@@ -5,13 +5,14 @@
 #include "ladder/rungs.h"
 
 #include "engine/base/name.h"
+#include "engine/model/fbd.h"
 #include "engine/trial/value.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* 1-based number of the rung with this label or number in @pou; 0: none. */
+/* 1-based number of the rung or network with this label or number in @pou; 0: none. */
 static int find_rung(const struct project *project, const struct pou *pou,
 		     const char *name)
 {
@@ -19,8 +20,12 @@ static int find_rung(const struct project *project, const struct pou *pou,
 	long number = strtol(name, &end, 10);
 
 	if (!*end && end != name)
-		return number >= 1 && number <= pou->rung_count ? (int)number :
-								  0;
+		return number >= 1 && number <= (pou->fbd ? pou->fbd->count : pou->rung_count) ?
+		       (int)number : 0;
+	for (int i = 0; pou->fbd && i < pou->fbd->count; i++)
+		if (pou->fbd->network[i].label &&
+		    !strcmp(project_text(project, pou->fbd->network[i].label), name))
+			return i + 1;
 	for (int i = 0; i < pou->rung_count; i++)
 		if (pou->rung[i]->label &&
 		    !strcmp(project_text(project, pou->rung[i]->label), name))

@@ -25,6 +25,7 @@ struct node {
 	int row;             /* of its first pin                                 */
 	int rows, up, down;  /* rows from the first to the last pin; around them */
 	bool loose;          /* it has no edges                                  */
+	int place;           /* in its column                                    */
 	double wish;
 };
 
@@ -417,11 +418,6 @@ static void find_order(struct planner *p)
 		copy_order(p, best, true);
 	}
 	copy_order(p, best, false);
-	for (int l = 0; l < p->layers; l++) {
-		for (int i = 0; i < p->layer[l].count; i++)
-			p->node[p->layer[l].node[i]].wish = 0;
-		stack_layer(p, &p->layer[l]);
-	}
 }
 
 /* ---- rows ---- */
@@ -532,7 +528,7 @@ static void place_layer(struct planner *p, const struct layer *layer, bool left,
 		apart += i ? p->node[layer->node[i - 1]].rows + p->node[layer->node[i - 1]].down + node->up + 1 : 0;
 		room->wish[i] = (struct wish){ wish - apart, !tied ? 1 : node->box < 0 ? WAY_WEIGHT : 4 };
 		if (node->loose) /* just below the one before it */
-			room->wish[i] = (struct wish){ -LOOSE, 1 };
+			room->wish[i] = (struct wish){ -LOOSE, 0 };
 		if (hint)
 			room->wish[i] = (struct wish){ hint - 1 + node->up - apart, HINT_WEIGHT };
 		room->block[blocks++] = (struct block){ i, 1, room->wish[i].value };
@@ -580,6 +576,124 @@ static void sort_hints(struct planner *p)
 			node->wish = hint ? hint - 1 + node->up : node->row;
 		}
 		sort_layer(p, &p->layer[l]);
+	}
+}
+
+/* The rows that a node can have while all others keep theirs. */
+static void free_rows(const struct planner *p, int node, int *low, int *high)
+{
+	const struct node *n = &p->node[node];
+	const struct layer *layer = &p->layer[n->layer];
+
+	*low = -LOOSE / 2;
+	*high = LOOSE;
+	if (n->place > 0) {
+		const struct node *above = &p->node[layer->node[n->place - 1]];
+
+		*low = most(*low, above->row + above->rows + above->down + 1 + n->up);
+	}
+	if (n->place + 1 < layer->count) {
+		const struct node *below = &p->node[layer->node[n->place + 1]];
+
+		*high = below->row - below->up - 1 - n->down - n->rows;
+	}
+}
+
+/* How straight the wires of a node are if its row is @row. */
+static int straight_at(const struct planner *p, const struct index *index, int node, int row)
+{
+	int sum = 0;
+
+	for (int side = 0; side < 2; side++) {
+		const struct gap *gap = &p->gap[p->node[node].layer + side];
+		const int base = index->first[2 * p->nodes + p->node[node].layer + side];
+
+		for (int i = index->first[2 * node + side]; i >= 0; i = index->next[2 * i + side]) {
+			const struct bond *e = &gap->edge[i - base];
+			const int bend = side ? row + e->left_port - p->node[e->right].row - e->right_port :
+					 row + e->right_port - p->node[e->left].row - e->left_port;
+
+			sum += bend ? -(bend < 0 ? -bend : bend) : 20;
+		}
+	}
+	return sum;
+}
+
+/* Moves a box to the row where most of its wires are straight. */
+static void settle_box(struct planner *p, const struct index *index, int node)
+{
+	struct node *n = &p->node[node];
+	int low, high, best = straight_at(p, index, node, n->row);
+
+	free_rows(p, node, &low, &high);
+	for (int side = 0; side < 2; side++) {
+		const struct gap *gap = &p->gap[n->layer + side];
+		const int base = index->first[2 * p->nodes + n->layer + side];
+
+		for (int i = index->first[2 * node + side]; i >= 0; i = index->next[2 * i + side]) {
+			const struct bond *e = &gap->edge[i - base];
+			const int row = side ? p->node[e->right].row + e->right_port - e->left_port :
+					p->node[e->left].row + e->left_port - e->right_port;
+
+			if (row < low || row > high || straight_at(p, index, node, row) <= best)
+				continue;
+			best = straight_at(p, index, node, row);
+			n->row = row;
+		}
+	}
+}
+
+/* The nodes from @first to @last of a wire that passes columns get one row. False: no row is free in all of
+ * those columns. */
+static bool settle_run(struct planner *p, int first, int last, int wish)
+{
+	int low = -LOOSE / 2, high = LOOSE;
+
+	for (int i = first; i <= last; i++) {
+		int least, greatest;
+
+		free_rows(p, i, &least, &greatest);
+		low = most(low, least);
+		high = greatest < high ? greatest : high;
+	}
+	if (low > high)
+		return false;
+	wish = wish < low ? low : wish > high ? high : wish;
+	for (int i = first; i <= last; i++)
+		p->node[i].row = wish;
+	return true;
+}
+
+/* A wire bends as seldom as it can. */
+static void settle_net(struct planner *p, const struct net *net)
+{
+	const int ways = net->last - p->node[net->box].layer - 1;
+	int wish = p->node[net->box].row + port_of(p->graph, net->pin);
+
+	for (int i = 0; i < ways;) {
+		int run = ways - i;
+
+		while (run > 1 && !settle_run(p, net->first_way + i, net->first_way + i + run - 1, wish))
+			run = run / 2;
+		if (run == 1)
+			settle_run(p, net->first_way + i, net->first_way + i, wish);
+		i += run;
+		wish = p->node[net->first_way + i - 1].row;
+	}
+}
+
+/* Makes more wires straight without changing the order. */
+static void settle(struct planner *p, const struct index *index)
+{
+	for (int l = 0; l < p->layers; l++)
+		for (int i = 0; i < p->layer[l].count; i++)
+			p->node[p->layer[l].node[i]].place = i;
+	for (int pass = 0; pass < 4; pass++) {
+		for (int n = 0; n < p->nets; n++)
+			settle_net(p, &p->net[n]);
+		for (int i = 0; i < p->nodes; i++)
+			if (p->node[i].box >= 0 && !p->node[i].loose && !p->graph->box[p->node[i].box].at_row)
+				settle_box(p, index, i);
 	}
 }
 
@@ -635,6 +749,31 @@ static void shift_rows(struct planner *p)
 	p->plan->rows = bottom;
 }
 
+/* Takes out the rows that nothing uses; not above a box whose row a person chose. */
+static void close_rows(struct planner *p)
+{
+	int *shift = arena_alloc(&p->arena, (size_t)(p->plan->rows + 1) * sizeof(*shift));
+	int kept = 0, gone = 0;
+
+	if (!shift)
+		return;
+	for (int i = 0; i < p->nodes; i++) {
+		const struct node *node = &p->node[i];
+
+		for (int row = node->row - node->up; row <= node->row + node->rows + node->down; row++)
+			shift[row] = 1;
+		if (node->box >= 0 && p->graph->box[node->box].at_row)
+			kept = most(kept, node->row);
+	}
+	for (int row = 0; row < p->plan->rows; row++) {
+		gone += !shift[row] && row > kept;
+		shift[row] = gone;
+	}
+	for (int i = 0; i < p->nodes; i++)
+		p->node[i].row -= shift[p->node[i].row];
+	p->plan->rows -= gone;
+}
+
 static void find_rows(struct planner *p)
 {
 	const size_t nodes = (size_t)p->nodes + 1;
@@ -665,8 +804,10 @@ static void find_rows(struct planner *p)
 	}
 	for (int i = 0; i < p->nodes; i++)
 		p->node[i].row = best[i];
+	settle(p, &room.index);
 	place_loose(p);
 	shift_rows(p);
+	close_rows(p);
 }
 
 /* ---- the widths of columns ---- */
