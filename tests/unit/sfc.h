@@ -195,7 +195,7 @@ static inline void sfc_begin(struct test_sfc *c)
 static inline void sfc_end(struct test_sfc *c)
 {
 	if (!sfc_link(c->sfc, &c->project->names) ||
-	    !sfc_declare(c->sfc, &c->project->names, &c->pou->vars, &c->project->arena))
+	    !sfc_declare(c->sfc, &c->project->names, &c->pou->vars, &c->project->arena, false))
 		abort();
 }
 

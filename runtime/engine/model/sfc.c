@@ -190,8 +190,76 @@ static bool declare_steps(const struct sfc *sfc, struct names *names,
 	return true;
 }
 
+/* ---- what a chart in a block remembers ---- */
+
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+	do
+		hash = (hash ^ (uint8_t)*text) * 1099511628211u;
+	while (*text++);
+	return hash;
+}
+
+static uint32_t kept_name(struct names *names, const char *what, uint64_t hash)
+{
+	char text[40];
+	const int len = snprintf(text, sizeof(text), "_%.8s_%016llx", what, (unsigned long long)hash);
+
+	return names_intern(names, text, (size_t)len);
+}
+
+uint32_t sfc_use_name(const struct sfc *sfc, struct names *names, const char *what, int number)
+{
+	const struct sfc_use *use = &sfc->use[number];
+	uint64_t hash = hash_text(14695981039346656037u, names_text(names, sfc->step[use->step].name));
+
+	hash = hash_text(hash, names_text(names, use->operand));
+	return kept_name(names, what, hash_text(hash, qualifier_word(use->qualifier)));
+}
+
+uint32_t sfc_called_name(struct names *names, const char *what, uint32_t name)
+{
+	return kept_name(names, what, hash_text(14695981039346656037u, names_text(names, name)));
+}
+
+/* Two uses of a step may be alike. */
+static bool declare_once(struct names *names, struct var_table *table, struct arena *arena,
+			 enum iec_type type, uint32_t name)
+{
+	return name && (vars_find(table, names_fold(names, name)) >= 0 ||
+			declare(names, table, arena, (struct var){ .type = type }, names_text(names, name)));
+}
+
+static bool declare_kept(const struct sfc *sfc, struct names *names, struct var_table *table, struct arena *arena)
+{
+	static const struct { const char *name; enum iec_type type; } own[] = {
+		{ "_Runs", IEC_BOOL }, { "_Last", IEC_TIME }, { "_ResetWas", IEC_BOOL },
+		{ "_TipWas", IEC_BOOL }, { "_ForceWas", IEC_DINT },
+	};
+	const struct var fired = { .type = IEC_BOOL, .has_init = true, .init = { .i = sfc_starts_itself(sfc) } };
+	bool good = declare(names, table, arena, fired, "_Fired");
+	char due[24];
+
+	for (size_t i = 0; i < sizeof(own) / sizeof(*own) && good; i++)
+		good = declare(names, table, arena, (struct var){ .type = own[i].type }, own[i].name);
+	for (int i = 0; i < sfc->use_count && good; i++)
+		good = declare_once(names, table, arena, IEC_BOOL, sfc_use_name(sfc, names, "Kept", i)) &&
+		       declare_once(names, table, arena, IEC_BOOL, sfc_use_name(sfc, names, "Wait", i)) &&
+		       declare_once(names, table, arena, IEC_TIME, sfc_use_name(sfc, names, "Since", i)) &&
+		       declare_once(names, table, arena, IEC_BOOL,
+				    sfc_called_name(names, "Was", sfc->use[i].operand));
+	for (int i = 0; i < sfc->action_count && good; i++)
+		good = declare_once(names, table, arena, IEC_BOOL,
+				    sfc_called_name(names, "Was", sfc->action[i].name));
+	for (int i = 0; i < sfc->use_count + sfc->action_count && good; i++) { /* one behind the other */
+		snprintf(due, sizeof(due), "_Due%d", i + 1);
+		good = declare(names, table, arena, (struct var){ .type = IEC_BOOL }, due);
+	}
+	return good;
+}
+
 bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
-		   struct arena *arena)
+		   struct arena *arena, bool kept)
 {
 	struct var_block *block = arena_push(arena, &table->block, &table->block_count,
 					     sizeof(*block));
@@ -203,7 +271,15 @@ bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
 	return declare_steps(sfc, names, table, arena, IEC_BOOL, 'X') &&
 	       declare_steps(sfc, names, table, arena, IEC_TIME, 'T') &&
 	       declare(names, table, arena, (struct var){ .type = IEC_BOOL },
-		       SFC_CONDITION);
+		       SFC_CONDITION) && (!kept || declare_kept(sfc, names, table, arena));
+}
+
+bool sfc_starts_itself(const struct sfc *sfc)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		if (sfc->control[i])
+			return false;
+	return !sfc_goes_round(sfc);
 }
 
 bool sfc_rests_at_once(const struct sfc *sfc)

@@ -173,15 +173,22 @@ int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t nam
  */
 bool sfc_link(struct sfc *sfc, struct names *names);
 
+/** sfc_use_name, sfc_called_name - the hidden variable of a FUNCTION_BLOCK in which its chart remembers @what of a use,
+ * or of the action or BOOL @name. It is the same in a chart that was changed elsewhere. Scan-safe: no. Fails: 0: no memory. */
+uint32_t sfc_use_name(const struct sfc *sfc, struct names *names, const char *what, int number);
+uint32_t sfc_called_name(struct names *names, const char *what, uint32_t name);
+/** sfc_starts_itself - does the first scan act as if transitions had fired? Then only code that
+ * leaves steps tests whether the chart runs. Scan-safe: yes. */
+bool sfc_starts_itself(const struct sfc *sfc);
 /**
  * sfc_declare - declares Name.X and Name.T of every step, and SFC_CONDITION
  * @table: of the POU; gets a block with VAR_SFC behind its blocks
+ * @kept:  also what the chart remembers, as it lies in each instance of a FUNCTION_BLOCK
  *
  * All Name.X one after another, in the order of the steps, then all Name.T.
  * Scan-safe: no. Fails: false: no memory.
  */
-bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
-		   struct arena *arena);
+bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table, struct arena *arena, bool kept);
 /** sfc_evolution_words - the words behind SFC: "UNTIL STABLE", "IN ORDER", "". Static.
  * Scan-safe: yes. */
 const char *sfc_evolution_words(enum sfc_evolution evolution);

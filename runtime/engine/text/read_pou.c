@@ -263,7 +263,7 @@ static void read_evolution(struct reader *r, struct sfc *sfc, const char *word,
 
 static void begin_chart(struct reader *r, struct pou *pou)
 {
-	if (pou->kind != POU_PROGRAM)
+	if (pou->kind != POU_PROGRAM && pou->kind != POU_BLOCK)
 		reader_fail_word(r, DIAG_SFC_KIND, pou_word(pou->kind));
 	pou->language = LANGUAGE_SFC;
 	pou->sfc = arena_alloc(&r->project->arena, sizeof(*pou->sfc));

@@ -972,6 +972,6 @@ void read_sfc(struct reader *r, struct pou *pou)
 	close_macros(&in);
 	r->across_lines = false;
 	if (r->no_memory || !sfc_link(sfc, &project->names) ||
-	    !sfc_declare(sfc, &project->names, &pou->vars, &project->arena))
+	    !sfc_declare(sfc, &project->names, &pou->vars, &project->arena, pou->kind == POU_BLOCK))
 		r->no_memory = true;
 }

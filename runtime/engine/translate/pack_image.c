@@ -307,6 +307,17 @@ static const struct var *member_of(const struct assembler *as, const struct leve
 	return table && top->next < table->count ? &table->var[top->next] : NULL;
 }
 
+/* What a chart in a block remembers: it has a name that nobody writes, unlike `Fill.X`. */
+static uint32_t hidden(const struct assembler *as, const struct word_row *row, const struct word_pin *pin)
+{
+	const struct var_table *table = row->kind == WORD_FB && row->owner >= 0 ?
+		&as->translation->project->pou[row->owner].vars : NULL;
+	const int index = (int)(pin - row->pin);
+
+	return table && index < table->count && vars_flags(table, index) & VAR_SFC && !strchr(pin->name, '.') ?
+	       SYMBOL_HIDDEN : 0;
+}
+
 /* BOOLs of a structure at an address, each the lowest bit of its byte. @end: of @name so far. */
 static void add_bits(struct assembler *as, struct maps *maps, char *end, const char *name,
 		     const struct word_pin *pin, const struct var *var, uint32_t element, uint32_t at,
@@ -368,7 +379,7 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 				.len = len };
 		else
 			add_part(as, maps, name, pin, at,
-				 *pin->name ? marks : SYMBOL_HIDDEN);
+				 *pin->name ? marks | hidden(as, top->row, pin) : SYMBOL_HIDDEN);
 	}
 }
 

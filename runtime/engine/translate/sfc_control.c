@@ -223,7 +223,7 @@ void sfc_control(struct sfc_il *s)
 	}
 	if (has_modes(s))
 		put_modes(s);
-	if (!sfc_starts_itself(s))
+	if (!sfc_starts_itself(s->sfc))
 		sfc_start(s);
 	sfc_supervise(s);
 	if (reset)

@@ -393,7 +393,7 @@ void sfc_leave(struct sfc_il *s)
 	sfc_each(s, s->leave, sfc_var(s, "Left", 0, IEC_BOOL), label, count);
 	if (sfc_may_begin_anew(s))
 		sfc_set(s, sfc_anew(s), false);
-	if (sfc_starts_itself(s))
+	if (sfc_starts_itself(s->sfc))
 		sfc_start(s);
 	sfc_jump(s, s->enter);
 	for (int i = 0; i < count; i++)

@@ -119,11 +119,28 @@ static void remember(struct sfc_il *s, const char *name, int number)
 	s->ld.failed |= !temps_remember(s->ld.temps, key);
 }
 
+/* Each instance of a block remembers for itself: model/sfc.c has declared it. */
+static uint32_t kept_in_block(struct sfc_il *s, const char *name, int number)
+{
+	struct names *names = &s->ld.translation->project->names;
+	const enum owner owner = owner_of(name);
+	const struct sfc_called *called;
+
+	if (owner == OWNER_USE)
+		return sfc_use_name(s->sfc, names, name, number);
+	if (owner != OWNER_CALLED || strcmp(name, "Due") == 0)
+		return sfc_label(s, name, number);
+	called = &s->called[number];
+	return sfc_called_name(names, name, called->action < 0 ? called->operand :
+					    s->sfc->action[called->action].name);
+}
+
 /* The list that is watched comes second, with the variables of the first. */
 static uint32_t declare(struct sfc_il *s, const char *name, int number,
 			struct var like)
 {
-	const uint32_t id = sfc_label(s, name, number);
+	const uint32_t id = s->ld.unit->pou->kind == POU_BLOCK ? kept_in_block(s, name, number) :
+								 sfc_label(s, name, number);
 	enum diag_id why;
 
 	if (!id || scope_find(s->ld.translation->scope, s->ld.unit->pou, id, &why))
@@ -146,14 +163,6 @@ static uint32_t declare_bool(struct sfc_il *s, const char *name, int number, boo
 {
 	return declare(s, name, number, (struct var){ .type = IEC_BOOL,
 		.has_init = value, .init = { .i = value } });
-}
-
-bool sfc_starts_itself(const struct sfc_il *s)
-{
-	for (int i = 0; i < CONTROL_COUNT; i++)
-		if (s->sfc->control[i])
-			return false;
-	return !sfc_goes_round(s->sfc);
 }
 
 uint32_t sfc_x_name(const struct sfc_il *s, int step)
@@ -299,7 +308,7 @@ static bool begin(struct sfc_il *s)
 	s->cursor = sfc_var(s, "Step", -1, IEC_UDINT);
 	s->dt = sfc_var(s, "Dt", -1, IEC_TIME);
 	s->last = sfc_var(s, "Last", -1, IEC_TIME);
-	s->fired = declare_bool(s, "Fired", -1, sfc_starts_itself(s));
+	s->fired = declare_bool(s, "Fired", -1, sfc_starts_itself(s->sfc));
 	/* Places BOOLs of one kind one after the other, because EACH goes through them. */
 	for (int i = 0; i < s->sfc->step_count; i++)
 		sfc_var(s, "Left", i, IEC_BOOL);

@@ -67,9 +67,6 @@ void sfc_jump_if(struct sfc_il *s, uint32_t label);
 void sfc_jump_unless(struct sfc_il *s, uint32_t label);
 /** sfc_var - a variable of the chart's own: "_Left3"; declared at its first use. */
 uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type type);
-/** sfc_starts_itself - does the first scan act as if transitions had fired? Then only code that
- * leaves steps tests whether the chart runs. */
-bool sfc_starts_itself(const struct sfc_il *s);
 /** sfc_x_name, sfc_t_name - the names of Step.X and Step.T. */
 uint32_t sfc_x_name(const struct sfc_il *s, int step);
 uint32_t sfc_t_name(const struct sfc_il *s, int step);
