@@ -516,7 +516,7 @@ static void show_line(LadderSimRowView *view)
 	gtk_label_set_text(GTK_LABEL(view->address), row->address ? row->address : "");
 	gtk_widget_set_visible(view->address, row->address != NULL);
 	gtk_label_set_text(GTK_LABEL(view->pin), row->pin ? row->pin : "");
-	gtk_widget_set_visible(view->pin, row->pin != NULL);
+	gtk_widget_set_visible(view->pin, row->pin && !row->driven); /* the plant drives it; the tip has both */
 	gtk_label_set_text(GTK_LABEL(view->tag), row->driven ? _("plant") :
 			   row->key ? row->key : "");
 	gtk_widget_set_visible(view->tag, row->driven || row->key);

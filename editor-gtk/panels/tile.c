@@ -119,6 +119,21 @@ static GtkWidget *label_new(const char *text, const char *class)
 	return label;
 }
 
+/* "Umschalt+Strg+Runter" is broken behind a sign, without a hyphen. */
+static GtkWidget *key_new(const char *key)
+{
+	char **parts = g_strsplit(key, "+", -1), *text = g_strjoinv("+\xe2\x80\x8b", parts);
+	GtkWidget *label = label_new(text, "tile-key");
+	PangoAttrList *attrs = pango_attr_list_new();
+
+	pango_attr_list_insert(attrs, pango_attr_insert_hyphens_new(FALSE));
+	gtk_label_set_attributes(GTK_LABEL(label), attrs);
+	pango_attr_list_unref(attrs);
+	g_free(text);
+	g_strfreev(parts);
+	return label;
+}
+
 static void can_be_dragged(GtkWidget *button, LadderIcon *icon)
 {
 	GtkDragSource *drag = gtk_drag_source_new();
@@ -146,7 +161,7 @@ GtkWidget *tile_new(const struct tile *tile)
 	gtk_box_append(GTK_BOX(box), GTK_WIDGET(icon));
 	gtk_box_append(GTK_BOX(box), label_new(tile->name, "tile-name"));
 	if (tile->key[0])
-		gtk_box_append(GTK_BOX(box), label_new(tile->key, "tile-key"));
+		gtk_box_append(GTK_BOX(box), key_new(tile->key));
 	gtk_button_set_child(GTK_BUTTON(button), box);
 	tip_set(button, tip);
 	spoken_name(button, tip);

@@ -187,6 +187,20 @@ static void test_closed(void)
 	end();
 }
 
+/* An undone step of a closed file goes, and those that are done stay so. */
+static void test_closed_undone(void)
+{
+	start();
+	ladder_document_toggle_bookmark(document, 0, 0);
+	insert(0, 0, "one");
+	CHECK(ladder_document_undo(document) && is_text(0, ""));
+	file_history_free(history[0]);
+	history[0] = NULL;
+	CHECK(!ladder_document_redo_name(document));
+	CHECK(ladder_document_undo(document) && !ladder_document_is_bookmarked(document, 0, 0));
+	end();
+}
+
 /* ---- at random ---- */
 
 static const char *const pieces[] = { "a", "ö", "门", "\n", "line\nline", "Türe", "" };
@@ -298,6 +312,7 @@ int main(void)
 	test_save_between();
 	test_read_again();
 	test_closed();
+	test_closed_undone();
 	test_random();
 	g_free(told_text);
 	return tap_done();

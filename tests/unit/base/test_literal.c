@@ -417,6 +417,9 @@ static void lreals(void)
 	CHECK_AS(becomes("9007199254740993", LITERAL_OK) &&
 		 !literal_fit(&last, IEC_LREAL, &value),
 		 "a whole number that an LREAL cannot hold exactly does not fit");
+	CHECK(becomes("-9007199254740992", LITERAL_OK) &&
+	      literal_fit(&last, IEC_LREAL, &value) && value.r == -9007199254740992.0);
+	CHECK(becomes("-9007199254740993", LITERAL_OK) && !literal_fit(&last, IEC_LREAL, &value));
 }
 
 int main(void)
