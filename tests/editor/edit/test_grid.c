@@ -59,6 +59,35 @@ static void check_takes(struct grid_bench *bench, const char *rung_text, const c
 	rung_free(rung);
 }
 
+/* ---- places to end a wire ---- */
+
+/* The wire begins at the left of the second row. A line for each row, x where it can end. */
+static void check_ends(struct grid_bench *bench, const char *rung_text, const char *want)
+{
+	struct rung *rung = grid_read(bench, rung_text);
+	const struct grid_end from = { 1, 0 };
+	bool all[TAKES_ROWS * GRID_COLUMNS] = { false }, alike = true;
+	char got[TAKES_ROWS * (GRID_COLUMNS + 1)], *to = got;
+
+	if (!CHECK(rung))
+		return;
+	grid_wire_ends(rung, GRID_COLUMNS, from, TAKES_ROWS, all);
+	for (int row = 0; row < TAKES_ROWS; row++) {
+		for (int bar = 0; bar < GRID_COLUMNS; bar++) {
+			const bool one = all[row * GRID_COLUMNS + bar];
+
+			*to++ = one ? 'x' : '.';
+			alike &= one == (grid_wire_course(rung, GRID_COLUMNS, from, (struct grid_end){ row, bar },
+							  false) != GRID_NO_COURSE);
+		}
+		*to++ = row + 1 < TAKES_ROWS ? ' ' : '\0';
+	}
+	CHECK_AS(alike, "grid_wire_ends() and grid_wire_course() agree");
+	if (!CHECK_AS(strcmp(got, want) == 0, "where a wire can end"))
+		printf("# got:  %s\n# want: %s\n", got, want);
+	rung_free(rung);
+}
+
 int main(void)
 {
 	struct grid_bench bench;
@@ -76,6 +105,9 @@ int main(void)
 	}
 	for (size_t i = 0; i < sizeof(takes) / sizeof(*takes); i++)
 		check_takes(&bench, takes[i].rung, takes[i].cell, takes[i].takes);
+	check_ends(&bench, "| NO A | NC B | COIL Q |\n", "xxxxxx .xxxxx ...... ......");
+	/* Around the contact, below it. */
+	check_ends(&bench, "| NO A | NC B | COIL Q |\n| NO C ^ | --- | --- |\n", "x..... .xxxxx xxxxxx ......");
 	grid_bench_close(&bench);
 	return tap_done();
 }
