@@ -21,13 +21,14 @@ runtime/engine/translate  engine/base engine/model engine/check engine/scan/code
 runtime/engine/show       engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/xref       engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/compare    engine/base engine/model engine/scan engine/check engine/text engine/translate
+runtime/engine/convert    engine/base engine/model engine/check engine/text
 runtime/engine/exchange   engine/base
 runtime/engine/exchange/classic engine/base engine/model engine/check engine/text engine/translate engine/xref engine/exchange engine/classic.def
 runtime/engine/exchange/iec_file engine/base engine/text
 runtime/engine/exchange/plcopen engine/base engine/model engine/exchange engine/check engine/text
 runtime/engine/exchange/image engine/base engine/scan engine/exchange
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def
-runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/exchange engine/exchange/classic engine/exchange/iec_file engine/exchange/plcopen engine/trial
+runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/convert engine/exchange engine/exchange/classic engine/exchange/iec_file engine/exchange/plcopen engine/trial
 hal                       engine/base engine/scan/image.h engine/scan/code_access.h
 runtime/ladder            $doors engine/exchange engine/exchange/classic engine/exchange/image hal online engine/text engine/catalog.def
 runtime/online            engine/base engine/scan

@@ -11,6 +11,7 @@
 #   expected.why    output of `ladder why main.rung stimulus COIL` for each line in `ask`
 #   expected.show   output of `ladder show main.rung`; expected.ascii: with --ascii
 #   expected.ladder output of `ladder export --as ld`, and its messages
+#   expected.st     output of `ladder export --as st`, and its messages; expected.lists: --as il
 #   expected.classic output of `ladder export --as classicladder`, and its messages;
 #                   expected.numeric: --as numeric
 #   expected.test   standard error of `ladder test main.scn`
@@ -40,6 +41,8 @@ my %command = (
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
 	ladder => ['export', '--as', 'ld', 'main.rung'],
+	st => ['export', '--as', 'st', 'main.rung'],
+	lists => ['export', '--as', 'il', 'main.rung'],
 	classic => ['export', '--as', 'classicladder', 'main.rung'],
 	numeric => ['export', '--as', 'numeric', 'main.rung'],
 	show  => ['show', 'main.rung'],

@@ -798,13 +798,6 @@ const struct il *ladder_il(const struct ladder *ladder, int pou)
 	return &ladder->translation.unit[pou].il;
 }
 
-bool ladder_declare_wires(struct ladder *ladder, int pou)
-{
-	struct project *project = ladder->project;
-
-	return wires_declare(project, &project->pou[pou], &project->pou[pou].il);
-}
-
 struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,
 				      int *count)
 {

@@ -144,9 +144,6 @@ struct diag_list *ladder_diags(struct ladder *ladder);
 struct project *ladder_project(struct ladder *ladder); /* NULL: an image    */
 const struct program *ladder_program(const struct ladder *ladder); /* NULL  */
 const void *ladder_image(const struct ladder *ladder, size_t *len);
-/** ladder_declare_wires - for a printed list: the wires of networks of POU @pou, and those in its list, get
- * names that can be declared. Nothing else may be asked behind it. Fails: false: no memory. */
-bool ladder_declare_wires(struct ladder *ladder, int pou);
 /** ladder_il - the instruction list of POU @pou (translated, or as written); NULL before
  * ladder_build. */
 const struct il *ladder_il(const struct ladder *ladder, int pou);
@@ -220,6 +217,23 @@ char *ladder_write_source(struct ladder *ladder, int number, size_t *len);
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
+/**
+ * ladder_export_st - the project with ladders as Structured Text (convert/convert.h)
+ * @wanted: a byte a POU: 1 for a ladder that becomes Structured Text
+ * @diags:  gets LD780 to LD785 for parts that cannot be converted
+ *
+ * The project is built. The text is not canonical. Owns: the caller, free(). Scan-safe: no.
+ * Fails: NULL after a diagnostic, or when nothing was loaded.
+ */
+char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags);
+/**
+ * ladder_export_lists - the project with the lists that run, in canonical form
+ * @wanted: a byte a POU; NULL: all of them, with those of files that the project names
+ *
+ * The project is built; its POUs are lists afterwards, and it can only be freed. Lists of charts cannot be
+ * read again. Owns: the caller, free(). Scan-safe: no. Fails: NULL: no memory.
+ */
+char *ladder_export_lists(struct ladder *ladder, const uint8_t *wanted, size_t *len);
 /** ladder_sfc_fits_classic - whether each chart can be a sequential page of
  * ClassicLadder. If not, use ladder_export_ladder() first. Scan-safe: no. */
 bool ladder_sfc_fits_classic(struct ladder *ladder);

@@ -76,6 +76,147 @@ static enum status export_ladder(struct call *call, struct ladder *ladder,
 	return status;
 }
 
+/* ---- other languages ---- */
+
+static bool is_ladder(const struct pou *pou)
+{
+	return pou->language == LANGUAGE_LD && !pou->included;
+}
+
+static bool is_no_list(const struct pou *pou)
+{
+	return pou->language != LANGUAGE_IL && !pou->included;
+}
+
+/* A function main runs by itself where it is Structured Text (model/caller.h), so it stays. */
+static void keep_main(const struct project *project, uint8_t *wanted)
+{
+	const int at = project_find_pou(project, "main", 4);
+
+	if (at >= 0 && project->pou[at].kind == POU_FUNCTION && project->pou[at].unsaid)
+		wanted[at] = 0;
+}
+
+/* The first error of the converted text, if it has one. */
+static const struct diag *first_error(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
+			return &diags->diag[i];
+	return NULL;
+}
+
+/* Writes @text in canonical form, if it is a program: a name may have another meaning in the other language. */
+static enum status write_converted(struct call *call, const char *path, const char *text, size_t len,
+				   enum pou_language to)
+{
+	struct ladder *ladder = ladder_new();
+	enum status status = STATUS_NO;
+	const struct diag *error;
+	char *out;
+
+	if (!ladder)
+		return report_no_memory(path);
+	if (ladder_load_text(ladder, path, text, len) && ladder_build(ladder)) {
+		out = ladder_write(ladder, &len);
+		status = out ? write_out(call, out, len) : report_no_memory(path);
+		free(out);
+	}
+	error = first_error(ladder_diags(ladder));
+	if (error)
+		report_diag((struct diag){ .id = DIAG_CONVERT_UNREAD, .file = path },
+			    "%s" DIAG_AND "%s" DIAG_AND "%s" DIAG_AND "%.*s", error->pou ? error->pou : path,
+			    pou_language_word(to), diag_code(error->id), diag_name_length(error), error->arg);
+	ladder_free(ladder);
+	return status;
+}
+
+static void refuse_pou(const struct pou *pou, const struct project *project, enum pou_language to)
+{
+	report_diag((struct diag){ .id = DIAG_CONVERT_LANGUAGE, .file = pou->file, .line = pou->line },
+		    "%s" DIAG_AND "%s" DIAG_AND "%s", project_text(project, pou->name),
+		    pou_language_word(pou->language), pou_language_word(to));
+}
+
+/* A byte a POU: those that are named behind FILE, else all that @fits. NULL after a message. */
+static uint8_t *choose(const struct call *call, const struct project *project, enum pou_language to,
+		       bool (*fits)(const struct pou *pou))
+{
+	uint8_t *wanted = calloc((size_t)project->pou_count + 1, 1);
+
+	if (!wanted) {
+		report_no_memory(call->arg[0]);
+		return NULL;
+	}
+	for (int i = 0; call->arg_count == 1 && i < project->pou_count; i++)
+		wanted[i] = fits(&project->pou[i]);
+	for (int i = 1; i < call->arg_count; i++) {
+		const int at = project_find_pou(project, call->arg[i], strlen(call->arg[i]));
+
+		if (at >= 0 && fits(&project->pou[at])) {
+			wanted[at] = 1;
+			continue;
+		}
+		if (at < 0)
+			report_missing(call, "POU", call->arg[i]);
+		else
+			refuse_pou(&project->pou[at], project, to);
+		free(wanted);
+		return NULL;
+	}
+	return wanted;
+}
+
+static bool has_chart(const struct project *project, const uint8_t *wanted)
+{
+	for (int i = 0; i < project->pou_count; i++)
+		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC)
+			return true;
+	return false;
+}
+
+static enum status export_st(struct call *call, struct ladder *ladder, const char *path)
+{
+	uint8_t *wanted = choose(call, ladder_project(ladder), LANGUAGE_ST, is_ladder);
+	struct diag_list *diags = wanted ? report_list(path) : NULL;
+	enum status status = STATUS_NO;
+	char *text = NULL;
+	size_t len;
+
+	if (diags) {
+		text = ladder_export_st(ladder, wanted, &len, diags);
+		ladder_import_places(ladder, diags);
+		report_end(diags);
+	}
+	if (text)
+		status = write_converted(call, path, text, len, LANGUAGE_ST);
+	free(text);
+	free(wanted);
+	return status;
+}
+
+static enum status export_il(struct call *call, struct ladder *ladder, const char *path)
+{
+	const struct project *project = ladder_project(ladder);
+	uint8_t *wanted = choose(call, project, LANGUAGE_IL, is_no_list);
+	enum status status = STATUS_NO;
+	char *text = NULL;
+	size_t len;
+
+	if (wanted)
+		keep_main(project, wanted);
+	for (int i = 0; wanted && i < project->pou_count; i++)
+		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC)
+			refuse_pou(&project->pou[i], project, LANGUAGE_IL);
+	if (wanted && !has_chart(project, wanted)) {
+		text = ladder_export_lists(ladder, wanted, &len);
+		status = text ? write_converted(call, path, text, len, LANGUAGE_IL) : report_no_memory(path);
+	}
+	free(text);
+	free(wanted);
+	return status;
+}
+
 /* ---- the I/O map as lines of ioconf.csv ---- */
 
 enum { RASPBERRY = 2, SAMPLES = 3, PINS = 1000 };
@@ -288,14 +429,11 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 	return status;
 }
 
-static enum status export_any(struct call *call, struct ladder *ladder, const char *path,
-			      int word)
+static enum status export_to_classic(struct call *call, struct ladder *ladder, const char *path, int word)
 {
 	struct target to = { .lines = { NULL, 0, 0 } };
 	enum status status;
 
-	if (word == CLASSIC_WORDS)
-		return export_ladder(call, ladder, path);
 	to.dialect = classic_words[word].dialect;
 	arena_init(&to.arena);
 	if (!find_lines(call, ladder, &to))
@@ -308,25 +446,35 @@ static enum status export_any(struct call *call, struct ladder *ladder, const ch
 	return status;
 }
 
+static const struct {
+	const char *word;
+	enum status (*run)(struct call *call, struct ladder *ladder, const char *path);
+} languages[] = { { "ld", export_ladder }, { "st", export_st }, { "il", export_il } };
+enum { LANGUAGES = sizeof(languages) / sizeof(*languages) };
+
 enum status cmd_export(struct call *call)
 {
 	const char *path = call->arg[0], *as = call_option(call, "--as");
+	int classic = 0, language = 0;
 	struct ladder *ladder;
 	enum status status;
-	int word = 0;
 
-	while (as && word < CLASSIC_WORDS && strcmp(as, classic_words[word].word) != 0)
-		word++;
-	if (!as || (word == CLASSIC_WORDS && strcmp(as, "ld") != 0))
-		return report_usage(call, "--as needs ld, classicladder, linuxcnc or "
-				    "numeric");
+	while (as && classic < CLASSIC_WORDS && strcmp(as, classic_words[classic].word) != 0)
+		classic++;
+	while (as && language < LANGUAGES && strcmp(as, languages[language].word) != 0)
+		language++;
+	if (!as || (classic == CLASSIC_WORDS && language == LANGUAGES))
+		return report_usage(call, "--as needs st, ld, il, classicladder, linuxcnc or numeric");
+	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_ladder))
+		return report_usage(call, "POUs can be named with --as st and --as il");
 	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);
 	ladder_classic_task(ladder, true);
 	status = report_load(ladder, path, true);
 	if (status == STATUS_GOOD)
-		status = export_any(call, ladder, path, word);
+		status = language < LANGUAGES ? languages[language].run(call, ladder, path) :
+			 export_to_classic(call, ladder, path, classic);
 	ladder_free(ladder);
 	return status;
 }

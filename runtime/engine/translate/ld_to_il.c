@@ -9,6 +9,7 @@
 
 #include "engine/check/wires.h"
 #include "engine/check/reserved.h"
+#include "engine/check/touch.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -817,59 +818,7 @@ static int group_size(const struct ld *ld, const int *actor, int first,
 	return n;
 }
 
-/* Bytes of its area that @m may cover; one past the last. */
-static uint32_t end_byte(const struct meaning *m)
-{
-	struct iec_addr last = m->addr;
-	uint32_t count = meaning_reach(m).count;
-
-	if (count)
-		last = vars_shift(m->addr, count - 1);
-	return last.byte + (last.bits + 7u) / 8;
-}
-
 /* ---- keeping aside ---- */
-
-static bool is_var(const struct meaning *m)
-{
-	return m->var && (m->kind == MEANING_VARIABLE || m->kind == MEANING_PIN ||
-			  m->kind == MEANING_INSTANCE ||
-			  m->kind == MEANING_STRUCT ||
-			  m->kind == MEANING_ARRAY ||
-			  m->kind == MEANING_ELEMENT);
-}
-
-/* Bytes of a variable that it may cover: all elements that an index may reach. */
-static uint32_t end_of(const struct scope *scope, const struct meaning *m)
-{
-	return m->offset + scope_span(scope, m);
-}
-
-/* Do two parts of one variable overlap? With an address, compares places. */
-static bool parts_touch(const struct scope *scope, const struct meaning *a,
-			const struct meaning *b)
-{
-	return a->offset < end_of(scope, b) && b->offset < end_of(scope, a);
-}
-
-static bool bytes_overlap(const struct meaning *a, const struct meaning *b)
-{
-	if (a->addr.area != b->addr.area || a->addr.area == AREA_NONE)
-		return false;
-	if (a->addr.bits == 1 && b->addr.bits == 1 && !meaning_reach(a).count &&
-	    !meaning_reach(b).count)
-		return a->addr.byte == b->addr.byte && a->addr.bit == b->addr.bit;
-	return a->addr.byte < end_byte(b) && b->addr.byte < end_byte(a);
-}
-
-/* Can a write to @a change what is read from @b? */
-static bool touches(const struct scope *scope, const struct meaning *a,
-		    const struct meaning *b)
-{
-	if (is_var(a) && is_var(b) && a->var == b->var)
-		return parts_touch(scope, a, b);
-	return bytes_overlap(a, b);
-}
 
 static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
 {
@@ -879,7 +828,7 @@ static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
 		struct element_state *state = &ld->element[at];
 		const struct meaning *read = ld_meaning(ld, state->leaf);
 
-		if (!read || !touches(ld->translation->scope, write, read))
+		if (!read || !meaning_touches(ld->translation->scope, write, read))
 			continue;
 		ld_emit(ld, OP_LD, 0, state->leaf);
 		state->leaf = ld_store_new(ld);
@@ -898,7 +847,7 @@ void ld_freeze(struct ld *ld, uint32_t operand)
 	if (write->addr.area == AREA_NONE)
 		return;
 	freeze_at(ld, write, key - 1);
-	last = key + (end_byte(write) - 1) / 8 - write->addr.byte / 8 + 1;
+	last = key + (meaning_end(write) - 1) / 8 - write->addr.byte / 8 + 1;
 	if (last - key > ld->reader_mask)
 		last = key + ld->reader_mask; /* write all of them then */
 	for (; key != last; key++)

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * convert - a project with the bodies of POUs in another language. In each scan they do the same as
+ * before, to the bit.
+ *
+ * What the other language cannot say is refused with its place, never written in another sense.
+ */
+#ifndef CONVERT_CONVERT_H
+#define CONVERT_CONVERT_H
+
+#include "engine/base/diag.h"
+#include "engine/base/sink.h"
+#include "engine/model/project.h"
+
+/**
+ * convert_to_st - the text of @project with ladders as Structured Text
+ * @project: without errors; its table of names grows
+ * @wanted:  a byte a POU: 1 for those that become Structured Text
+ * @sink:    gets the text, which is not canonical
+ * @diags:   gets LD780 to LD787 with their places
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.
+ */
+bool convert_to_st(struct project *project, const uint8_t *wanted, const struct sink *sink,
+		   struct diag_list *diags);
+
+/** convert_lists - makes the lists that run the bodies of POUs, in @project itself
+ * @lists: of each POU; NULL: as it is   @temps: what the translation added to it, @temp_count of it
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false: no memory. */
+bool convert_to_il(struct project *project, int pou, const struct il *list, struct var *const *temp,
+		   int temp_count);
+/** convert_join - parts of files that are named by INCLUDE or USES become parts of the file itself. */
+void convert_join(struct project *project);
+#endif
