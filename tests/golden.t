@@ -117,8 +117,8 @@ sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|classic|numeric/ ? "$out$err" : $out;
-	my $wanted = $kind eq 'fault' || ($kind =~ /diag|test|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
+	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|^st$|lists|classic|numeric/ ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind =~ /diag|^test|^st$|lists|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
@@ -203,7 +203,7 @@ my %in_library = (LD135 => 'unit/trial/test_scenario.c');
 
 sub missing_codes {
 	my $shown = join '', map { my $dir = $_; map { slurp("$dir/expected.$_") // '' }
-		qw(diag test ladder classic numeric) } cases();
+		qw(diag test st lists ladder classic numeric) } cases();
 	slurp("$tests/$in_library{$_}") =~ /"$_:\d/ and $shown .= " $_: " for keys %in_library;
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
