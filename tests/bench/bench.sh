@@ -76,6 +76,9 @@ for kind in $(perl "$(dirname "$0")/programs.pl" families); do
 	echo "| $kind | $(both zero 1000) | $(both fixed 1000) | $(both random 1000)" \
 		"| $(per "$(field "$tmp/p.json" code_bytes)" 1000 %.0f) |"
 done
+echo
+echo "1,000 networks of 6 blocks: $(per "$(median "$tmp/network.json" body_fixed_ns)" 6000 %.1f) ns a block in FBD," \
+	"$(per "$(median "$tmp/network_ld.json" body_fixed_ns)" 6000 %.1f) ns in LD."
 if $cc -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tmp/real" -lm; then
 	c=$("$tmp/real")
 	vm=$(per "$(median "$tmp/real.json" body_fixed_ns)" 1000 %.2f)

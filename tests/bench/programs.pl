@@ -10,7 +10,7 @@
 # chart:  a chart of N steps, 50 in each of its simultaneous sequences, so that N / 50 are
 #         active; 6 transitions for 5 steps, every fifth step has a choice
 # lines:  N lines of Structured Text: conditions, sums, calls of one function
-# others: N rungs of one family of words (%family)
+# others: N rungs of one family of words (%family); network: N networks of 6 blocks in FBD, network_ld: the same in LD
 use strict;
 use warnings;
 
@@ -32,6 +32,11 @@ my %family = (
 	array => ['I# : INT := 3; T# : ARRAY[0..7] OF INT; C# : INT;', '| MOVE IN:=T#[I#] OUT=>C# |'],
 	noise => ['A# : LINT := #;', '| [ A# := (A# * 1103515245 + 12345) MOD 2147483648 ] |'],
 	lively => ['On# : BOOL; Count# : DINT;', '| NC On# | [ Count# := Count# + 1 ] | COIL On# |'],
+	network => ['A# : INT := 3; B# : INT := 7; C# : INT; Out# : BOOL;', "Low := LT(A#, B#)\n  Sum := ADD(A#, B#)\n  Top := LIMIT(0, Sum, 100)\n"
+		. "  C# := SEL(Low, Top, A#)\n  Big := GT(C#, 50)\n  Out# := AND(Big, NOT Low)"],
+	network_ld => ['A# : INT := 3; B# : INT := 7; C# : INT; D# : INT; E# : INT; Low# : BOOL; Out# : BOOL;', '| LT IN1:=A# IN2:=B# | COIL Low# |'
+		. "\nRUNG\n  | ADD IN1:=A# IN2:=B# OUT=>D# | LIMIT MN:=0 IN:=D# MX:=100 OUT=>E# | SEL G:=Low# IN0:=E# IN1:=A# OUT=>C# |"
+		. "\nRUNG\n  | GT IN1:=C# IN2:=50 | NC Low# | COIL Out# |"],
 	own => ['In# : BOOL := TRUE; Out# : BOOL; Own# : Latch;', '| NO In# | Latch Own# | COIL Out# |'],
 );
 my $latch = "FUNCTION_BLOCK Latch LD\nVAR_INPUT\n  Set : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
@@ -48,8 +53,8 @@ if ($family{$kind}) {
 	my ($declared, $rung) = @{$family{$kind}};
 	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
 	print '  ', $declared =~ s/#(?=[^0-9F]|$)/$_/gr =~ s/; (?=\w)/;\n  /gr, "\n" for 0 .. $n - 1;
-	print "END_VAR\n\nPROGRAM Main LD\n";
-	print "RUNG\n  ", $rung =~ s/(?<![0-9T])#|(?<=\bT)#(?=\[)/$_/gr, "\n" for 0 .. $n - 1;
+	print "END_VAR\n\nPROGRAM Main ", $kind eq 'network' ? "FBD\n" : "LD\n";
+	print $kind eq 'network' ? 'NETWORK' : 'RUNG', "\n  ", $rung =~ s/(?<![0-9T])#|(?<=\bT)#(?=\[)/$_/gr, "\n" for 0 .. $n - 1;
 	print "END_PROGRAM\n";
 	exit;
 }

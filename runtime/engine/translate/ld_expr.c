@@ -664,16 +664,34 @@ static struct value chain_assigned(struct chain *c, uint32_t target, uint32_t to
 		       settle(c, chain_fit(c, chain_compute(c, c->expr->root, type, 0), type)));
 }
 
-/* Freezes what the bodies of functions further right may write. */
+/* Is it a variable, or a part of one, that a => of the expression writes? */
+static bool is_output(struct chain *c, const struct meaning *m)
+{
+	for (int i = 0; m->var && i < c->expr->count; i++) {
+		const struct expr_node *arg = &c->expr->node[i], *to;
+		const struct meaning *written;
+
+		if (arg->op != EXPR_ARG || !arg->output)
+			continue;
+		to = &c->expr->node[arg->left];
+		written = meaning(c, to->op == EXPR_INDEX ?
+				  scope_first_of(c->ld->translation->scope, c->ld->unit->pou, c->expr, to) :
+				  chain_intern(c, to->text, to->len));
+		if (written && written->var == m->var)
+			return true;
+	}
+	return false;
+}
+
+/* Freezes what the bodies of functions further right may write, and what stands behind a =>. */
 static struct value keep_value(struct chain *c, struct value value)
 {
 	const struct value none = { .type = IEC_NONE };
-	const struct meaning *m;
+	const struct meaning *m = value.operand ? meaning(c, value.operand) : NULL;
 
-	if (!c->calls || !value.operand)
+	if (!m || m->kind == MEANING_LITERAL || meaning_is_whole(m))
 		return value;
-	m = meaning(c, value.operand);
-	if (!m || m->kind == MEANING_LITERAL || (m->pou && !m->through) || meaning_is_whole(m))
+	if ((!c->calls || (m->pou && !m->through)) && !is_output(c, m))
 		return value;
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }

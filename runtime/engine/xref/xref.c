@@ -11,6 +11,7 @@
 #include "engine/check/access.h"
 #include "engine/check/scope.h"
 #include "engine/check/split.h"
+#include "engine/model/fbd.h"
 #include "engine/model/st.h"
 #include "engine/model/args.h"
 #include "engine/model/expr.h"
@@ -1294,7 +1295,8 @@ static void walk_statement(struct xref_walk *walk, struct expr *expr, struct dia
 		else if (part.role == ST_INPUT || part.role == ST_OUTPUT || part.role == ST_OPEN)
 			walk_argument(walk, &part, &parts, word);
 		else
-			walk_part(walk, &part, &parts, part.role == ST_VARIABLE ? XREF_CHANGED : XREF_READ);
+			walk_part(walk, &part, &parts, part.role != ST_VARIABLE ? XREF_READ : walk->pou->fbd ?
+				  XREF_WRITTEN : XREF_CHANGED);
 	}
 }
 
@@ -1320,8 +1322,15 @@ static bool xref_st(struct xref_walk *walk, struct pou *pou, int first, int coun
 		}
 		walk->item = item;
 		walk->slot = &item->text;
+		if (pou->fbd) {
+			const int network = fbd_network_of(pou->fbd, i);
+
+			scope_network(walk->scope, pou, network);
+			walk->place.off = network >= 0 && pou->fbd->network[network].off;
+		}
 		walk_statement(walk, expr, ignored);
 	}
+	scope_network(walk->scope, pou, -1);
 	walk->item = NULL;
 	return true;
 }
