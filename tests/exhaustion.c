@@ -131,7 +131,7 @@ static enum stage try_all(const char *file, const char *text, size_t len,
 	*told = true;
 	if (!ladder)
 		return STAGE_NEW;
-	if (!ladder_take_classic(ladder, false)) {
+	if (!ladder_take_classic(ladder, false) || !ladder_take_others(ladder)) {
 		ladder_free(ladder);
 		return STAGE_NEW;
 	}
@@ -416,6 +416,7 @@ int main(int argc, char **argv)
 		starve_file("tests/golden/declared-expressions/main.rung");
 		starve_file("tests/fuzz/corpus/classic/linuxcnc.clp");
 		starve_file("tests/fuzz/corpus/classic/packed.clprjz");
+		starve_file("tests/fuzz/corpus/ldmicro/all.ld");
 	}
 	return tap_done();
 }

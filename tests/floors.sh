@@ -22,9 +22,10 @@ runtime/engine/show       engine/base engine/model engine/scan engine/check engi
 runtime/engine/xref       engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/compare    engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/convert    engine/base engine/model engine/check engine/text
-runtime/engine/exchange   engine/base
+runtime/engine/exchange   engine/base engine/check/reserved.h
 runtime/engine/exchange/classic engine/base engine/model engine/check engine/text engine/translate engine/xref engine/exchange engine/classic.def
 runtime/engine/exchange/iec_file engine/base engine/text
+runtime/engine/exchange/ldmicro engine/base engine/exchange
 runtime/engine/exchange/plcopen engine/base engine/model engine/exchange engine/check engine/text
 runtime/engine/exchange/image engine/base engine/scan engine/exchange
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def

@@ -98,6 +98,7 @@ sub chart {
 	return "RUNGBOARD 1\nPROGRAM P SFC\n$_[0]END_PROGRAM\n";
 }
 # A ClassicLadder project with these members: name, text, name, text …
+sub ldmicro { return "LDmicro0.1\nCYCLE=10000\n\nPROGRAM\nRUNG\n$_[0]END\n"; }
 sub classic {
 	my $text = "_FILES_CLASSICLADDER\n";
 	while (my ($name, $lines) = splice @_, 0, 2) {
@@ -181,6 +182,14 @@ my %file = (
 	"ClassicLadder: a bomb, 64 MB of zeros" => packed("\0" x (64 << 20)),
 	"ClassicLadder: packed, and cut" => substr(packed(classic("rung_0.csv", $row x 8)), 0, -9),
 	"ClassicLadder: only gzip's first bytes" => "\x1f\x8b",
+	"LDmicro: only its first line" => "LDmicro0.1\n",
+	"LDmicro: cut in the middle" => substr(ldmicro("CONTACTS Xa 0\nCOIL Ya 0 0 0\n" x 8), 0, 120),
+	"LDmicro: 100,000 circuits in one another" => ldmicro("PARALLEL\nSERIES\n" x 50_000),
+	"LDmicro: ends alone" => "LDmicro0.1\nPROGRAM\n" . "END\n" x 1000,
+	"LDmicro: NUL bytes" => ldmicro("CONTACTS X\0 0\n"),
+	"LDmicro: values are missing" => ldmicro("COIL Ya 0\n"),
+	"LDmicro: a million rungs" => "LDmicro0.1\nPROGRAM\n" . "RUNG\nEND\n" x 1_000_000,
+	"LDmicro: 20 MB of one name" => ldmicro("CONTACTS X" . "a" x 20_000_000 . " 0\nCOIL Y 0 0 0\n"),
 	"numeric rungs: half a cell" => ";Rung:\n1-0-50-\n",
 );
 for my $text (sort keys %file) {

@@ -220,7 +220,7 @@ gboolean classic_save(LadderDocument *document, const char *path, GPtrArray *lin
 
 gboolean classic_is_project(const char *path)
 {
-	return ladder_is_classic(path);
+	return ladder_import_format(path) != NULL;
 }
 
 static void fail(struct ladder *ladder, const char *path, GError **error)
@@ -238,7 +238,8 @@ char *classic_import(const char *path, gsize *len, struct ladder **from, GError 
 	char *text = NULL, *copy;
 
 	*from = NULL;
-	if (!ladder || !ladder_take_classic(ladder, false))
+	if (!ladder || !ladder_take_classic(ladder, false) || !ladder_take_plcopen(ladder) ||
+	    !ladder_take_others(ladder))
 		g_error("out of memory");
 	ladder_classic_task(ladder, true);
 	ladder_import_language(ladder, said);

@@ -11,10 +11,11 @@
 
 #include "editor-gtk/document/document.h"
 
-/** classic_is_project - is the file or folder @path a ClassicLadder project? */
+/** classic_is_project - is the file or folder @path a project of ClassicLadder, or of another tool
+ * that the engine imports? */
 gboolean classic_is_project(const char *path);
 /**
- * classic_import - the project as the text of a rung file
+ * classic_import - such a project as the text of a rung file
  * @path:   must live as long as *@from
  * @from:   gets the engine that loaded it; caller: ladder_free()
  *

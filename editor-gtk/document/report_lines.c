@@ -60,6 +60,9 @@ static void find_here(LadderOrigin *origin, const struct project *project,
 		row->rung = g_array_index(ours, int, 0);
 	else if (!from)
 		row->pou = pou_of(project, line->pou);
+	if (!from && row->pou >= 0 && line->rung > 0 &&
+	    line->rung <= project->pou[row->pou].rung_count)
+		row->rung = line->rung - 1;
 	g_array_unref(ours);
 }
 

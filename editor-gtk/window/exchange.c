@@ -172,6 +172,16 @@ void exchange_add_filter(GtkFileChooser *chooser, bool numbers, bool chosen)
 	g_object_unref(filter);
 }
 
+void exchange_add_others(GtkFileChooser *chooser)
+{
+	GtkFileFilter *filter = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(filter, "LDmicro (*.ld)");
+	gtk_file_filter_add_pattern(filter, "*.ld");
+	gtk_file_chooser_add_filter(chooser, filter);
+	g_object_unref(filter);
+}
+
 static void export_chosen(gpointer exchange, const char *path)
 {
 	exchange_export_to(exchange, path);

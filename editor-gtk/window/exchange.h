@@ -31,6 +31,8 @@ void exchange_imported(struct exchange *exchange);
 void exchange_export(struct exchange *exchange);
 /** exchange_export_to - false: writing failed, and a banner says why. */
 bool exchange_export_to(struct exchange *exchange, const char *path);
+/** exchange_add_others - adds filters for the files of other tools that are only read. */
+void exchange_add_others(GtkFileChooser *chooser);
 /** exchange_add_filter - adds a filter for ClassicLadder files. @numbers: it also has
  * rung_N.txt. @chosen: it is the one that is chosen. */
 void exchange_add_filter(GtkFileChooser *chooser, bool numbers, bool chosen);

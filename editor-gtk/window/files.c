@@ -42,6 +42,7 @@ static void add_all(GtkFileChooser *chooser)
 	gtk_file_filter_add_pattern(filter, "*.clprj");
 	gtk_file_filter_add_pattern(filter, "*.clprjz");
 	gtk_file_filter_add_pattern(filter, "*.clp");
+	gtk_file_filter_add_pattern(filter, "*.ld");
 	for (int i = 0; plain_file_patterns[i]; i++)
 		gtk_file_filter_add_pattern(filter, plain_file_patterns[i]);
 	gtk_file_chooser_add_filter(chooser, filter);
@@ -58,6 +59,7 @@ static void ask_open(struct files *files, const char *title, bool import)
 	if (!import)
 		add_all(GTK_FILE_CHOOSER(chooser));
 	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false, import);
+	exchange_add_others(GTK_FILE_CHOOSER(chooser));
 	core_connect(core, chooser, "response", G_CALLBACK(open_response), files, 0);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }

@@ -40,12 +40,17 @@ struct classic_lines;
 bool ladder_take_classic(struct ladder *ladder, bool faithful);
 /** ladder_is_classic - whether @path is such a project, a file or a folder. */
 bool ladder_is_classic(const char *path);
+/** ladder_import_format - the tool whose project @path is: "ClassicLadder", or one of exchange/import.h,
+ * or "PLCopen XML". NULL: none of them. Lives for ever. */
+const char *ladder_import_format(const char *path);
 /** ladder_classic_task - whether converted projects get a TASK with their period, for
  * text that is saved as a file. Off at first. */
 void ladder_classic_task(struct ladder *ladder, bool task);
 /** ladder_import_language - reports of later loads are in the language of @translate,
  * which gets each text, or printf format, in English. */
 void ladder_import_language(struct ladder *ladder, const char *(*translate)(const char *text));
+/** ladder_take_others - makes later loads accept the formats of exchange/import.h (LDmicro), too. */
+bool ladder_take_others(struct ladder *ladder);
 /** ladder_take_plcopen - makes later loads accept projects in PLCopen XML, too, as
  * ladder_take_classic() does. */
 bool ladder_take_plcopen(struct ladder *ladder);
@@ -354,6 +359,8 @@ struct foreign {
 	struct classic_report *report; /* of the last read                    */
 	const char *text; /* that the last load read, @text_len bytes         */
 	size_t text_len;
+	bool task;        /* gets a CONFIGURATION with the period, for a file that is saved */
+	int64_t period_ns; /* of the last read; 0: none is given              */
 	bool classic;     /* names of ClassicLadder are known where values are typed */
 	bool loaded;      /* the last load used it                            */
 	struct foreign *next;

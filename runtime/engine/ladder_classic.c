@@ -63,6 +63,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path,
 	struct diag place = { .id = DIAG_NO_MEMORY, .file = path };
 
 	forget(foreign);
+	classic->options.task = foreign->task;
 	classic->path = path;
 	classic->folder = !bytes;
 	classic->project = bytes ?
@@ -78,6 +79,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path,
 		return NULL;
 	}
 	classic->io = classic_io_map(classic->project, &classic->arena, &classic->report);
+	foreign->period_ns = classic->project->period * INT64_C(1000000);
 	*name = classic->name;
 	*text_len = classic->text.len;
 	return classic->text.text;
@@ -167,14 +169,6 @@ bool ladder_take_classic(struct ladder *ladder, bool faithful)
 	return true;
 }
 
-void ladder_classic_task(struct ladder *ladder, bool task)
-{
-	struct classic_foreign *classic = classic_of(ladder);
-
-	if (classic)
-		classic->options.task = task;
-}
-
 const char *ladder_import_io(const struct ladder *ladder)
 {
 	const struct classic_foreign *classic = classic_of(ladder);
@@ -212,13 +206,6 @@ const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int p
 			return one;
 	}
 	return NULL;
-}
-
-int64_t ladder_period(const struct ladder *ladder)
-{
-	const struct classic_foreign *classic = classic_of(ladder);
-
-	return classic && classic->project ? classic->project->period * INT64_C(1000000) : 0;
 }
 
 bool ladder_is_classic(const char *path)

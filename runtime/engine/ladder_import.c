@@ -23,6 +23,19 @@ void ladder_import_language(struct ladder *ladder, const char *(*translate)(cons
 		each->report->translate = translate;
 }
 
+void ladder_classic_task(struct ladder *ladder, bool task)
+{
+	for (struct foreign *each = ladder_foreign(ladder); each; each = each->next)
+		each->task = task;
+}
+
+int64_t ladder_period(const struct ladder *ladder)
+{
+	const struct foreign *foreign = loaded(ladder);
+
+	return foreign ? foreign->period_ns : 0;
+}
+
 const struct classic_report *ladder_import_report(const struct ladder *ladder)
 {
 	const struct foreign *foreign = loaded(ladder);

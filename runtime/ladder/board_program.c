@@ -72,10 +72,10 @@ static bool add_source(struct bytes *bytes, const char *path, const struct proje
 }
 
 /* u16 how many, and for each a text, u32 length, bytes. A code image has none, nor has a project
- * of ClassicLadder. */
+ * of another tool. */
 static bool add_sources(struct bytes *bytes, struct ladder *ladder)
 {
-	const struct project *project = ladder_import_project(ladder) ? NULL :
+	const struct project *project = ladder_import_report(ladder) ? NULL :
 				       ladder_project(ladder);
 	const uint16_t count = project ? (uint16_t)(project->source_count + project->included_count +
 						    project->used_count) : 0;

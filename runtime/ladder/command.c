@@ -78,7 +78,7 @@ static bool take_option(struct call *call, int argc, char **argv, int *i)
 /* Is it one file, or a folder, of a project of plain IEC text? */
 static bool is_part(const char *path)
 {
-	return path_is_folder(path) ? !ladder_is_classic(path) : path_is_plain(path);
+	return path_is_folder(path) ? !ladder_import_format(path) : path_is_plain(path);
 }
 
 /* @count arguments become one, a line each; false: no memory. */

@@ -225,7 +225,7 @@ bool report_read_program(struct ladder *ladder, const char *path)
 {
 	/* Several files stand one a line; but a name may have a newline, too. */
 	const bool many = (strchr(path, '\n') && access(path, F_OK) != 0) ||
-			  (path_is_folder(path) && !ladder_is_classic(path));
+			  (path_is_folder(path) && !ladder_import_format(path));
 
 	return many ? load_project(ladder, path) : ladder_load(ladder, path);
 }
@@ -244,7 +244,7 @@ enum status report_load(struct ladder *ladder, const char *path, bool build)
 
 bool report_classic(const char *path)
 {
-	if (!ladder_is_classic(path))
+	if (!ladder_import_format(path))
 		return false;
 	report_diag((struct diag){ .id = DIAG_IMPORT_FIRST, .file = path }, "%s", "");
 	return true;
@@ -254,7 +254,8 @@ struct ladder *program_new(bool faithful)
 {
 	struct ladder *ladder = ladder_new();
 
-	if (ladder && (!ladder_take_classic(ladder, faithful) || !ladder_take_plcopen(ladder))) {
+	if (ladder && (!ladder_take_classic(ladder, faithful) || !ladder_take_plcopen(ladder) ||
+		       !ladder_take_others(ladder))) {
 		ladder_free(ladder);
 		return NULL;
 	}

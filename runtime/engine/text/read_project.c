@@ -578,7 +578,7 @@ static bool has_first_line(struct reader *r, const char *text, size_t len)
 		return reader_fail_word(r, DIAG_EMPTY_FILE, "");
 	}
 	/* A packed one begins with 1F 8B. */
-	if (lex_is(&r->lex, "_FILES_CLASSICLADDER") || (r->lex.token.len && *r->lex.token.text == 0x1f))
+	if (lex_is(&r->lex, "_FILES_CLASSICLADDER") || lex_is(&r->lex, "LDmicro0") || (r->lex.token.len && *r->lex.token.text == 0x1f))
 		return reader_fail_word(r, DIAG_IMPORT_FIRST, "");
 	if (!lex_is(&r->lex, "RUNGBOARD"))
 		return reader_fail_word(r, DIAG_NOT_RUNGBOARD, "");
