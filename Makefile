@@ -614,7 +614,7 @@ $(BIN)/fuzz_peer: $(call obj,$(PEER_PLAIN) runtime/online/wire.c runtime/online/
 $(BIN)/fuzz_link $(BIN)/fuzz_serial: $(filter-out %/finder_avahi.o,$(ONLINE))
 $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(XML_LIB) -lm
 
 house: $(BUILD)/libladder.a $(DRIVERS) ## check the rules of the house: floors, headers, quiet, banned
 	BUILD=$(BUILD) CROSS=$(CROSS) CC='$(CC)' prove -e '' $(HOUSE)
