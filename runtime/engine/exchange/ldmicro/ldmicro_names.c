@@ -85,32 +85,37 @@ static struct ldmicro_var *var_new(struct ldmicro_conversion *c, const char *nam
 	return var;
 }
 
+/* There is no memory, which the arena remembers. */
+static struct ldmicro_var *no_var(struct ldmicro_conversion *c)
+{
+	c->nothing = (struct ldmicro_var){ .name = "", .ours = "_", .bytes = 2 };
+	return &c->nothing;
+}
+
 struct ldmicro_var *var_of(struct ldmicro_conversion *c, const char *name, bool bit)
 {
-	static struct ldmicro_var nothing = { .name = "", .ours = "_", .bytes = 2 };
 	const uint32_t id = names_intern(&c->spelled, name, strlen(name));
 	struct ldmicro_var *var;
 
 	while ((uint32_t)c->of_count[bit] <= id)
 		if (!arena_push(c->w.arena, &c->of[bit], &c->of_count[bit], sizeof(int)))
-			return &nothing;
+			return no_var(c);
 	if (c->of[bit][id])
 		return c->var[c->of[bit][id] - 1];
 	var = var_new(c, names_text(&c->spelled, id), bit);
 	if (!var)
-		return &nothing;
+		return no_var(c);
 	c->of[bit][id] = c->vars;
 	return var;
 }
 
 static struct ldmicro_var *own_new(struct ldmicro_conversion *c, const char *wish, bool bit, int bytes)
 {
-	static struct ldmicro_var nothing = { .name = "", .ours = "_", .bytes = 2 };
 	struct ldmicro_var **slot, *var = arena_alloc(c->w.arena, sizeof(*var));
 
 	slot = var ? arena_push(c->w.arena, &c->var, &c->vars, sizeof(*slot)) : NULL;
 	if (!slot)
-		return &nothing;
+		return no_var(c);
 	*var = (struct ldmicro_var){ .name = "", .bit = bit, .bytes = bytes };
 	var->ours = w_name(&c->w, wish);
 	*slot = var;

@@ -74,6 +74,7 @@ struct ldmicro_conversion {
 	const char *pending_label;
 	struct name_list pending_comment;
 	struct grid *grid;
+	struct ldmicro_var nothing; /* without memory: a variable that is in no list */
 };
 
 /* ---- names and declarations: ldmicro_names.c ---- */
