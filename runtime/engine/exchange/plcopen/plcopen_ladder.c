@@ -738,8 +738,12 @@ static int draw_net(struct sketch *s, int net, int row, int column, int depth)
 
 static bool reduce(struct sketch *s)
 {
-	while (!s->odd && (join_parallel(s) | join_series(s)))
-		;
+	bool joined = true;
+
+	while (joined && !s->odd) {
+		joined = join_parallel(s);
+		joined = join_series(s) || joined;
+	}
 	for (int net = 1; net <= s->nets && !s->odd; net++) {
 		int in = 0, out = 0;
 
