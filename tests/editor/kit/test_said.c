@@ -63,8 +63,8 @@ static bool is_of_ours(enum diag_id id, const char *part, int n)
 		return g_regex_match_simple("[a-z]{3}| or ", part, 0, 0);
 	if (id >= DIAG_WRITE_INSTEAD && id <= DIAG_MISSING_ABOVE)
 		return id == DIAG_WRITE_INSTEAD && n == 1 && is_sentence(part);
-	/* COMPUTED shows a line of the user, which may have a comment. */
-	return id != DIAG_BAD_INCLUDE && id != DIAG_COMPUTED && is_sentence(part);
+	/* COMPUTED and FBD_HINT show a line of the user, which may have a comment. */
+	return id != DIAG_BAD_INCLUDE && id != DIAG_COMPUTED && id != DIAG_FBD_HINT && is_sentence(part);
 }
 
 static void wrong(struct golden *golden, const struct diag *diag, const char *what,
