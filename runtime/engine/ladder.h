@@ -54,6 +54,12 @@ bool ladder_take_others(struct ladder *ladder);
 /** ladder_take_plcopen - makes later loads accept projects in PLCopen XML, too, as
  * ladder_take_classic() does. */
 bool ladder_take_plcopen(struct ladder *ladder);
+/**
+ * ladder_export_plcopen - the project as PLCopen XML (exchange/plcopen/plcopen_write.h)
+ *
+ * Owns: the caller, free(). Scan-safe: no. Fails: NULL: no project, or no memory.
+ */
+char *ladder_export_plcopen(struct ladder *ladder, size_t *len, struct classic_report *report);
 /** ladder_import_report - the report of the last load; NULL: it was no such project.
  * Valid until the next load. */
 const struct classic_report *ladder_import_report(const struct ladder *ladder);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_plcopen - the facade's import of projects in PLCopen XML.
+ * ladder_plcopen - the facade's import and export of projects in PLCopen XML.
  *
  * A separate file, so that a program that does not use it does not link it.
  */
 #include "engine/ladder.h"
 
 #include "engine/exchange/plcopen/plcopen.h"
+#include "engine/exchange/plcopen/plcopen_write.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,4 +92,11 @@ bool ladder_take_plcopen(struct ladder *ladder)
 	report_init(&xml->report);
 	ladder_add_foreign(ladder, &xml->foreign);
 	return true;
+}
+
+char *ladder_export_plcopen(struct ladder *ladder, size_t *len, struct classic_report *report)
+{
+	struct project *project = ladder_read_project(ladder);
+
+	return project ? plcopen_write(project, len, report) : NULL;
 }

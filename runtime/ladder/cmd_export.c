@@ -429,6 +429,23 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 	return status;
 }
 
+static enum status export_plcopen(struct call *call, struct ladder *ladder, const char *path)
+{
+	struct classic_report report;
+	enum status status;
+	size_t len = 0;
+	char *text;
+
+	report_init(&report);
+	text = ladder_export_plcopen(ladder, &len, &report);
+	status = text ? write_out(call, text, len) : report_no_memory(path);
+	if (text)
+		print_changes(path, &report);
+	report_free(&report);
+	free(text);
+	return status;
+}
+
 static enum status export_to_classic(struct call *call, struct ladder *ladder, const char *path, int word)
 {
 	struct target to = { .lines = { NULL, 0, 0 } };
@@ -449,7 +466,8 @@ static enum status export_to_classic(struct call *call, struct ladder *ladder, c
 static const struct {
 	const char *word;
 	enum status (*run)(struct call *call, struct ladder *ladder, const char *path);
-} languages[] = { { "ld", export_ladder }, { "st", export_st }, { "il", export_il } };
+} languages[] = { { "ld", export_ladder }, { "st", export_st }, { "il", export_il },
+	{ "plcopen", export_plcopen } };
 enum { LANGUAGES = sizeof(languages) / sizeof(*languages) };
 
 enum status cmd_export(struct call *call)
@@ -464,8 +482,9 @@ enum status cmd_export(struct call *call)
 	while (as && language < LANGUAGES && strcmp(as, languages[language].word) != 0)
 		language++;
 	if (!as || (classic == CLASSIC_WORDS && language == LANGUAGES))
-		return report_usage(call, "--as needs st, ld, il, classicladder, linuxcnc or numeric");
-	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_ladder))
+		return report_usage(call, "--as needs st, ld, il, plcopen, classicladder, linuxcnc or numeric");
+	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_ladder ||
+				   languages[language].run == export_plcopen))
 		return report_usage(call, "POUs can be named with --as st and --as il");
 	ladder = program_new(false);
 	if (!ladder)

@@ -63,6 +63,8 @@ void plc_add_text(struct plc_build *build, const char *text);
 const char *plc_built(struct plcopen *c, struct plc_build *build);
 /** plc_comment - ` (* … *)` with @text in one line; nothing for "". */
 void plc_comment(struct plcopen *c, const char *text);
+/** plc_flat - @text in one line, as it may stand in a comment. */
+const char *plc_flat(struct plcopen *c, const char *text);
 /** plc_string - @text in quotes. */
 void plc_string(struct plcopen *c, const char *text);
 /** plc_report - a line of the report, at @node; of a sink's format. */

@@ -365,6 +365,10 @@ void plc_variables(struct plcopen *c, struct xml_node *list, const char *word)
 	if (!first)
 		return;
 	c->at = list->line;
+	if (*plc_documentation(c, list)) {
+		plc_comment(c, plc_documentation(c, list));
+		plc_put(c, "\n");
+	}
 	plc_put(c, "%s%s%s\n", word, constant ? " CONSTANT" : "",
 		retain || persistent ? " RETAIN" : "");
 	if (persistent && !retain)

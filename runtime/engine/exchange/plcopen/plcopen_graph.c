@@ -106,6 +106,7 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 	struct xml_node *both = xml_child(e->node, "inOutVariables");
 	struct xml_node *out = xml_child(e->node, "outputVariables");
 
+	e->comment = plc_documentation(c, e->node);
 	e->name = xml_take(e->node, "typeName");
 	e->instance = xml_take(e->node, "instanceName");
 	e->instance = e->instance && *e->instance ? plc_renamed(c, e->instance) : NULL;
@@ -148,6 +149,7 @@ static const char *text_in(struct plcopen *c, struct plc_element *e, const char 
 
 static void read_own(struct plcopen *c, struct plc_element *e)
 {
+	e->comment = e->kind < PLC_STEP ? plc_documentation(c, e->node) : "";
 	switch ((int)e->kind) {
 	case PLC_CONTACT:
 	case PLC_COIL:

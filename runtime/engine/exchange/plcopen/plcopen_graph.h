@@ -45,6 +45,7 @@ struct plc_element {
 	long order;             /* executionOrderId; 0: none                    */
 	const char *name;       /* variable, expression, label, type of a block */
 	const char *instance;   /* of a block; NULL: none                       */
+	const char *comment;    /* its documentation; ""                         */
 	bool negated;
 	enum plc_edge edge;
 	enum plc_storage storage;

@@ -119,6 +119,14 @@ static struct piece *cell(struct sketch *s, const char *text)
 	return piece;
 }
 
+/* An element with its documentation. */
+static struct piece *cell_of(struct sketch *s, const struct plc_element *e, const char *text)
+{
+	const char *comment = plc_flat(s->c, e->comment);
+
+	return cell(s, *comment ? plc_print(s->c, "%s (* %s *)", text, comment) : text);
+}
+
 static void append(struct piece *whole, struct piece *part)
 {
 	if (whole->last)
@@ -215,9 +223,13 @@ static void meet_contact(struct sketch *s, struct plc_element *e, int to)
 
 	if (e->kind == PLC_CONTACT && e->ins == 1)
 		from = net_of_pin(s, plc_in(s->graph, e, 0));
+	if (e->kind != PLC_CONTACT && !is_operand(e->name) && *e->name && !e->negated && e->edge == PLC_NO_EDGE) {
+		add_link(s, from, to, cell_of(s, e, plc_print(s->c, "[ %s ]", e->name)));
+		return;
+	}
 	if (!is_operand(e->name) || e->storage != PLC_NO_STORAGE)
 		s->odd = true;
-	add_link(s, from, to, cell(s, plc_print(s->c, "%s %s", contact_word(s, e->negated, e->edge), e->name)));
+	add_link(s, from, to, cell_of(s, e, plc_print(s->c, "%s %s", contact_word(s, e->negated, e->edge), e->name)));
 }
 
 static void meet_source(struct sketch *s, const struct plc_source *source, int net)
@@ -411,6 +423,15 @@ static bool knows_pin(struct sketch *s, const struct plc_element *e, const char 
 	       word_pin_find(word_row(word), name, strlen(name)) >= 0);
 }
 
+/* The net that the power of a box leads to; a new one if nothing uses it. */
+static int out_net(struct sketch *s, const struct plc_element *e)
+{
+	for (int i = 0; i < e->outs; i++)
+		if (s->net_of[e->first_out + i])
+			return s->net_of[e->first_out + i];
+	return ++s->nets;
+}
+
 /* The edge of power. */
 static struct piece *edge_cell(struct sketch *s, enum plc_edge edge)
 {
@@ -420,6 +441,79 @@ static struct piece *edge_cell(struct sketch *s, enum plc_edge edge)
 	return cell(s, plc_print(s->c, "%s %s", type, name));
 }
 
+/* The one element that leads to a pin without a modifier; NULL: there are several, or none. */
+static struct plc_element *only_source(struct sketch *s, const struct plc_pin *pin)
+{
+	if (pin->negated || pin->edge != PLC_NO_EDGE || pin->sources != 1)
+		return NULL;
+	return element_of(s, &s->graph->source[pin->first]);
+}
+
+/* Something whose value is not that of a branch: an expression, or a comparison at the rail. */
+static bool is_test(struct sketch *s, const struct plc_pin *pin)
+{
+	const struct plc_element *e = only_source(s, pin);
+	const enum word word = e && e->kind == PLC_BLOCK ? plc_catalog(s->c, e->name) : WORD_COUNT;
+
+	if (e && e->kind == PLC_IN)
+		return !e->negated && e->edge == PLC_NO_EDGE;
+	return word != WORD_COUNT && word_row(word)->kind == WORD_FN && word_is_test(word_row(word)) &&
+	       !plc_input(s->graph, e, "EN") && plc_out(s->graph, e, s->graph->source[pin->first].output)->uses == 1;
+}
+
+/* NOT of power, and AND of power with a test: as an export of this project writes them. */
+static bool meet_logic(struct sketch *s, struct plc_element *e)
+{
+	const bool inverts = plc_same(e->name, "NOT") && e->ins == 1;
+	const struct plc_pin *pin;
+	int from, to, middle;
+
+	if (plc_pou(s->c, e->name) || e->outs != 1 || plc_out(s->graph, e, 0)->negated ||
+	    (!inverts && (!plc_same(e->name, "AND") || e->ins != 2)))
+		return false;
+	pin = plc_in(s->graph, e, 0);
+	if (pin->negated || pin->edge != PLC_NO_EDGE || pin->expression)
+		return false;
+	to = s->net_of[e->first_out];
+	if (inverts) {
+		from = net_of_pin(s, pin);
+		add_link(s, from, to, cell_of(s, e, "NOT"));
+		return true;
+	}
+	if (!is_test(s, plc_in(s->graph, e, 1)) || is_test(s, pin))
+		return false;
+	from = net_of_pin(s, pin);
+	middle = net_of_pin(s, plc_in(s->graph, e, 1));
+	/* The test begins at the rail: it begins at the power instead. */
+	for (int i = 0; i < s->links; i++)
+		if (s->link[i].to == middle && s->link[i].from == RAIL) {
+			s->link[i].from = from;
+			s->link[i].to = to;
+			return true;
+		}
+	s->odd = true;
+	return true;
+}
+
+/* MOVE of an expression is [ Name := expression ]. */
+static bool meet_assignment(struct sketch *s, struct plc_element *e)
+{
+	struct plc_pin *power = plc_input(s->graph, e, "EN"), *in = plc_input(s->graph, e, "IN");
+	struct plc_pin *result = plc_output(s->graph, e, "OUT");
+	const struct plc_element *given = in ? only_source(s, in) : NULL;
+	const char *name;
+
+	if (plc_pou(s->c, e->name) || !plc_same(e->name, "MOVE") || !power || power->negated ||
+	    power->edge != PLC_NO_EDGE || !power->sources || !result || result->negated || !given || given->kind != PLC_IN ||
+	    given->negated || is_operand(given->name) || is_constant(given->name))
+		return false;
+	name = stored_in(s, e, (int)(result - &s->graph->pin[e->first_out]));
+	if (!name)
+		return false;
+	add_link(s, net_of_pin(s, power), out_net(s, e), cell_of(s, e, plc_print(s->c, "[ %s := %s ]", name, given->name)));
+	return true;
+}
+
 static void meet_box(struct sketch *s, struct plc_element *e)
 {
 	const enum plc_word word = plc_word(s->c, e->name);
@@ -427,12 +521,14 @@ static void meet_box(struct sketch *s, struct plc_element *e)
 	struct plc_pin *enabling = plc_input(s->graph, e, "EN"), *power = enabling;
 	const int index = (int)(e - s->graph->element);
 	const char *text = plc_renamed(s->c, e->name);
-	int to = ++s->nets, from = RAIL;
+	int from = RAIL;
 	struct piece *piece;
 
 	if (s->met[index])
 		return;
 	s->met[index] = true;
+	if (meet_logic(s, e) || meet_assignment(s, e))
+		return;
 	if (word == PLC_UNKNOWN || (!function && (!e->instance || !plc_is_name(e->instance) || enabling)) ||
 	    (function && enabling && !enabling->sources))
 		s->odd = true;
@@ -460,12 +556,9 @@ static void meet_box(struct sketch *s, struct plc_element *e)
 	if (s->odd)
 		return;
 	text = outputs_of(s, e, function, enabling != NULL, text);
-	for (int i = 0; i < e->outs; i++)
-		if (s->net_of[e->first_out + i])
-			to = s->net_of[e->first_out + i];
 	if (strlen(text) > 200)
 		s->odd = true;
-	piece = cell(s, text);
+	piece = cell_of(s, e, text);
 	if (power && power->edge != PLC_NO_EDGE)
 		piece = combine(s, PIECE_SERIES, edge_cell(s, power->edge), piece);
 	if (power && power->negated)
@@ -473,7 +566,7 @@ static void meet_box(struct sketch *s, struct plc_element *e)
 	for (int i = 0; i < e->outs; i++)
 		if (plc_out(s->graph, e, i)->negated && s->net_of[e->first_out + i])
 			piece = combine(s, PIECE_SERIES, piece, cell(s, "NOT"));
-	add_link(s, from, to, piece);
+	add_link(s, from, out_net(s, e), piece);
 }
 
 /* ---- outputs ---- */
@@ -494,7 +587,8 @@ static const char *coil_text(struct sketch *s, const struct plc_element *e)
 		word = e->edge == PLC_RISING ? "COILP" : "COILN";
 	else if (e->negated)
 		word = "COILNOT";
-	return plc_print(s->c, "%s %s", word, e->name);
+	return *plc_flat(s->c, e->comment) ? plc_print(s->c, "%s %s (* %s *)", word, e->name, plc_flat(s->c, e->comment)) :
+	       plc_print(s->c, "%s %s", word, e->name);
 }
 
 /* A variable of another type than BOOL, as far as the declaration tells it, has no coil. */

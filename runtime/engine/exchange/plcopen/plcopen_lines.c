@@ -476,6 +476,11 @@ void plc_lines_step(struct plc_lines *l, struct plc_element *e)
 {
 	struct value value;
 
+	if (*e->comment) {
+		begin_line(l, e);
+		plc_comment(l->c, e->comment);
+		plc_put(l->c, "\n");
+	}
 	if (e->kind == PLC_BLOCK) {
 		call(l, e, 0);
 		return;

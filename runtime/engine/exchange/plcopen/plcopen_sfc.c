@@ -27,7 +27,8 @@ struct chart {
 	int inlines;            /* actions that stand in their step, so far      */
 	struct plc_part calls;  /* of blocks that conditions need                */
 	const char *compute;    /* the action with them; NULL: there are none    */
-	struct chart *outer;    /* of a macro-step; NULL: of the POU             */
+	struct plc_part actions; /* that stand in their step                     */
+	struct chart *root;     /* of the POU; itself, but in a macro-step       */
 };
 
 static void add_step(struct chart *chart, struct steps *steps, const char *name)
@@ -113,16 +114,11 @@ static const char *drawn_condition(struct chart *chart, struct plc_graph *graph,
 	if (plc_lines_init(&lines, c, graph, false, "  "))
 		value = plc_lines_value(&lines, pin);
 	plc_part_swap(c, &before);
-	if (!before.text.len) {
-		sink_memory_free(&before.text);
-	} else if (!chart->compute) {
-		chart->compute = plc_print(c, "%s_blocks", chart->pou->name);
-		chart->calls = before;
-	} else {
-		plc_part_swap(c, &chart->calls);
-		plc_part_append(c, &before);
-		plc_part_swap(c, &chart->calls);
-	}
+	if (before.text.len && !chart->root->compute)
+		chart->root->compute = plc_print(c, "%s_blocks", chart->pou->name);
+	plc_part_swap(c, &chart->root->calls);
+	plc_part_append(c, &before);
+	plc_part_swap(c, &chart->root->calls);
 	return value;
 }
 
@@ -282,17 +278,20 @@ static const char *action_name(struct chart *chart, const struct plc_element *st
 	if (!body)
 		return NULL;
 	xml_take(body, "name");
-	name = plc_print(c, "%s_Inline%d", step->name, ++chart->inlines);
+	name = plc_print(c, "%s_Inline%d", step->name, ++chart->root->inlines);
 	before = plc_part_begin(c);
 	plc_put(c, "\nACTION %s:\n", name);
 	if (!plc_put_inner(c, chart->pou, body, "  "))
 		name = NULL;
 	plc_put(c, "END_ACTION\n");
 	plc_part_swap(c, &before);
-	if (name)
-		plc_part_append(c, &before);
-	else
+	if (!name) {
 		sink_memory_free(&before.text);
+		return NULL;
+	}
+	plc_part_swap(c, &chart->root->actions);
+	plc_part_append(c, &before);
+	plc_part_swap(c, &chart->root->actions);
 	return name;
 }
 
@@ -347,7 +346,7 @@ static void put_macro(struct chart *chart, struct plc_element *step)
 {
 	struct plcopen *c = chart->c;
 	struct xml_node *body = xml_child(step->node, "body"), *element;
-	struct chart inner = { .c = c, .pou = chart->pou, .outer = chart, .inlines = chart->inlines };
+	struct chart inner = { .c = c, .pou = chart->pou, .root = chart->root };
 	struct plc_graph *graph = arena_alloc(c->arena, sizeof(*graph));
 
 	if (!graph || !body || plc_language(body, &element) != PLCOPEN_SFC ||
@@ -356,7 +355,6 @@ static void put_macro(struct chart *chart, struct plc_element *step)
 	body->taken = true;
 	inner.graph = graph;
 	put_items(&inner);
-	chart->inlines = inner.inlines;
 }
 
 static void put_step(struct chart *chart, struct plc_element *step)
@@ -376,7 +374,7 @@ static void put_step(struct chart *chart, struct plc_element *step)
 	plc_put(c, "%sSTEP %s:\n", step->kind == PLC_MACRO ? "MACRO_" : initial ? "INITIAL_" : "",
 		step->name);
 	plc_part_append(c, &lines);
-	if (initial && chart->compute)
+	if (initial && chart->root == chart && chart->compute)
 		plc_put(c, "  %s(S);\n", chart->compute);
 	if (step->kind == PLC_MACRO)
 		put_macro(chart, step);
@@ -444,11 +442,6 @@ static void put_items(struct chart *chart)
 		}
 	}
 	plc_part_append(c, &before);
-	if (!chart->compute)
-		return;
-	plc_put(c, "\nACTION %s:\n", chart->compute);
-	plc_part_append(c, &chart->calls);
-	plc_put(c, "END_ACTION\n");
 }
 
 static void put_named_actions(struct plcopen *c, struct plcopen_pou *pou)
@@ -476,6 +469,13 @@ void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
 	if (!graph || !plc_graph_read(c, pou, pou->body, graph))
 		return;
 	chart.graph = graph;
+	chart.root = &chart;
 	put_items(&chart);
+	if (chart.compute)
+		plc_put(c, "\nACTION %s:\n", chart.compute);
+	plc_part_append(c, &chart.calls);
+	if (chart.compute)
+		plc_put(c, "END_ACTION\n");
+	plc_part_append(c, &chart.actions);
 	put_named_actions(c, pou);
 }

@@ -113,7 +113,7 @@ const char *plc_built(struct plcopen *c, struct plc_build *build)
 }
 
 /* One line: control characters and runs of blanks are one blank; no comment ends or begins in it. */
-static const char *one_line(struct plcopen *c, const char *text)
+const char *plc_flat(struct plcopen *c, const char *text)
 {
 	char *out = arena_alloc(c->arena, 2 * strlen(text) + 1), *at = out;
 
@@ -137,14 +137,14 @@ static const char *one_line(struct plcopen *c, const char *text)
 
 void plc_comment(struct plcopen *c, const char *text)
 {
-	text = one_line(c, text);
+	text = plc_flat(c, text);
 	if (*text)
 		plc_put(c, " (* %s *)", text);
 }
 
 void plc_string(struct plcopen *c, const char *text)
 {
-	text = one_line(c, text);
+	text = plc_flat(c, text);
 	plc_put(c, "\"");
 	for (; *text; text++)
 		plc_put(c, *text == '"' || *text == '$' ? "$%c" : "%c", *text);

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_out - elements, attributes and texts of XML.
+ */
+#include "engine/exchange/plcopen/plcopen_out.h"
+
+#include "engine/base/lex.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void begin(struct out *out, const char *format, va_list args, const char *end)
+{
+	char line[512];
+
+	vsnprintf(line, sizeof(line), format, args);
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "<");
+	sink_text(&out->sink, line);
+	sink_text(&out->sink, end);
+}
+
+void plco_open(struct out *out, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	begin(out, format, args, ">\n");
+	va_end(args);
+	out->depth++;
+}
+
+void plco_line(struct out *out, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	begin(out, format, args, "/>\n");
+	va_end(args);
+}
+
+void plco_close(struct out *out, const char *name)
+{
+	out->depth--;
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "</");
+	sink_text(&out->sink, name);
+	sink_text(&out->sink, ">\n");
+}
+
+static const char *entity(char c)
+{
+	switch (c) {
+	case '<':
+		return "&lt;";
+	case '>':
+		return "&gt;";
+	case '&':
+		return "&amp;";
+	case '"':
+		return "&quot;";
+	default:
+		return NULL;
+	}
+}
+
+void plco_escape(struct out *out, const char *text)
+{
+	const char *plain = text;
+
+	for (; *text; text++) {
+		const bool control = (unsigned char)*text < ' ' && *text != '\n' && *text != '\t';
+		const char *with = control ? "?" : entity(*text);
+
+		if (!with)
+			continue;
+		sink_write(&out->sink, plain, (size_t)(text - plain));
+		sink_text(&out->sink, with);
+		plain = text + 1;
+	}
+	sink_text(&out->sink, plain);
+}
+
+void plco_named(struct out *out, const char *element, const char *attribute, const char *value,
+	       bool empty)
+{
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_printf(&out->sink, "<%s %s=\"", element, attribute);
+	plco_escape(out, value);
+	sink_text(&out->sink, empty ? "\"/>\n" : "\">\n");
+	out->depth += !empty;
+}
+
+void plco_text(struct out *out, const char *name, const char *text)
+{
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_printf(&out->sink, "<%s>", name);
+	plco_escape(out, text);
+	sink_printf(&out->sink, "</%s>\n", name);
+}
+
+void plco_formatted(struct out *out, const char *name, const char *text)
+{
+	const char *end;
+
+	plco_open(out, "%s", name);
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "<xhtml:p><![CDATA[");
+	while ((end = strstr(text, "]]>"))) {
+		sink_write(&out->sink, text, (size_t)(end - text) + 2);
+		sink_text(&out->sink, "]]><![CDATA[");
+		text = end + 2;
+	}
+	sink_text(&out->sink, text);
+	sink_text(&out->sink, "]]></xhtml:p>\n");
+	plco_close(out, name);
+}
+
+const char *plco_bare(struct out *out, const char *comment)
+{
+	char *bare = arena_alloc(out->arena, strlen(comment) + 2), *at = bare;
+	struct lex lex;
+
+	if (!bare)
+		return "";
+	lex_init(&lex, comment, strlen(comment));
+	lex.comments = true;
+	while (lex_next(&lex) != TOKEN_END) {
+		const char *from = lex.token.text, *end = from + lex.token.len;
+
+		if (lex.token.kind != TOKEN_COMMENT)
+			continue;
+		from += 2;
+		if (lex.token.text[1] == '*' && end - from >= 2)
+			end -= 2;
+		while (from < end && (unsigned char)*from <= ' ')
+			from++;
+		while (end > from && (unsigned char)end[-1] <= ' ')
+			end--;
+		if (at > bare)
+			*at++ = '\n';
+		memcpy(at, from, (size_t)(end - from));
+		at += end - from;
+	}
+	*at = '\0';
+	return bare;
+}
+
+void plco_documentation(struct out *out, const char *comment)
+{
+	const char *bare = plco_bare(out, comment);
+
+	if (*bare)
+		plco_formatted(out, "documentation", bare);
+}
+
+void plco_lost(struct out *out, enum report_kind kind, int line, int rung, const char *text, ...)
+{
+	struct report_line place = { kind, "", line, out->pou ? plco_id(out, out->pou->name) : NULL, rung, NULL };
+	char whole[400];
+	va_list args;
+
+	va_start(args, text);
+	vsnprintf(whole, sizeof(whole), text, args);
+	va_end(args);
+	report_add(out->report, place, "%s", whole);
+}
+
+const char *plco_id(const struct out *out, uint32_t id)
+{
+	return project_text(out->project, id);
+}
+
+const char *plco_print(struct out *out, const char *format, ...)
+{
+	va_list args, again;
+	char *text;
+	int len;
+
+	va_start(args, format);
+	va_copy(again, args);
+	len = vsnprintf(NULL, 0, format, args);
+	va_end(args);
+	text = len < 0 ? NULL : arena_alloc(out->arena, (size_t)len + 1);
+	if (text)
+		vsnprintf(text, (size_t)len + 1, format, again);
+	va_end(again);
+	return text ? text : "";
+}

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_write - the export as a whole: header, types, POUs, configuration.
+ */
+#include "engine/exchange/plcopen/plcopen_out.h"
+
+#include "engine/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *or_else(const char *text, const char *otherwise)
+{
+	return *text ? text : otherwise;
+}
+
+/* ---- header ---- */
+
+static void put_scaling(struct out *out, const char *language)
+{
+	plco_open(out, "%s", language);
+	plco_line(out, "scaling x=\"10\" y=\"10\"");
+	plco_close(out, language);
+}
+
+static void put_attribute(struct out *out, const char *name, const char *value)
+{
+	sink_printf(&out->sink, " %s=\"", name);
+	plco_escape(out, value);
+	sink_text(&out->sink, "\"");
+}
+
+static void put_header(struct out *out)
+{
+	const struct project *project = out->project;
+	const char *title = or_else(plco_id(out, project->title), "Unnamed");
+	const char *version = plco_id(out, project->property[PROPERTY_VERSION]);
+	const char *author = plco_id(out, project->property[PROPERTY_AUTHOR]);
+	const char *text = plco_id(out, project->property[PROPERTY_DESCRIPTION]);
+
+	/* Two exports of one project are the same: there is no time in them. */
+	sink_text(&out->sink, "  <fileHeader");
+	put_attribute(out, "companyName", or_else(plco_id(out, project->property[PROPERTY_COMPANY]), "Unknown"));
+	put_attribute(out, "productName", title);
+	put_attribute(out, "productVersion", or_else(version, "1"));
+	put_attribute(out, "creationDateTime", "2000-01-01T00:00:00");
+	sink_text(&out->sink, "/>\n  <contentHeader");
+	put_attribute(out, "name", title);
+	if (*version)
+		put_attribute(out, "version", version);
+	if (*author)
+		put_attribute(out, "author", author);
+	sink_text(&out->sink, ">\n");
+	out->depth++;
+	if (*text)
+		plco_text(out, "Comment", text);
+	plco_open(out, "coordinateInfo");
+	put_scaling(out, "fbd");
+	put_scaling(out, "ld");
+	put_scaling(out, "sfc");
+	plco_close(out, "coordinateInfo");
+	plco_close(out, "contentHeader");
+}
+
+/* ---- bodies ---- */
+
+static void put_written(struct out *out, const char *language, void (*write)(struct out *out))
+{
+	const struct sink before = out->sink;
+	struct sink_memory memory;
+
+	sink_memory_init(&memory);
+	out->sink = sink_to_memory(&memory);
+	write(out);
+	out->sink = before;
+	plco_formatted(out, language, sink_memory_text(&memory));
+	sink_memory_free(&memory);
+}
+
+static void write_st(struct out *out)
+{
+	if (out->pou->st)
+		text_write_st(out->project, out->pou->st, &out->sink);
+}
+
+static void write_il(struct out *out)
+{
+	text_write_il(out->project, &out->pou->il, &out->sink);
+}
+
+void plco_body(struct out *out, const struct pou *pou)
+{
+	out->ids = out->y = 0;
+	plco_open(out, "body");
+	switch ((int)pou->language) {
+	case LANGUAGE_ST:
+		put_written(out, "ST", write_st);
+		break;
+	case LANGUAGE_IL:
+		put_written(out, "IL", write_il);
+		break;
+	case LANGUAGE_LD:
+		plco_open(out, "LD");
+		plco_rungs(out, pou, 0, pou->rung_count);
+		plco_close(out, "LD");
+		break;
+	case LANGUAGE_SFC:
+		plco_chart(out, pou);
+		break;
+	default:
+		plco_line(out, "ST");
+		break;
+	}
+	plco_close(out, "body");
+}
+
+/* ---- POUs ---- */
+
+static const struct var *result_of(const struct pou *pou)
+{
+	for (int i = 0; i < pou->vars.count; i++)
+		if (vars_flags(&pou->vars, i) & VAR_RESULT)
+			return &pou->vars.var[i];
+	return NULL;
+}
+
+static const char *type_word(const struct pou *pou)
+{
+	return pou->kind == POU_FUNCTION ? "function" : pou->kind == POU_BLOCK ? "functionBlock" : "program";
+}
+
+static void put_pou(struct out *out, const struct pou *pou)
+{
+	const struct var *result = result_of(pou);
+
+	out->pou = pou;
+	if (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION || pou->included) {
+		plco_lost(out, REPORT_LOST, pou->line, 0, report_said(out->report, pou->included ?
+			 REPORTED("%s is of another file and is left out") :
+			 REPORTED("the format has no subroutines: %s is left out")), plco_id(out, pou->name));
+		return;
+	}
+	sink_repeat(&out->sink, "  ", out->depth++);
+	sink_text(&out->sink, "<pou");
+	put_attribute(out, "name", plco_id(out, pou->name));
+	put_attribute(out, "pouType", type_word(pou));
+	sink_text(&out->sink, ">\n");
+	plco_open(out, "interface");
+	if (result)
+		plco_type(out, "returnType", result);
+	plco_variables(out, &pou->vars);
+	plco_variables(out, &pou->external);
+	plco_close(out, "interface");
+	if (pou->language == LANGUAGE_SFC)
+		plco_chart_actions(out, pou);
+	plco_body(out, pou);
+	plco_documentation(out, plco_id(out, pou->comment));
+	plco_close(out, "pou");
+}
+
+/* ---- configuration ---- */
+
+static void put_globals(struct out *out)
+{
+	for (int i = 0; i < out->project->globals.block_count; i++)
+		plco_block(out, &out->project->globals, i, "globalVars");
+}
+
+static void put_instance(struct out *out, const struct config_entry *entry)
+{
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "<pouInstance");
+	put_attribute(out, "name", plco_id(out, entry->name));
+	put_attribute(out, "typeName", plco_id(out, entry->pou));
+	sink_text(&out->sink, "/>\n");
+	if (entry->values)
+		plco_lost(out, REPORT_LOST, entry->line, 0, report_said(out->report,
+			 REPORTED("what the program %s is connected with is left out")), plco_id(out, entry->name));
+}
+
+static void put_task(struct out *out, const struct config_entry *task)
+{
+	const struct config *config = out->project->config;
+
+	sink_repeat(&out->sink, "  ", out->depth++);
+	sink_text(&out->sink, "<task");
+	put_attribute(out, "name", plco_id(out, task->name));
+	if (task->single)
+		put_attribute(out, "single", plco_id(out, task->single));
+	else
+		put_attribute(out, "interval", plco_id(out, task->interval));
+	sink_printf(&out->sink, " priority=\"%u\">\n", (unsigned int)task->priority);
+	for (int i = 0; i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_PROGRAM &&
+		    names_fold(&out->project->names, config->entry[i].task) ==
+		    names_fold(&out->project->names, task->name))
+			put_instance(out, &config->entry[i]);
+	plco_close(out, "task");
+	if (task->watchdog_ns)
+		plco_lost(out, REPORT_LOST, task->line, 0, report_said(out->report,
+			 REPORTED("the format has no watchdogs: that of the task %s is left out")), plco_id(out, task->name));
+}
+
+static void put_resource(struct out *out, const struct config *config)
+{
+	plco_named(out, "resource", "name", config && config->has_resource ? plco_id(out, config->resource) : "Resource1",
+		  false);
+	for (int i = 0; config && i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_TASK)
+			put_task(out, &config->entry[i]);
+	for (int i = 0; config && i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_PROGRAM && !config->entry[i].task)
+			put_instance(out, &config->entry[i]);
+	plco_close(out, "resource");
+}
+
+static void put_access(struct out *out)
+{
+	const struct project *project = out->project;
+
+	if (!project->access_count)
+		return;
+	plco_open(out, "accessVars");
+	for (int i = 0; i < project->access_count; i++) {
+		const struct access *access = &project->access[i];
+
+		sink_repeat(&out->sink, "  ", out->depth++);
+		sink_text(&out->sink, "<accessVariable");
+		put_attribute(out, "alias", plco_id(out, access->var.name));
+		put_attribute(out, "instancePathAndName", plco_id(out, access->path));
+		put_attribute(out, "direction", access->writes ? "readWrite" : "readOnly");
+		sink_text(&out->sink, ">\n");
+		plco_type(out, "type", &access->var);
+		plco_close(out, "accessVariable");
+	}
+	plco_close(out, "accessVars");
+}
+
+static void report_config(struct out *out, const struct config *config)
+{
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+
+		if (entry->kind == CONFIG_AREA)
+			plco_lost(out, REPORT_LOST, entry->line, 0, "%s", report_said(out->report,
+				 REPORTED("the format has no sizes of memory areas: AREA is left out")));
+		else if (entry->kind == CONFIG_LOCATED)
+			plco_lost(out, REPORT_LOST, entry->line, 0, "%s", report_said(out->report,
+				 REPORTED("VAR_CONFIG is left out")));
+	}
+}
+
+static void put_configuration(struct out *out)
+{
+	const struct config *config = out->project->config;
+
+	out->pou = NULL;
+	plco_open(out, "instances");
+	plco_open(out, "configurations");
+	if (config || out->project->globals.count) {
+		plco_named(out, "configuration", "name", config ? plco_id(out, config->name) : "Config", false);
+		put_resource(out, config);
+		put_globals(out);
+		put_access(out);
+		plco_close(out, "configuration");
+	}
+	report_config(out, config);
+	plco_close(out, "configurations");
+	plco_close(out, "instances");
+}
+
+char *plcopen_write(struct project *project, size_t *len, struct classic_report *report)
+{
+	struct out out = { .project = project, .report = report, .depth = 1 };
+	struct arena arena;
+	char *text;
+
+	arena_init(&arena);
+	out.arena = &arena;
+	sink_memory_init(&out.text);
+	out.sink = sink_to_memory(&out.text);
+	sink_text(&out.sink, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+		  "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\" xmlns:xhtml=\"http://www.w3.org/1999/xhtml\">\n");
+	put_header(&out);
+	plco_open(&out, "types");
+	plco_open(&out, "dataTypes");
+	plco_types(&out);
+	plco_close(&out, "dataTypes");
+	plco_open(&out, "pous");
+	for (int i = 0; i < project->pou_count; i++)
+		put_pou(&out, &project->pou[i]);
+	plco_close(&out, "pous");
+	plco_close(&out, "types");
+	put_configuration(&out);
+	sink_text(&out.sink, "</project>\n");
+	text = out.text.failed || arena.failed ? NULL : out.text.text;
+	*len = out.text.len;
+	if (!text)
+		sink_memory_free(&out.text);
+	arena_free(&arena);
+	return text;
+}
