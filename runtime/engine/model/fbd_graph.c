@@ -1018,8 +1018,11 @@ static void call_line(struct maker *m)
 	call->count = 0;
 	name = whole = path_at(m, part.text);
 	if (is_piece(m, name.last, ")"))
-		while (name.last > name.first && !is_piece(m, name.last, "("))
-			name.last--;
+		for (int depth = 0; name.last > name.first; name.last--) {
+			depth += is_piece(m, name.last, ")") - is_piece(m, name.last, "(");
+			if (!depth)
+				break;
+		}
 	if (name.last > name.first && is_piece(m, name.last, "("))
 		name.last--;
 	text = part_text(m, name);

@@ -192,7 +192,7 @@ static bool check_root(struct plcopen *c, struct xml_node *root, const char *spa
 	for (struct xml_attribute *a = root->attribute; a; a = a->next)
 		a->taken = true;
 	if (!xml_look(root, "types") && !xml_look(root, "instances"))
-		return refuse(c, DIAG_PLCOPEN_ROOT, root, "");
+		return refuse(c, DIAG_PLCOPEN_EMPTY, root, "");
 	return true;
 }
 

@@ -136,9 +136,9 @@ static enum plcopen_language put_drawn(struct plcopen *c, struct plcopen_pou *po
 		return PLCOPEN_LD;
 	if (language == PLCOPEN_LD)
 		plc_report(c, REPORT_CHANGED, element, "%s",
-			   report_said(c->report, REPORTED("not every network can be a rung: the ladder becomes Structured Text")));
-	plc_networks(c, &graph, &groups, true, "  ");
-	return PLCOPEN_ST;
+			   report_said(c->report, REPORTED("not every network can be a rung: the ladder becomes a function block diagram")));
+	plc_networks(c, &graph, &groups, false, "  ");
+	return PLCOPEN_FBD;
 }
 
 static enum plcopen_language put_body(struct plcopen *c, struct plcopen_pou *pou)

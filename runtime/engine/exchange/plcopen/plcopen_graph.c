@@ -139,6 +139,9 @@ static void read_points(struct plcopen *c, struct plc_graph *graph, struct plc_e
 			each->taken = true;
 			add_pin(c, graph, each, xml_take(each, "formalParameter"));
 		}
+	/* A tool may leave out what nobody need say. */
+	if (graph->pins == e->first_out && e->kind != PLC_COMMENT)
+		add_pin(c, graph, e->node, "");
 	e->outs = graph->pins - e->first_out;
 }
 

@@ -60,6 +60,8 @@ static bool is_operand(const char *text)
 {
 	struct lex lex;
 	enum token_kind kind;
+	bool dot = false;
+	int depth = 0;
 
 	lex_init(&lex, text, strlen(text));
 	kind = lex_next(&lex);
@@ -67,10 +69,14 @@ static bool is_operand(const char *text)
 		return lex_next(&lex) == TOKEN_END;
 	if (kind != TOKEN_NAME || lex_is(&lex, "TRUE") || lex_is(&lex, "FALSE") || lex_is(&lex, "NOT"))
 		return false;
-	while (lex_next(&lex) != TOKEN_END)
-		if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_NUMBER && !lex_is(&lex, "[") &&
-		    !lex_is(&lex, "]") && !lex_is(&lex, "."))
+	while (lex_next(&lex) != TOKEN_END) {
+		const bool name = lex.token.kind == TOKEN_NAME || lex.token.kind == TOKEN_NUMBER;
+
+		depth += lex_is(&lex, "[") - lex_is(&lex, "]");
+		if (name ? !depth && !dot : !lex_is(&lex, "[") && !lex_is(&lex, "]") && !lex_is(&lex, "."))
 			return false;
+		dot = lex_is(&lex, ".");
+	}
 	return true;
 }
 

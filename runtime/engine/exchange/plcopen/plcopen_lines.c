@@ -70,7 +70,7 @@ static void begin_line(struct plc_lines *l, const struct plc_element *e)
 	plc_put(l->c, "%s", l->indent);
 }
 
-/* An edge of a value is that of a block of its own. */
+/* An edge of a value; among statements it is that of a block of its own. */
 static struct value trigger(struct plc_lines *l, const struct plc_element *e, enum plc_edge edge,
 			    struct value value)
 {
@@ -78,10 +78,13 @@ static struct value trigger(struct plc_lines *l, const struct plc_element *e, en
 
 	if (edge == PLC_NO_EDGE || !value.text)
 		return value;
+	if (l->networks)
+		return (struct value){ plc_print(l->c, "%s(%s)", edge == PLC_RISING ? "R_EDGE" : "F_EDGE",
+						 value.text), TIE_ATOM };
 	name = plc_make(l->c, l->graph->pou, edge == PLC_RISING ? "Rise" : "Fall",
 			edge == PLC_RISING ? "R_TRIG" : "F_TRIG");
 	begin_line(l, e);
-	plc_put(l->c, "%s(CLK := %s)%s\n", name, value.text, l->networks ? "" : ";");
+	plc_put(l->c, "%s(CLK := %s);\n", name, value.text);
 	return (struct value){ plc_print(l->c, "%s.Q", name), TIE_ATOM };
 }
 
@@ -240,6 +243,34 @@ static void call_block(struct plc_lines *l, struct plc_element *e, int depth)
 	plc_put(l->c, "%s(%s)%s\n", e->instance ? e->instance : plc_renamed(l->c, e->name), all, l->networks ? "" : ";");
 }
 
+/* Whether only functions act between a function with a number and the element that needs its
+ * value: then it may stand inside of that one. */
+static bool may_wait(const struct plc_lines *l, const struct plc_element *e, int result)
+{
+	const struct plc_graph *graph = l->graph;
+	int at = 0;
+
+	if (e->order <= 0)
+		return true;
+	while (at < graph->steps && &graph->element[graph->step[at]] != e)
+		at++;
+	for (at++; at < graph->steps; at++) {
+		const struct plc_element *user = &graph->element[graph->step[at]];
+
+		for (int i = 0; i < user->ins; i++) {
+			const struct plc_pin *pin = plc_in(graph, user, i);
+
+			for (int s = 0; s < pin->sources; s++)
+				if (&graph->element[graph->source[pin->first + s].element] == e &&
+				    graph->source[pin->first + s].output == result)
+					return true;
+		}
+		if (user->kind != PLC_BLOCK || user->instance)
+			return false;
+	}
+	return false;
+}
+
 /* A function stands in a line of its own if it has several users or several outputs. */
 static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 {
@@ -250,6 +281,11 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 
 	l->done[e - l->graph->element] = true;
 	call_unknown(l, e);
+	if (plc_catalog(l->c, e->name) != WORD_COUNT && !more && (result < 0 || !plc_out(l->graph, e, result)->uses)) {
+		plc_report(l->c, REPORT_LOST, e->node,
+			   report_said(l->c->report, REPORTED("nothing uses the result of %s: it is left out")), e->name);
+		return;
+	}
 	all = arguments(l, e, named, depth);
 	l->called[e - l->graph->element] = true;
 	if (l->failed)
@@ -257,7 +293,7 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 	if (more && l->networks)
 		all = further_outputs(l, e, result, all);
 	if (result >= 0 && plc_out(l->graph, e, result)->uses <= 1 && !(more && l->networks) &&
-	    !l->wire[e->first_out + result]) {
+	    !l->wire[e->first_out + result] && (!l->networks || may_wait(l, e, result))) {
 		l->wire[e->first_out + result] = plc_print(l->c, "%s(%s)", plc_renamed(l->c, e->name), all);
 		if (plc_out(l->graph, e, result)->uses)
 			return;

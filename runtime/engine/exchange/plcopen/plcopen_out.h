@@ -21,6 +21,7 @@ struct out {
 	const struct pou *pou;  /* in work; NULL: none                            */
 	int ids;                /* localIds given in this body                    */
 	const char *coil;       /* the name of coils TRANSITION; NULL: as written  */
+	int order;              /* executionOrderIds given in this body           */
 	int y;                  /* where the next rung or network begins          */
 };
 
@@ -65,6 +66,9 @@ void plco_types(struct out *out);
 void plco_body(struct out *out, const struct pou *pou);
 /** plco_rungs - rungs of a POU as elements of a drawing. */
 void plco_rungs(struct out *out, const struct pou *pou, int first, int count);
+/* ---- plcopen_write_fbd.c ---- */
+/** plco_networks - the networks of a body. */
+void plco_networks(struct out *out, const struct pou *pou);
 /* ---- plcopen_write_sfc.c ---- */
 void plco_chart(struct out *out, const struct pou *pou);
 /** plco_chart_actions - actions and transitions that have a name. */

@@ -455,7 +455,12 @@ static void put_named_actions(struct plcopen *c, struct plcopen_pou *pou)
 			continue;
 		each->taken = true;
 		c->at = each->line;
-		plc_put(c, "\nACTION %s:\n", name);
+		plc_put(c, "\n");
+		if (*plc_documentation(c, each)) {
+			plc_comment(c, plc_documentation(c, each));
+			plc_put(c, "\n");
+		}
+		plc_put(c, "ACTION %s:\n", name);
 		plc_put_inner(c, pou, xml_child(each, "body"), "  ");
 		plc_put(c, "END_ACTION\n");
 	}

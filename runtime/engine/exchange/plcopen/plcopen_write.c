@@ -104,6 +104,9 @@ void plco_body(struct out *out, const struct pou *pou)
 		plco_rungs(out, pou, 0, pou->rung_count);
 		plco_close(out, "LD");
 		break;
+	case LANGUAGE_FBD:
+		plco_networks(out, pou);
+		break;
 	case LANGUAGE_SFC:
 		plco_chart(out, pou);
 		break;
@@ -134,9 +137,8 @@ static void put_pou(struct out *out, const struct pou *pou)
 	const struct var *result = result_of(pou);
 
 	out->pou = pou;
-	if (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION || pou->included) {
-		plco_lost(out, REPORT_LOST, pou->line, 0, report_said(out->report, pou->included ?
-			 REPORTED("%s is of another file and is left out") :
+	if (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION) {
+		plco_lost(out, REPORT_LOST, pou->line, 0, report_said(out->report,
 			 REPORTED("the format has no subroutines: %s is left out")), plco_id(out, pou->name));
 		return;
 	}

@@ -454,9 +454,12 @@ static void put_as_comment(struct drawing *d, const char *word)
 {
 	char *text = text_write_rung(d->out->project, d->rung);
 
-	plco_lost(d->out, REPORT_LOST, (int)d->rung->line, d->number, word ?
-		 report_said(d->out->report, REPORTED("the format has no %s: the rung becomes a comment")) :
-		 report_said(d->out->report, REPORTED("%sthe rung is OFF and becomes a comment")), word ? word : "");
+	if (word)
+		plco_lost(d->out, REPORT_LOST, (int)d->rung->line, d->number, report_said(d->out->report,
+			  REPORTED("the format has no %s: the rung becomes a comment")), word);
+	else
+		plco_lost(d->out, REPORT_LOST, (int)d->rung->line, d->number, "%s", report_said(d->out->report,
+			  REPORTED("the rung is OFF and becomes a comment")));
 	put_comment(d->out, d->out->y, text ? text : "");
 	d->out->y += ROW;
 	free(text);
