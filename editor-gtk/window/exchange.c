@@ -180,6 +180,11 @@ void exchange_add_others(GtkFileChooser *chooser)
 	gtk_file_filter_add_pattern(filter, "*.ld");
 	gtk_file_chooser_add_filter(chooser, filter);
 	g_object_unref(filter);
+	filter = gtk_file_filter_new();
+	gtk_file_filter_set_name(filter, "PLCopen XML (*.xml)");
+	gtk_file_filter_add_pattern(filter, "*.xml");
+	gtk_file_chooser_add_filter(chooser, filter);
+	g_object_unref(filter);
 }
 
 static void export_chosen(gpointer exchange, const char *path)

@@ -154,13 +154,13 @@ static enum plcopen_language put_body(struct plcopen *c, struct plcopen_pou *pou
 	case PLCOPEN_FBD:
 		return put_drawn(c, pou, pou->language, pou->body);
 	case PLCOPEN_SFC:
-		if (pou->kind == POU_PROGRAM) {
+		if (pou->kind != POU_FUNCTION) {
 			plc_chart(c, pou);
 			return PLCOPEN_SFC;
 		}
 		pou->body->taken = false;
 		plc_report(c, REPORT_LOST, pou->body,
-			   report_said(c->report, REPORTED("%s is a chart, and only a program can be one here: it does nothing")), pou->name);
+			   report_said(c->report, REPORTED("%s is a chart, which a function cannot be: it does nothing")), pou->name);
 		return PLCOPEN_ST;
 	default:
 		return PLCOPEN_ST;
