@@ -937,12 +937,35 @@ static void statements(struct maker *m, int depth, int count, int indent)
 		statement(m, depth, indent);
 }
 
+/* The globals; now and then some arrays lie at an address. */
+static void say_globals(struct maker *m)
+{
+	static const struct { const char *name, *at; } arrays[] = {
+		{ " ai :", "%MW100" }, { " aj :", "%MW120" }, { " ad :", "%MD140" }, { " ae :", "%MD180" },
+		{ " ab :", "%MX220.3" }, { " two :", "%MW230" },
+	};
+	const char *from = globals;
+	const bool any = chance(m, 30);
+
+	for (size_t i = 0; i < sizeof(arrays) / sizeof(*arrays) && any; i++) {
+		const char *at = strstr(from, arrays[i].name);
+
+		if (!at || !chance(m, 50))
+			continue;
+		at += strlen(arrays[i].name) - 1;
+		say(m, "%.*sAT %s ", (int)(at - from), from, arrays[i].at);
+		from = at;
+	}
+	say(m, "%s", from);
+}
+
 size_t st_random_print(uint64_t seed, char *out, size_t size)
 {
 	struct maker m = { .out = out, .size = size };
 
 	random_seed(&m.source, seed);
-	say(&m, "%s%s", types, globals);
+	say(&m, "%s", types);
+	say_globals(&m);
 	m.room = ROOM_FUNCTION;
 	say(&m, "FUNCTION Reckon : INT ST\nVAR_INPUT\n  A : INT;\n  B : INT;\nEND_VAR\nVAR_OUTPUT\n  Rest : INT;\nEND_VAR\nVAR\n  Own : INT := 3;\nEND_VAR\n"
 		"  Reckon := A * 2 - B;\n  Rest := A / 2;\n");
