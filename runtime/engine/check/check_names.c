@@ -16,6 +16,7 @@
 #include "engine/check/check_st.h"
 #include "engine/check/reserved.h"
 #include "engine/check/settle.h"
+#include "engine/model/located.h"
 #include "engine/model/named.h"
 #include "engine/model/shape.h"
 #include "engine/model/st.h"
@@ -366,15 +367,36 @@ static bool has_address(const struct names_check *c, const struct var *var)
 	return var->at.area != AREA_NONE && !(*text && text[strlen(text) - 1] == '*');
 }
 
+/* The part that a line of VAR_CONFIG gives a value. */
+static void check_located_part(struct names_check *c, const struct var *line, const struct located *to)
+{
+	struct project *project = c->project;
+	enum diag_id why;
+	const struct meaning *m = scope_find(c->scope, &project->pou[to->pou],
+					     names_intern(&project->names, to->text, strlen(to->text)), &why);
+
+	if (!m || m->type == IEC_NONE || m->type == IEC_STRING || m->kind == MEANING_ARRAY || m->constant ||
+	    m->addr.area != AREA_NONE || meaning_is_indexed(m) || (m->like && m->like->target))
+		c->good &= located_report(project, line, DIAG_NO_LOCATED, "", "", c->diags);
+	else if (m->type != line->type)
+		c->good &= located_report(project, line, DIAG_LOCATED_TYPE, iec_type_row(m->type)->word,
+					  iec_type_row(line->type)->word, c->diags);
+	else
+		uses_add(&c->uses, m, USE_WRITTEN);
+}
+
 /* VAR_CONFIG */
 static void check_located(struct names_check *c)
 {
 	for (int i = 0; i < c->project->located.count; i++) {
 		const struct var *line = &c->project->located.var[i];
+		struct located to;
 
 		if (has_address(c, line))
 			check_address(c, line, (struct diag){ .file = c->project->config->file,
 							      .line = line->line });
+		if (located_find(c->project, text_of(c, line->name), &to) && to.part && !line->at_text)
+			check_located_part(c, line, &to);
 	}
 }
 

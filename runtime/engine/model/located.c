@@ -14,13 +14,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a path leads to. */
-struct located {
-	const struct config_entry *instance; /* NULL: the program has none     */
-	int pou;
-	int var;
-};
-
 /* The first name of a path, and what stands behind its point. */
 static size_t step(const char *path, const char **rest)
 {
@@ -54,7 +47,7 @@ static bool find_program(const struct project *project, const char *text, size_t
 	return out->pou >= 0 && project->pou[out->pou].kind == POU_PROGRAM;
 }
 
-static bool find(struct project *project, const char *path, struct located *out)
+bool located_find(struct project *project, const char *path, struct located *out)
 {
 	const struct config *config = project->config;
 	const char *rest = NULL;
@@ -70,8 +63,11 @@ static bool find(struct project *project, const char *path, struct located *out)
 	}
 	if (!rest || !find_program(project, path, len, out))
 		return false;
+	len = strcspn(rest, ".[");
+	out->text = rest;
+	out->part = rest[len];
 	out->var = vars_find(&project->pou[out->pou].vars, names_fold(&project->names,
-			     names_intern(&project->names, rest, strlen(rest))));
+			     names_intern(&project->names, rest, len)));
 	return out->var >= 0;
 }
 
@@ -87,8 +83,8 @@ static void print_type(const struct project *project, const struct var *var, cha
 	sink_memory_free(&memory);
 }
 
-static bool report(struct project *project, const struct var *line, enum diag_id id, const char *has,
-		   const char *wants, struct diag_list *diags)
+bool located_report(struct project *project, const struct var *line, enum diag_id id, const char *has,
+		    const char *wants, struct diag_list *diags)
 {
 	const struct diag place = { .id = id, .file = project->config->file, .line = line->line };
 
@@ -117,9 +113,9 @@ static bool compare(struct project *project, const struct var *var, const struct
 	print_type(project, var, has, sizeof(has));
 	print_type(project, line, wants, sizeof(wants));
 	if (strcmp(has, wants) != 0)
-		return report(project, line, DIAG_LOCATED_TYPE, has, wants, diags);
+		return located_report(project, line, DIAG_LOCATED_TYPE, has, wants, diags);
 	if (!may_lie(project, var, line))
-		return report(project, line, DIAG_LOCATED_AT, project_text(project, var->at_text),
+		return located_report(project, line, DIAG_LOCATED_AT, project_text(project, var->at_text),
 			      project_text(project, line->at_text), diags);
 	return true;
 }
@@ -160,10 +156,13 @@ bool located_place(struct project *project, struct diag_list *diags)
 		struct located to;
 		struct var *var;
 
-		if (!find(project, project_text(project, line->name), &to) || !is_plain(line)) {
-			good = report(project, line, DIAG_NO_LOCATED, "", "", diags) && good;
+		if (!located_find(project, project_text(project, line->name), &to) || !is_plain(line) ||
+		    (to.part && (line->at_text || !line->has_init || line->inherits))) {
+			good = located_report(project, line, DIAG_NO_LOCATED, "", "", diags) && good;
 			continue;
 		}
+		if (to.part)
+			continue;
 		var = &project->pou[to.pou].vars.var[to.var];
 		project->unlocated[i] = *var;
 		if (!compare(project, var, line, diags))
@@ -177,7 +176,7 @@ bool located_place(struct project *project, struct diag_list *diags)
 /* Does line @i mean a variable of the program that @pou is an instance of? */
 static bool means(struct project *project, int i, const struct pou *pou, struct located *to)
 {
-	return find(project, project_text(project, project->located.var[i].name), to) &&
+	return located_find(project, project_text(project, project->located.var[i].name), to) && !to->part &&
 	       project->pou[to->pou].line == pou->line && project->pou[to->pou].file == pou->file;
 }
 

@@ -9,10 +9,25 @@
 #include "engine/base/diag.h"
 #include "engine/model/project.h"
 
+/* What the path of a line leads to. */
+struct located {
+	const struct config_entry *instance; /* NULL: the program has none     */
+	int pou;
+	int var;
+	const char *text;    /* the path behind the program                    */
+	bool part;           /* of the variable: `Delay.PT`, `Levels[3]`       */
+};
+
+/** located_find - the variable of @path, or the one that it is a part of. Scan-safe: no. Fails: false: there is none. */
+bool located_find(struct project *project, const char *path, struct located *out);
+/** located_report - a message at a line of VAR_CONFIG; @has, @wants: "" or its other parts. False. */
+bool located_report(struct project *project, const struct var *line, enum diag_id id, const char *has,
+		    const char *wants, struct diag_list *diags);
 /**
  * located_place - gives the variables of programs what the lines of VAR_CONFIG say
  *
- * The lines of an instance that has data of its own are compared with its program only. Types are
+ * The lines of an instance that has data of its own are compared with its program only. A line of a part is left to
+ * check/ and to the layout. Types are
  * resolved, constants computed. Owns: the project's arena.   Scan-safe: no.
  * Fails: false after a diagnostic, or without memory.
  */

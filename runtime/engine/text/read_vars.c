@@ -33,12 +33,17 @@ static bool add_var(struct reader *r, struct var_table *table, uint32_t name)
 
 static bool add_name(struct reader *r, struct var_table *table)
 {
+	const struct token word = r->lex.token;
 	uint32_t name = 0;
 
-	if (r->paths && r->lex.token.kind == TOKEN_NAME && memchr(r->lex.token.text, '.', r->lex.token.len))
-		name = reader_intern(r, r->lex.token.text, r->lex.token.len);
-	else if (!reader_name(r, "name of a variable", &name))
+	if (r->paths && word.kind == TOKEN_NAME && (memchr(word.text, '.', word.len) || reader_peek(r, "["))) {
+		buffer_clear(&r->text);
+		if (!reader_value(r, false, &word))
+			return false;
+		name = buffer_take(r, &r->text);
+	} else if (!reader_name(r, "name of a variable", &name)) {
 		return false;
+	}
 	if (!add_var(r, table, name))
 		return false;
 	reader_step(r);

@@ -6,6 +6,7 @@
  * by type, instances. A bit of an area lives a byte each unless some byte or word
  * access overlays it. Constants and scratch come last, as they are needed.
  */
+#include "engine/model/located.h"
 #include "engine/model/shape.h"
 #include "engine/translate/assembler.h"
 
@@ -699,6 +700,32 @@ static bool init_located(struct assembler *as)
 	return true;
 }
 
+/* The parts of variables to which VAR_CONFIG gives values, of this instance. */
+static void init_parts(struct assembler *as)
+{
+	struct project *project = as->translation->project;
+
+	for (int i = 0; i < project->located.count; i++) {
+		const struct var *line = &project->located.var[i];
+		struct located to;
+		const struct meaning *m = NULL;
+		const char *name;
+		enum diag_id why;
+
+		if (!located_find(project, project_text(project, line->name), &to) || !to.part)
+			continue;
+		if (to.instance && project_is_further(project, to.instance)) {
+			name = project_text(project, to.instance->name);
+			to.pou = project_find_pou(project, name, strlen(name));
+		}
+		if (to.pou >= 0)
+			m = scope_find(as->translation->scope, &project->pou[to.pou],
+				       names_intern(&project->names, to.text, strlen(to.text)), &why);
+		if (m)
+			layout_init_over(as, layout_spot(as, m).offset, m->type, line->init);
+	}
+}
+
 static bool make_tables(struct assembler *as)
 {
 	int tables = as->translation->unit_count + 1;
@@ -859,7 +886,10 @@ bool layout_make(struct assembler *as)
 	for (int i = 0; i < as->translation->unit_count; i++)
 		place_frame(as, i);
 	place_all(as, false);
-	return init_located(as) && layout_count_pins(as) && !as->failed;
+	if (!init_located(as))
+		return false;
+	init_parts(as);
+	return layout_count_pins(as) && !as->failed;
 }
 
 void layout_core(struct assembler *as)
