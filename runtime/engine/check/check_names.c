@@ -397,6 +397,9 @@ static void check_located(struct names_check *c)
 							      .line = line->line });
 		if (located_find(c->project, text_of(c, line->name), &to) && to.part && !line->at_text)
 			check_located_part(c, line, &to);
+		else if (located_is_whole(line) && init_has_parts(line))
+			c->good &= check_init(c->project, line, &c->walk, c->scratch, c->diags,
+					      (struct diag){ .file = c->project->config->file, .line = line->line });
 	}
 }
 

@@ -120,6 +120,12 @@ static bool compare(struct project *project, const struct var *var, const struct
 	return true;
 }
 
+bool located_is_whole(const struct var *line)
+{
+	return line->has_init && !line->inherits && !line->at_text && !line->target && !line->written &&
+	       (line->type == IEC_NONE || line->type == IEC_STRING || line->array.count);
+}
+
 /* Its address is a whole one, and its value a plain constant. */
 static bool is_plain(const struct var *line)
 {
@@ -134,7 +140,7 @@ static void place(struct var *var, const struct var *line)
 {
 	if (line->at.area != AREA_NONE)
 		var->at = line->at;
-	if (!line->has_init || line->inherits)
+	if (!line->has_init || line->inherits || located_is_whole(line))
 		return;
 	var->inherits |= !var->has_init;
 	var->has_init = true;
@@ -156,7 +162,8 @@ bool located_place(struct project *project, struct diag_list *diags)
 		struct located to;
 		struct var *var;
 
-		if (!located_find(project, project_text(project, line->name), &to) || !is_plain(line) ||
+		if (!located_find(project, project_text(project, line->name), &to) ||
+		    (!is_plain(line) && (to.part || !located_is_whole(line))) ||
 		    (to.part && (line->at_text || !line->has_init || line->inherits))) {
 			good = located_report(project, line, DIAG_NO_LOCATED, "", "", diags) && good;
 			continue;

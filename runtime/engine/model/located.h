@@ -20,6 +20,8 @@ struct located {
 
 /** located_find - the variable of @path, or the one that it is a part of. Scan-safe: no. Fails: false: there is none. */
 bool located_find(struct project *project, const char *path, struct located *out);
+/** located_is_whole - has the line the value of a structure, a block, an array or a text? check/ and the layout take it. Scan-safe: yes. */
+bool located_is_whole(const struct var *line);
 /** located_report - a message at a line of VAR_CONFIG; @has, @wants: "" or its other parts. False. */
 bool located_report(struct project *project, const struct var *line, enum diag_id id, const char *has,
 		    const char *wants, struct diag_list *diags);

@@ -700,7 +700,24 @@ static bool init_located(struct assembler *as)
 	return true;
 }
 
-/* The parts of variables to which VAR_CONFIG gives values, of this instance. */
+/* Another value takes the place of each element, also a 0. */
+static void init_over(struct assembler *as, uint32_t offset, const struct var *var)
+{
+	const uint32_t size = var->array.count && var->type != IEC_NONE ? iec_type_row(var->type)->size : 0;
+	uint32_t at = 0;
+
+	if (!size || var->type == IEC_STRING || init_has_parts(var)) {
+		layout_init_var(as, offset, var);
+		return;
+	}
+	for (int i = 0; i < var->init_count; i++)
+		for (uint32_t k = 0; k < var->init_list[i].count; k++)
+			layout_init_over(as, offset + size * at++, var->type, var->init_list[i].value);
+	while (at < var->array.count)
+		layout_init_over(as, offset + size * at++, var->type, (union iec_value){ .i = 0 });
+}
+
+/* The values that VAR_CONFIG gives to parts of variables, and to structures, blocks, arrays and texts. */
 static void init_parts(struct assembler *as)
 {
 	struct project *project = as->translation->project;
@@ -712,7 +729,8 @@ static void init_parts(struct assembler *as)
 		const char *name;
 		enum diag_id why;
 
-		if (!located_find(project, project_text(project, line->name), &to) || !to.part)
+		if (!located_find(project, project_text(project, line->name), &to) ||
+		    (!to.part && !located_is_whole(line)))
 			continue;
 		if (to.instance && project_is_further(project, to.instance)) {
 			name = project_text(project, to.instance->name);
@@ -721,8 +739,10 @@ static void init_parts(struct assembler *as)
 		if (to.pou >= 0)
 			m = scope_find(as->translation->scope, &project->pou[to.pou],
 				       names_intern(&project->names, to.text, strlen(to.text)), &why);
-		if (m)
+		if (m && to.part)
 			layout_init_over(as, layout_spot(as, m).offset, m->type, line->init);
+		else if (m && m->addr.area == AREA_NONE)
+			init_over(as, layout_spot(as, m).offset, line);
 	}
 }
 
