@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * bench_drawing - what it costs to lay out and draw a sheet of 5,000 rungs, in time of
+ * bench_drawing - what it costs to lay out and draw a sheet of 5,000 rungs, and networks of 60 boxes, in time of
  * the processor. It prints and judges nothing.
  */
+#include "editor-gtk/draw/fbd_draw.h"
 #include "editor-gtk/draw/pages.h"
 #include "tests/editor/drawn.h"
 
@@ -146,6 +147,44 @@ static void bench_pages(const struct project *project, struct lettering *letteri
 	pages_free(pages);
 }
 
+/* 60 boxes, each of which reads two others near to it. */
+static char *network(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROGRAM Main FBD\nVAR\n  A, B, C, Q : BOOL;\nEND_VAR\nNETWORK\n");
+
+	for (int i = 0; i < 59; i++)
+		g_string_append_printf(text, i < 3 ? "  W%d := AND(A, NOT B)\n" : "  W%d := OR(W%d, NOT W%d, C)\n", i,
+				       i - 1 - i * 5 % 3, i - 1 - i * 7 % 3);
+	g_string_append(text, "  Q := W58\nEND_PROGRAM\n");
+	return g_string_free(text, FALSE);
+}
+
+static void bench_network(struct lettering *lettering)
+{
+	char *text = network();
+	struct ladder *ladder = drawn_load("bench.rung", text);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+	struct fbd_layout *layout;
+
+	g_free(text);
+	if (!project)
+		return;
+	start();
+	for (int i = 0; i < TIMES / 10; i++)
+		fbd_layout_free(fbd_layout_new(project, &project->pou[0], 0, lettering));
+	layout = fbd_layout_new(project, &project->pou[0], 0, lettering);
+	printf("graph and layout of a network of %d boxes  %10.3f ms\n", layout->graph.box_count, taken(TIMES / 10));
+	start();
+	for (int i = 0; i < TIMES / 10; i++) {
+		const struct fbd_scene scene = { .layout = layout, .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+
+		gsk_render_node_unref(fbd_draw_node(&scene));
+	}
+	printf("node of that network                       %10.3f ms\n", taken(TIMES / 10));
+	fbd_layout_free(layout);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	PangoContext *context = lettering_context();
@@ -168,6 +207,7 @@ int main(void)
 	bench_nodes(sheet, &live, "running");
 	bench_paint(sheet);
 	bench_pages(project, lettering);
+	bench_network(lettering);
 	sheet_free(sheet);
 	ladder_free(ladder);
 	lettering_free(lettering);
