@@ -33,22 +33,27 @@ enum letter fbd_operand_letter(const char *operand)
 	return fbd_is_constant(operand) ? LETTER_OPERAND : LETTER_SYMBOL;
 }
 
+static float operand_width(struct lettering *lettering, const char *text)
+{
+	return ceilf(lettering_fit(lettering, fbd_operand_letter(text), text, -1, LABEL_BOUND).width);
+}
+
 static float measure(void *context, enum fbd_text kind, const char *text)
 {
 	static const struct { enum letter letter; float bound; } rows[] = {
 		[FBD_TEXT_TYPE] = { LETTER_TYPE, FBD_TYPE_BOUND },
 		[FBD_TEXT_INSTANCE] = { LETTER_SYMBOL, LABEL_BOUND },
 		[FBD_TEXT_PIN] = { LETTER_PIN, FBD_PIN_BOUND },
-		[FBD_TEXT_OPERAND] = { LETTER_SYMBOL, LABEL_BOUND },
 		[FBD_TEXT_TARGET] = { LETTER_SYMBOL, LABEL_BOUND },
 		[FBD_TEXT_WIRE] = { LETTER_PIN, FBD_PIN_BOUND },
 	};
-	const enum letter letter = kind == FBD_TEXT_OPERAND ? fbd_operand_letter(text) : rows[kind].letter;
+	float width;
 
-	const float width = ceilf(lettering_fit(context, letter, text, -1, rows[kind].bound).width);
-
-	if (kind == FBD_TEXT_OPERAND && !fbd_is_constant(text))
-		return MAX(width, FBD_VALUE_BOUND - 8); /* its value stands above it */
+	if (kind == FBD_TEXT_OPERAND && fbd_is_constant(text))
+		return operand_width(context, text);
+	if (kind == FBD_TEXT_OPERAND) /* its value stands above it */
+		return MAX(operand_width(context, text), FBD_VALUE_BOUND - 8);
+	width = ceilf(lettering_fit(context, rows[kind].letter, text, -1, rows[kind].bound).width);
 	return kind == FBD_TEXT_WIRE ? width + FBD_VALUE_BOUND - 16 : width;
 }
 
@@ -187,7 +192,7 @@ graphene_rect_t fbd_layout_operand(const struct fbd_layout *layout, int pin)
 {
 	const struct fbd_pin *p = &layout->graph.pin[pin];
 	const graphene_point_t at = fbd_layout_pin(layout, pin);
-	const float width = p->operand ? measure(layout->lettering, FBD_TEXT_OPERAND, p->operand) : FBD_OPEN;
+	const float width = p->operand ? operand_width(layout->lettering, p->operand) : FBD_OPEN;
 	const float away = p->operand ? FBD_STUB + (p->negated ? 2 * FBD_CIRCLE : 0) : 4;
 
 	return GRAPHENE_RECT_INIT(p->output ? at.x + away : at.x - away - width, at.y - FBD_ROW / 2.0f, width,
