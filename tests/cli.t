@@ -212,6 +212,27 @@ is_run(0, 'show of a label', ['show', 'good.rung', 'Seal']);
 is_run(0, 'show of POU:NUMBER', ['show', 'good.rung', 'Main:1']);
 ($out) = is_run(2, 'show of no rung', ['show', 'good.rung', '7']);
 is($out, '', 'show of no rung: nothing');
+put('networks.rung', <<'END');
+RUNGBOARD 1
+
+PROGRAM Main FBD
+VAR
+  A : BOOL;
+  Q : BOOL;
+  R : BOOL;
+END_VAR
+NETWORK
+  Q := NOT A
+NETWORK Second
+  R := Q AND A
+END_PROGRAM
+END
+($out) = is_run(0, 'show of the label of a network', ['show', 'networks.rung', 'Second']);
+like($out, qr/^2  Second\n.*AND.*\[ R \]/s, 'draws that network');
+unlike($out, qr/\[ Q \]/, 'and no other');
+($out) = is_run(0, 'show of the number of a network', ['show', 'networks.rung', 'Main:1']);
+like($out, qr/^1\n *A ?o\[ Q \]/, 'draws that one');
+is_run(2, 'show of no network', ['show', 'networks.rung', 'Main:3']);
 ($out) = is_run(0, 'show --ascii', ['show', '--ascii', 'good.rung']);
 unlike($out, qr/[^\x00-\x7f]/, 'show --ascii is ASCII');
 ($out) = is_run(0, 'il', ['il', 'good.rung']);
