@@ -150,6 +150,22 @@ int fbd_layout_networks(const struct pou *pou)
 	return pou->fbd ? pou->fbd->count : 0;
 }
 
+char *fbd_layout_text(const struct project *project, const struct pou *pou, int index)
+{
+	const struct fbd_network *network = &pou->fbd->network[index];
+	GString *text = g_string_new(NULL);
+
+	g_string_printf(text, "%d\n%s\n%s\n%s\n", network->off, project_text(project, network->label),
+			project_text(project, network->title), project_text(project, network->comment));
+	for (int i = network->first; i < network->first + network->count; i++) {
+		const struct st_item *item = &pou->st->item[i];
+
+		g_string_append_printf(text, "%s {%d,%d}\n", project_text(project, item->text), item->at_column,
+				       item->at_row);
+	}
+	return g_string_free(text, FALSE);
+}
+
 void fbd_layout_free(struct fbd_layout *layout)
 {
 	if (!layout)

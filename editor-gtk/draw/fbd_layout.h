@@ -50,6 +50,8 @@ void fbd_layout_free(struct fbd_layout *layout);
 
 /** fbd_layout_networks - how many a POU in FBD has. */
 int fbd_layout_networks(const struct pou *pou);
+/** fbd_layout_text - the heading and lines of a network as one text, to compare networks. Owns: the caller, g_free(). */
+char *fbd_layout_text(const struct project *project, const struct pou *pou, int index);
 
 /** fbd_operand_letter - constants are set as values, names as symbols. */
 enum letter fbd_operand_letter(const char *operand);

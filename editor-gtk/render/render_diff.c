@@ -6,6 +6,7 @@
 #include "editor-gtk/render/render_diff.h"
 
 #include "editor-gtk/draw/diff_draw.h"
+#include "editor-gtk/draw/fbd_draw.h"
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/rung_layout.h"
 #include "editor-gtk/draw/sfc_draw.h"
@@ -107,6 +108,89 @@ static float put_charts(const struct project *a, int pou_a, const struct project
 	if (after)
 		sfc_sheet_free(after);
 	return y;
+}
+
+/* ---- networks ---- */
+
+#define PAIRS_MOST 4000000 /* networks times networks that are compared          */
+
+struct networks {
+	const struct project *project;
+	const struct pou *pou;   /* NULL: there is none                            */
+	char **text;             /* of each: the same if nothing differs           */
+	int count;
+};
+
+static struct networks networks_of(const struct project *project, int pou)
+{
+	struct networks of = { .project = project, .pou = pou < 0 ? NULL : &project->pou[pou] };
+
+	of.count = of.pou ? fbd_layout_networks(of.pou) : 0;
+	of.text = g_new0(char *, of.count + 1);
+	for (int i = 0; i < of.count; i++)
+		of.text[i] = fbd_layout_text(project, of.pou, i);
+	return of;
+}
+
+static float put_network(const struct networks *of, int index, unsigned int state, const struct theme *theme,
+			 struct lettering *lettering, float y, struct picture *picture)
+{
+	struct fbd_layout *layout = fbd_layout_new(of->project, of->pou, index, lettering);
+	const struct fbd_scene scene = { .layout = layout, .theme = theme, .state = state };
+
+	picture_move(picture, 0, y);
+	fbd_draw(&scene, picture);
+	picture_move(picture, 0, 0);
+	y += layout->height;
+	picture_grow(picture, layout->width, y);
+	fbd_layout_free(layout);
+	return y;
+}
+
+/* The lengths of the longest common parts of both behind each pair; NULL: there are too many. */
+static int *common_parts(const struct networks *a, const struct networks *b)
+{
+	const int wide = b->count + 1;
+	int *part;
+
+	if ((gint64)(a->count + 1) * wide > PAIRS_MOST)
+		return NULL;
+	part = g_new0(int, (a->count + 1) * wide);
+	for (int i = a->count - 1; i >= 0; i--)
+		for (int k = b->count - 1; k >= 0; k--)
+			part[i * wide + k] = strcmp(a->text[i], b->text[k]) == 0 ? part[(i + 1) * wide + k + 1] + 1 :
+				MAX(part[(i + 1) * wide + k], part[i * wide + k + 1]);
+	return part;
+}
+
+/* Networks that only one of them has; both versions of a changed one, below each other. */
+static float put_networks(const struct networks *a, const struct networks *b, const struct theme *theme,
+			  struct lettering *lettering, float y, struct picture *picture)
+{
+	int *part = common_parts(a, b);
+	const int wide = b->count + 1;
+
+	for (int i = 0, k = 0; i < a->count || k < b->count;) {
+		const bool both = i < a->count && k < b->count;
+
+		if (both && strcmp(a->text[i], b->text[k]) == 0) {
+			i++;
+			k++;
+		} else if (i < a->count && (!both || !part || part[(i + 1) * wide + k] >= part[i * wide + k + 1])) {
+			y = put_network(a, i++, RUNG_REMOVED, theme, lettering, y, picture);
+			if (!part && k < b->count)
+				y = put_network(b, k++, RUNG_ADDED, theme, lettering, y, picture);
+		} else {
+			y = put_network(b, k++, RUNG_ADDED, theme, lettering, y, picture);
+		}
+	}
+	g_free(part);
+	return y;
+}
+
+static void networks_clear(struct networks *of)
+{
+	g_strfreev(of->text);
 }
 
 static float put_besides(const struct project *a, const struct project *b,
@@ -246,6 +330,18 @@ static void put_moved(struct comparison *of, struct compare_pair pair)
 	g_free(said);
 }
 
+/* The networks that differ; false: none is drawn. */
+static bool put_pou_networks(struct comparison *of, int pou_a, int pou_b)
+{
+	struct networks a = networks_of(of->a, pou_a), b = networks_of(of->b, pou_b);
+	const float y = of->y;
+
+	of->y = put_networks(&a, &b, theme_get(of->options->theme, THEME_GREEN), of->lettering, of->y, of->picture);
+	networks_clear(&a);
+	networks_clear(&b);
+	return of->y > y;
+}
+
 /* A POU that only one project has, or that has another language. */
 static void put_all(struct comparison *of, bool added)
 {
@@ -258,7 +354,8 @@ static void put_all(struct comparison *of, bool added)
 	for (int i = 0; pou->language == LANGUAGE_LD && i < pou->rung_count; i++)
 		put_rung(of, added ? of->after : of->before, i,
 			 added ? RUNG_ADDED : RUNG_REMOVED, NULL, 0);
-	if (pou->language == LANGUAGE_LD)
+	if (pou->language == LANGUAGE_LD ||
+	    (pou->fbd && put_pou_networks(of, added ? -1 : index, added ? index : -1)))
 		return;
 	if (pou->sfc)
 		of->y = put_charts(of->a, added ? -1 : index, of->b,
@@ -283,6 +380,11 @@ static void put_other(struct comparison *of)
 		put_all(of, true);
 		g_free(said);
 		return;
+	}
+	if (a->fbd) {
+		name_pou(of, "");
+		if (put_pou_networks(of, of->pou_a, of->pou_b))
+			return;
 	}
 	name_pou(of, a->sfc ? _("the chart differs") : _("the instruction list differs"));
 	if (a->sfc && b->sfc)

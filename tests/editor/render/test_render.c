@@ -177,6 +177,32 @@ static void check_diff_besides(void)
 	g_free(text);
 }
 
+/* Networks are drawn, one by its number, marked, and in a comparison those that differ. */
+static void check_networks(void)
+{
+#define LINES(op) "PROGRAM Main FBD\nVAR\n  Start, Stop, Motor : BOOL;\n  Delay : TON;\nEND_VAR\n" \
+	"NETWORK \"First\"\n  Delay(IN := Start AND NOT Stop, PT := T#5s)\n" \
+	"NETWORK Last \"Second\"\n  Motor := Delay.Q " op " Start\nEND_PROGRAM\n"
+	write_text("a.rung", LINES("OR"));
+	write_text("b.rung", LINES("XOR") "PROGRAM More FBD\nVAR\n  Lamp : BOOL;\nEND_VAR\n"
+		   "NETWORK \"Third\"\n  Lamp := NOT Lamp\nEND_PROGRAM\n");
+	CHECK(render("OUT/a.rung -o OUT/fbd.svg") == 0);
+	CHECK(has("fbd.svg", ">First</text>") && has("fbd.svg", ">T#5s</text>") && has("fbd.svg", ">Last:</text>"));
+	CHECK(has("fbd.svg", ">TON</text>") && has("fbd.svg", ">OR</text>") && has("fbd.svg", ">Delay.Q</text>"));
+	CHECK(render("OUT/a.rung --rung 2 -o OUT/fbd.svg") == 0);
+	CHECK(!has("fbd.svg", ">TON</text>") && has("fbd.svg", ">OR</text>"));
+	CHECK(render("OUT/a.rung --rung 3 -o OUT/fbd.svg") == 2);
+	CHECK(render("OUT/a.rung -o OUT/fbd.pdf --paper a5") == 0);
+	CHECK(render("--diff OUT/a.rung OUT/b.rung -o OUT/fbd.svg") == 0);
+	CHECK(!has("fbd.svg", ">First</text>") && has("fbd.svg", ">OR</text>") && has("fbd.svg", ">XOR</text>"));
+	CHECK(has("fbd.svg", ">+</text>") && has("fbd.svg", ">\xe2\x88\x92</text>") &&
+	      has("fbd.svg", "PROGRAM More: added") && has("fbd.svg", ">Third</text>"));
+	CHECK(render("--diff OUT/a.rung OUT/a.rung -o OUT/fbd.svg") == 0 && has("fbd.svg", "No rung differs"));
+	write_text("wrong.rung", LINES("OR 5 OR"));
+	CHECK(render("OUT/wrong.rung --check -o OUT/fbd.svg") == 1);
+#undef LINES
+}
+
 /* An added contact moves the output, which is no change. */
 static void check_moved(void)
 {
@@ -410,6 +436,7 @@ int main(void)
 	check_diff_besides();
 	check_diff_chart();
 	check_diff_names();
+	check_networks();
 	check_moved();
 	check_wrong();
 	check_full("full.svg");
