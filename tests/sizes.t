@@ -51,7 +51,8 @@ measure() {
 # 13 KB for channels of analog values and the drivers pwm, w1 and hwmon.
 # 5 KB for gateways: their services, and their points in the map.
 # 3 KB for MB_READ, MB_WRITE and what they ask for in a map, and for what a device takes in one request.
-measure 'ladderd' 506880 '' CFLAGS=-O2
+# 25 KB for Function Block Diagram: networks, wires and their types, feedback; for charts in function blocks, and for values that VAR_CONFIG gives to parts.
+measure 'ladderd' 532480 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core

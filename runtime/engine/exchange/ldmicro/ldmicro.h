@@ -78,7 +78,7 @@ struct ldmicro_program *ldmicro_read(struct import *import);
 bool ldmicro_to_rung(struct import *import, struct ldmicro_program *program);
 
 /** ldmicro_number - `10`, `-5`, `0xFF`, `0o17`, `0b101`, `'a'`. false: it is a name. */
-bool ldmicro_number(const char *text, long *value);
+bool ldmicro_number(const char *text, long long *value);
 /** ldmicro_int - the same, within an int; 0 for a name. */
 int ldmicro_int(const char *text);
 #endif

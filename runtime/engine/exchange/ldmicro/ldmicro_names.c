@@ -146,10 +146,10 @@ const char *instance_new(struct ldmicro_conversion *c, const char *type, const c
 
 /* ---- what the whole program says of them ---- */
 
-long period_of(const struct ldmicro_conversion *c, const struct ldmicro_node *node)
+long long period_of(const struct ldmicro_conversion *c, const struct ldmicro_node *node)
 {
-	long delay, adjust = c->program->old ? -1 : 0;
-	const long cycle = c->program->cycle_us;
+	long long delay, adjust = c->program->old ? -1 : 0;
+	const long long cycle = c->program->cycle_us;
 
 	if (!ldmicro_number(node->arg[1], &delay))
 		return 0;
@@ -161,12 +161,12 @@ long period_of(const struct ldmicro_conversion *c, const struct ldmicro_node *no
 	return delay < 1 ? 1 : delay > 0x7fffffff ? 0x7fffffff : delay;
 }
 
-static int bytes_for(long value)
+static int bytes_for(long long value)
 {
 	return value < -32768 || value > 32767 ? 4 : 2;
 }
 
-static void widen(struct ldmicro_var *var, long value)
+static void widen(struct ldmicro_var *var, long long value)
 {
 	if (bytes_for(value) > var->bytes)
 		var->bytes = 4;
@@ -175,7 +175,7 @@ static void widen(struct ldmicro_var *var, long value)
 static void look_timer(struct ldmicro_conversion *c, const struct ldmicro_node *node)
 {
 	struct ldmicro_var *var = var_of(c, node->arg[0], false);
-	const long period = period_of(c, node);
+	const long long period = period_of(c, node);
 
 	if (!period)
 		return;
@@ -187,7 +187,7 @@ static void look_timer(struct ldmicro_conversion *c, const struct ldmicro_node *
 static void look_counter(struct ldmicro_conversion *c, const struct ldmicro_node *node)
 {
 	struct ldmicro_var *var = var_of(c, node->arg[0], false);
-	long most, init = 0;
+	long long most, init = 0;
 
 	if (ldmicro_number(node->arg[1], &most))
 		widen(var, most);
@@ -291,7 +291,7 @@ static void declare(const struct ldmicro_var *var, struct writing *w)
 	w_put(w, "  %s%s%s : %s", var->ours, var->at ? " AT " : "", var->at ? var->at : "",
 	      var->bit ? "BOOL" : type_of(var->bytes));
 	if (var->init)
-		w_put(w, " := %ld", var->init);
+		w_put(w, " := %lld", var->init);
 	w_put(w, ";");
 	if (var->comment)
 		w_put(w, " (* %s *)", var->comment);

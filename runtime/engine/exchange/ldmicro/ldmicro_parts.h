@@ -16,7 +16,7 @@ struct ldmicro_var {
 	int bytes;               /* of a number: 1, 2 or 4                         */
 	const char *at;          /* "%IX0.0"; NULL: no address                     */
 	const char *comment;     /* NULL: none                                     */
-	long init;
+	long long init;
 	int uses;                /* elements that name it                          */
 	int line;
 };
@@ -95,7 +95,7 @@ const char *bit_new(struct ldmicro_conversion *c, const char *wish);
 /** cut_new - a number for a step of an expression. */
 const char *cut_new(struct ldmicro_conversion *c, int bytes);
 /** period_of - a timer's delay in cycles; 0: the delay is a variable. */
-long period_of(const struct ldmicro_conversion *c, const struct ldmicro_node *node);
+long long period_of(const struct ldmicro_conversion *c, const struct ldmicro_node *node);
 void write_blocks(struct ldmicro_conversion *c, struct writing *w);
 void write_declarations_of(struct ldmicro_conversion *c, struct writing *w);
 /** name_add - one more name of a list. */

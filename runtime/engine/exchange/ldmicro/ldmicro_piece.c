@@ -38,15 +38,15 @@ static struct ldmicro_var *written(struct making *m, const char *name)
 /* ---- operands ---- */
 
 /* As a variable of @bytes holds it. */
-static long wrap(long value, int bytes)
+static long long wrap(long long value, int bytes)
 {
 	return bytes == 1 ? (int8_t)(uint8_t)value : bytes == 2 ? (int16_t)(uint16_t)value :
 	       (int32_t)(uint32_t)value;
 }
 
-static const char *number_text(struct making *m, long value)
+static const char *number_text(struct making *m, long long value)
 {
-	return w_text(&m->c->w, value < 0 ? "(%ld)" : "%ld", value);
+	return w_text(&m->c->w, value < 0 ? "(%lld)" : "%lld", value);
 }
 
 /* A number or variable as a value of @bytes. A narrower one is cut in a statement of its own: in one
@@ -55,7 +55,7 @@ static const char *operand(struct making *m, const char *text, int bytes)
 {
 	const struct ldmicro_var *var;
 	const char *cut;
-	long value;
+	long long value;
 
 	if (ldmicro_number(text, &value))
 		return number_text(m, wrap(value, bytes));
@@ -79,11 +79,11 @@ static const char *word_of(int bytes)
 /* The same as bits. */
 static const char *bits(struct making *m, const char *text, int bytes)
 {
-	long value;
+	long long value;
 
 	if (ldmicro_number(text, &value))
-		return w_text(&m->c->w, "%s#16#%lX", word_of(bytes),
-			      value & (bytes == 1 ? 0xffL : bytes == 2 ? 0xffffL : 0xffffffffL));
+		return w_text(&m->c->w, "%s#16#%llX", word_of(bytes),
+			      value & (bytes == 1 ? 0xffLL : bytes == 2 ? 0xffffLL : 0xffffffffLL));
 	return w_text(&m->c->w, "%s_TO_%s(%s)", type_of(bytes), word_of(bytes),
 		      operand(m, text, bytes));
 }
@@ -106,7 +106,7 @@ static void stand_in(struct making *m, bool passes)
 
 static bool is_number(const char *text)
 {
-	long value;
+	long long value;
 
 	return ldmicro_number(text, &value);
 }
@@ -126,7 +126,7 @@ static void assign(struct making *m, const struct ldmicro_var *var, const char *
 }
 
 /* Of numbers alone; false: it has no result. */
-static bool compute(enum ldmicro_word word, long a, long b, long *out)
+static bool compute(enum ldmicro_word word, long long a, long long b, long long *out)
 {
 	if ((word == LDM_DIV || word == LDM_MOD) && b == 0)
 		return false;
@@ -140,7 +140,7 @@ static void make_arithmetic(struct making *m)
 	static const char *const sign[] = { [LDM_ADD] = "+", [LDM_SUB] = "-", [LDM_MUL] = "*",
 					    [LDM_DIV] = "/", [LDM_MOD] = "MOD" };
 	const enum ldmicro_word word = m->node->word;
-	long a = 0, b = 0, result = 0;
+	long long a = 0, b = 0, result = 0;
 	const bool one = ldmicro_number(arg(m, 1), &a), two = ldmicro_number(arg(m, 2), &b);
 	const struct ldmicro_var *var;
 	const char *left, *right;
@@ -154,7 +154,7 @@ static void make_arithmetic(struct making *m)
 	}
 	var = written(m, arg(m, 0));
 	if (one && two && compute(word, wrap(a, var->bytes), wrap(b, var->bytes), &result)) {
-		assign(m, var, w_text(&m->c->w, "%ld", wrap(result, var->bytes)));
+		assign(m, var, w_text(&m->c->w, "%lld", wrap(result, var->bytes)));
 		return;
 	}
 	left = operand(m, arg(m, 1), var->bytes);
@@ -166,7 +166,7 @@ static void make_move(struct making *m)
 {
 	const struct ldmicro_var *var;
 	const char *value;
-	long number;
+	long long number;
 
 	if (is_number(arg(m, 0))) {
 		stand_in(m, true);
@@ -175,7 +175,7 @@ static void make_move(struct making *m)
 	var = written(m, arg(m, 0));
 	if (ldmicro_number(arg(m, 1), &number)) {
 		number = wrap(number, var->bytes);
-		assign(m, var, w_text(&m->c->w, "%ld", m->node->word == LDM_NEG ? wrap(-number, var->bytes) :
+		assign(m, var, w_text(&m->c->w, "%lld", m->node->word == LDM_NEG ? wrap(-number, var->bytes) :
 								       number));
 		return;
 	}
@@ -192,7 +192,7 @@ static void make_bits(struct making *m)
 			   word == LDM_ROL || word == LDM_ROR;
 	const struct ldmicro_var *var;
 	const char *a, *b = "", *value;
-	long count = 0;
+	long long count = 0;
 
 	if (is_number(arg(m, 0)) || (shift && !ldmicro_number(arg(m, 2), &count)) || count < 0 ||
 	    count > 32) {
@@ -212,7 +212,7 @@ static void make_bits(struct making *m)
 			w_text(w, "(ROL(%s, 8) AND DWORD#16#FF00FF) OR (ROR(%s, 8) AND DWORD#16#FF00FF00)", a, a) :
 			w_text(w, "ROL(%s, %d)", a, 4 * var->bytes);
 	else
-		value = w_text(w, "%s(%s, %ld)", word == LDM_SHL ? "SHL" : word == LDM_ROL ? "ROL" :
+		value = w_text(w, "%s(%s, %lld)", word == LDM_SHL ? "SHL" : word == LDM_ROL ? "ROL" :
 			       word == LDM_ROR ? "ROR" : "SHR", a, count);
 	value = w_text(w, "%s_TO_%s(%s)", word_of(var->bytes), type_of(var->bytes), value);
 	assign(m, var, value);
@@ -221,7 +221,7 @@ static void make_bits(struct making *m)
 	/* An arithmetic shift keeps the sign. */
 	a = operand(m, arg(m, 1), var->bytes);
 	m->piece->last = NULL;
-	m->piece->lines = w_text(w, "%s    IF %s < 0 THEN\n      %s := %s_TO_%s(NOT SHR(NOT %s, %ld));\n    ELSE\n"
+	m->piece->lines = w_text(w, "%s    IF %s < 0 THEN\n      %s := %s_TO_%s(NOT SHR(NOT %s, %lld));\n    ELSE\n"
 				    "      %s := %s;\n    END_IF;\n", m->before, a, var->ours, word_of(var->bytes),
 				 type_of(var->bytes), bits(m, arg(m, 1), var->bytes), count, var->ours, value);
 }
@@ -229,10 +229,10 @@ static void make_bits(struct making *m)
 /* Bit number @text of a variable, as a BOOL; NULL: there is none. */
 static const char *bit_text(struct making *m, const struct ldmicro_var *var, const char *text)
 {
-	long bit;
+	long long bit;
 
 	return ldmicro_number(text, &bit) && bit >= 0 && bit < 8 * var->bytes ?
-	       w_text(&m->c->w, "%s.%ld", var->ours, bit) : NULL;
+	       w_text(&m->c->w, "%s.%lld", var->ours, bit) : NULL;
 }
 
 static void make_bit(struct making *m)
@@ -262,7 +262,7 @@ static void make_bit(struct making *m)
 /* ---- tables ---- */
 
 /* An index or value that another table of the same file gave as a number. */
-static bool table_values(struct making *m, int from, long count, long most)
+static bool table_values(struct making *m, int from, long long count, long long most)
 {
 	if (count < 0 || count > most || m->node->args < from + (int)count || is_number(arg(m, 0)))
 		return false;
@@ -272,9 +272,9 @@ static bool table_values(struct making *m, int from, long count, long most)
 	return true;
 }
 
-static long value_at(const struct making *m, int i)
+static long long value_at(const struct making *m, int i)
 {
-	long value = 0;
+	long long value = 0;
 
 	ldmicro_number(arg(m, i), &value);
 	return value;
@@ -283,7 +283,7 @@ static long value_at(const struct making *m, int i)
 static void make_look_up(struct making *m)
 {
 	struct writing *w = &m->c->w;
-	const long count = value_at(m, 2);
+	const long long count = value_at(m, 2);
 	const struct ldmicro_var *var;
 	const char *index, *text;
 
@@ -298,15 +298,15 @@ static void make_look_up(struct making *m)
 	m->piece->kind = PIECE_LINES;
 	m->piece->cell = w_text(w, "EXECUTE %s", var->ours);
 	if (is_number(arg(m, 1))) {
-		const long at = value_at(m, 1);
+		const long long at = value_at(m, 1);
 
 		m->piece->lines = at >= 0 && at < count ?
-			w_text(w, "    %s := %ld;\n", var->ours, wrap(value_at(m, (int)(4 + at)), var->bytes)) : "";
+			w_text(w, "    %s := %lld;\n", var->ours, wrap(value_at(m, (int)(4 + at)), var->bytes)) : "";
 		return;
 	}
 	text = w_text(w, "    CASE %s OF\n", index);
 	for (int i = 0; i < count; i++)
-		text = w_text(w, "%s      %d: %s := %ld;\n", text, i, var->ours,
+		text = w_text(w, "%s      %d: %s := %lld;\n", text, i, var->ours,
 			      wrap(value_at(m, 4 + i), var->bytes));
 	m->piece->lines = count ? w_text(w, "%s    END_CASE;\n", text) : "";
 }
@@ -316,7 +316,7 @@ static void make_look_up(struct making *m)
 static void make_linear(struct making *m)
 {
 	struct writing *w = &m->c->w;
-	const long count = value_at(m, 2);
+	const long long count = value_at(m, 2);
 	const struct ldmicro_var *var, *from;
 	const char *text = "";
 
@@ -327,8 +327,8 @@ static void make_linear(struct making *m)
 	var = written(m, arg(m, 0));
 	from = var_of(m->c, arg(m, 1), false);
 	for (int i = (int)count - 1; i > 0; i--) {
-		const long x = value_at(m, 3 + 2 * i), y = value_at(m, 4 + 2 * i);
-		const long x0 = value_at(m, 1 + 2 * i), y0 = value_at(m, 2 + 2 * i);
+		const long long x = value_at(m, 3 + 2 * i), y = value_at(m, 4 + 2 * i);
+		const long long x0 = value_at(m, 1 + 2 * i), y0 = value_at(m, 2 + 2 * i);
 
 		if (x <= x0) {
 			stand_in(m, true);
@@ -337,7 +337,7 @@ static void make_linear(struct making *m)
 		m->before = "";
 		const char *index = operand(m, arg(m, 1), var->bytes);
 
-		text = w_text(w, "%s    IF %s <= %ld THEN\n%s      %s := %s - %s;\n      %s := %s * %s;\n"
+		text = w_text(w, "%s    IF %s <= %lld THEN\n%s      %s := %s - %s;\n      %s := %s * %s;\n"
 			      "      %s := %s / %s;\n      %s := %s + %s;\n    END_IF;\n", text, from->ours,
 			      wrap(x, from->bytes), m->before, var->ours, index,
 			      number_text(m, wrap(x0, var->bytes)), var->ours, var->ours,
@@ -353,15 +353,15 @@ static void make_linear(struct making *m)
 static void make_shift_register(struct making *m)
 {
 	struct writing *w = &m->c->w;
-	const long stages = value_at(m, 1);
+	const long long stages = value_at(m, 1);
 	const char *text = "", *to = NULL;
 
 	if (stages < 1 || stages > LDMICRO_STAGES) {
 		stand_in(m, true);
 		return;
 	}
-	for (long i = stages - 1; i >= 0; i--) {
-		const char *from = w_text(w, "%s%ld", arg(m, 0), i);
+	for (long long i = stages - 1; i >= 0; i--) {
+		const char *from = w_text(w, "%s%lld", arg(m, 0), i);
 		const struct ldmicro_var *var = written(m, from);
 
 		reads(m, var);
@@ -388,7 +388,7 @@ static void make_comparison(struct making *m)
 	static const char *const sign[] = { [LDM_EQU] = "=", [LDM_NEQ] = "<>", [LDM_GRT] = ">",
 					    [LDM_GEQ] = ">=", [LDM_LES] = "<", [LDM_LEQ] = "<=" };
 	const enum ldmicro_word word = m->node->word;
-	long a, b;
+	long long a, b;
 	const bool one = ldmicro_number(arg(m, 0), &a), two = ldmicro_number(arg(m, 1), &b);
 	const char *left, *right;
 
@@ -407,8 +407,8 @@ static void make_comparison(struct making *m)
 		reads(m, x);
 	if (y)
 		reads(m, y);
-	left = x ? x->ours : w_text(&m->c->w, "%ld", wrap(a, y->bytes));
-	right = y ? y->ours : w_text(&m->c->w, "%ld", wrap(b, x->bytes));
+	left = x ? x->ours : w_text(&m->c->w, "%lld", wrap(a, y->bytes));
+	right = y ? y->ours : w_text(&m->c->w, "%lld", wrap(b, x->bytes));
 	m->piece->cell = w_text(&m->c->w, "[ %s %s %s ]", left, sign[word], right);
 }
 
@@ -471,9 +471,9 @@ static void make_timer(struct making *m)
 	struct ldmicro_conversion *c = m->c;
 	const enum ldmicro_word word = m->node->word;
 	struct ldmicro_var *var = var_of(c, arg(m, 0), false);
-	const long period = period_of(c, m->node);
+	const long long period = period_of(c, m->node);
 	const long long us = (long long)period * c->program->cycle_us;
-	long delay = 0;
+	long long delay = 0;
 	const char *type;
 
 	m->piece->kind = PIECE_BOX;
@@ -502,7 +502,7 @@ static void make_timer(struct making *m)
 	type = block_of(c, block[word], var->bytes);
 	m->piece->cell = w_text(&c->w, "%s %s P:=%s N:=%s", type,
 				instance_new(c, type, w_text(&c->w, "%s_%s", arg(m, 0), type + 4)),
-				period ? w_text(&c->w, "%ld", period) : var_of(c, arg(m, 1), false)->ours,
+				period ? w_text(&c->w, "%lld", period) : var_of(c, arg(m, 1), false)->ours,
 				var->ours);
 }
 
@@ -527,9 +527,9 @@ static void make_counter(struct making *m)
 	m->piece->kind = PIECE_BOX;
 	m->piece->cell = w_text(w, "%s %s MOST:=%s%s%s%s%s N:=%s", type,
 				instance_new(c, type, w_text(w, "%s_%s", arg(m, 0), type + 4)),
-				is_number(arg(m, 1)) ? w_text(w, "%ld", wrap(value_at(m, 1), var->bytes)) : most,
+				is_number(arg(m, 1)) ? w_text(w, "%lld", wrap(value_at(m, 1), var->bytes)) : most,
 				strcmp(from, "0") ? " FROM:=" : "",
-				strcmp(from, "0") ? is_number(from) ? w_text(w, "%ld", wrap(value_at(m, 2), var->bytes)) :
+				strcmp(from, "0") ? is_number(from) ? w_text(w, "%lld", wrap(value_at(m, 2), var->bytes)) :
 						    start : "",
 				is_number(from) ? "" : " LATE:=TRUE",
 				kind > kinds ? w_text(w, " KIND:=%d", (int)(kind - kinds) + 1) : "", var->ours);
@@ -573,14 +573,14 @@ static void make_reset(struct making *m)
 static void make_count_of_time(struct making *m)
 {
 	const struct ldmicro_var *var;
-	const long period = period_of(m->c, m->node);
+	const long long period = period_of(m->c, m->node);
 
 	if (!period || is_number(arg(m, 0))) {
 		stand_in(m, true);
 		return;
 	}
 	var = written(m, arg(m, 0));
-	assign(m, var, w_text(&m->c->w, "%ld", wrap(period, var->bytes)));
+	assign(m, var, w_text(&m->c->w, "%lld", wrap(period, var->bytes)));
 }
 
 /* ---- the world outside ---- */
@@ -641,7 +641,7 @@ static void make_jump(struct making *m)
 {
 	struct ldmicro_conversion *c = m->c;
 	const bool sub = m->node->word == LDM_GOSUB;
-	long number = 0;
+	long long number = 0;
 	int rung = ldmicro_number(arg(m, 0), &number) && !sub ? (int)(number < 1 ? 0 : number - 1) :
 		   rung_of_label(c, arg(m, 0), sub ? LDM_SUBPROG : LDM_LABEL);
 

@@ -215,7 +215,7 @@ static bool read_setting(struct reader *r)
 	struct ldmicro_io *setting;
 
 	if (!strncmp(r->line, "CYCLE=", 6)) {
-		const long value = strtol(r->line + 6, NULL, 10);
+		const long long value = strtol(r->line + 6, NULL, 10);
 
 		p->cycle_us = value > 0 && value <= 60000000 ? (int)value : 0;
 		p->cycle_line = r->number;
@@ -292,11 +292,11 @@ static int digit_of(char c)
 	return ascii_digit(c) ? c - '0' : upper >= 'A' && upper <= 'F' ? upper - 'A' + 10 : 99;
 }
 
-bool ldmicro_number(const char *text, long *value)
+bool ldmicro_number(const char *text, long long *value)
 {
 	const bool minus = *text == '-';
 	const char *at = text + (minus || *text == '+');
-	long number = 0;
+	long long number = 0;
 	int base = 10;
 
 	if (*at == '\'') {
@@ -314,7 +314,7 @@ bool ldmicro_number(const char *text, long *value)
 		at += mark == 'X' || mark == 'B' || mark == 'O' ? 2 : 1;
 	}
 	for (; digit_of(*at) < base; at++)
-		if (number < 1L << 40)
+		if (number < 1LL << 40)
 			number = number * base + digit_of(*at);
 	*value = minus ? -number : number;
 	return true;
@@ -322,7 +322,7 @@ bool ldmicro_number(const char *text, long *value)
 
 int ldmicro_int(const char *text)
 {
-	long value;
+	long long value;
 
 	if (!ldmicro_number(text, &value))
 		return 0;

@@ -59,7 +59,7 @@ static bool find_parts(struct ldmicro_conversion *c)
 static void find_targets(struct ldmicro_conversion *c, const struct ldmicro_node *node)
 {
 	for (; node; node = node->next) {
-		long number;
+		long long number;
 
 		if (node->first)
 			find_targets(c, node->first);
