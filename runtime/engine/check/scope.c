@@ -27,10 +27,10 @@ struct declared {
 struct answer {
 	struct answer *next; /* of the same text in another table */
 	uint32_t table;
-	uint32_t network;    /* in which it was asked; 0: in none            */
 	enum diag_id why : 16;
 	bool known;
 	bool made;           /* scope_add(): the same in all networks        */
+	uint32_t text;       /* of an answer in a network                    */
 	struct meaning meaning;
 };
 
@@ -48,6 +48,8 @@ struct scope {
 	bool actions;           /* there are some                            */
 	uint32_t wired;         /* the table whose wires are seen; 0: none   */
 	uint32_t network;       /* those of this network, from 1             */
+#define WIRED 64
+	struct answer *inside[WIRED]; /* by text: the answers in this network */
 };
 
 #define POUS UINT32_MAX         /* the table of the names of POUs */
@@ -636,6 +638,7 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 
 void scope_network(struct scope *scope, const struct pou *pou, int network)
 {
+	memset(scope->inside, 0, sizeof(scope->inside));
 	scope->wired = network < 0 ? 0 : table_number(scope, pou);
 	scope->network = (uint32_t)(network + 1);
 }
@@ -664,7 +667,11 @@ static struct answer *find_answer(const struct scope *scope, uint32_t table,
 	struct answer *answer = text < scope->answers ? scope->answer[text] : NULL;
 	const uint32_t network = network_in(scope, table);
 
-	while (answer && (answer->table != table || (answer->network != network && !answer->made)))
+	if (network)
+		for (struct answer *inside = scope->inside[text % WIRED]; inside; inside = inside->next)
+			if (inside->text == text)
+				return inside;
+	while (answer && (answer->table != table || (network && !answer->made)))
 		answer = answer->next;
 	return answer;
 }
@@ -676,6 +683,13 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 	struct answer *answer = arena_alloc(scope->arena, sizeof(*answer));
 	uint32_t size = (uint32_t)scope->project->names.count + 64;
 
+	if (answer && network_in(scope, table)) {
+		answer->table = table;
+		answer->text = text;
+		answer->next = scope->inside[text % WIRED];
+		scope->inside[text % WIRED] = answer;
+		return answer;
+	}
 	if (text >= scope->answers) {
 		size += size / 4;
 		scope->answer = arena_grow(scope->arena, scope->answer,
@@ -686,7 +700,6 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 	if (!answer || !scope->answer)
 		return NULL;
 	answer->table = table;
-	answer->network = network_in(scope, table);
 	answer->next = scope->answer[text];
 	scope->answer[text] = answer;
 	return answer;
@@ -1249,10 +1262,14 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index)
 {
 	uint32_t table = table_number(scope, pou);
-	struct answer *answer = find_answer(scope, table, var->name);
+	const uint32_t wired = scope->wired;
+	struct answer *answer;
 
+	scope->wired = 0; /* it is the same in all networks */
+	answer = find_answer(scope, table, var->name);
 	if (!answer)
 		answer = add_answer(scope, table, var->name);
+	scope->wired = wired;
 	if (!answer)
 		return false;
 	answer->known = answer->made = true;

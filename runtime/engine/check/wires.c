@@ -37,9 +37,12 @@ static void add_variable(struct wiring *w, uint32_t name, enum iec_type type)
 	struct var_table *table = &w->pou->vars;
 	struct arena *arena = &w->project->arena;
 	struct var_block *block = table->block_count ? &table->block[table->block_count - 1] : NULL;
+	struct fbd_network *network = &w->pou->fbd->network[w->network];
 	struct var *slot;
 
-	if (!name || vars_find(table, names_fold(&w->project->names, name)) >= 0) {
+	if (!network->wires)
+		network->wire = table->count;
+	if (!name || fbd_variable(&w->project->names, w->pou, w->network, name) >= 0) {
 		w->failed |= !name;
 		return;
 	}
@@ -56,6 +59,7 @@ static void add_variable(struct wiring *w, uint32_t name, enum iec_type type)
 	*slot = (struct var){ .name = name, .type = type, .line = w->item->line };
 	slot->fold = names_fold(&w->project->names, name);
 	block->count++;
+	network->wires++;
 }
 
 /* Is the name declared nowhere? */
@@ -293,8 +297,8 @@ static void type_before(struct wiring *w)
 	while (fbd_names_next(&walk, &name, &use, &whole)) {
 		const int wire = use == FBD_BEFORE ?
 			fbd_wire(&w->project->names, w->pou, w->network, name.text, name.len) : -1;
-		const int before = wire < 0 ? -1 : vars_find(&w->pou->vars, names_fold(&w->project->names,
-			fbd_wire_name(&w->project->names, name.text, name.len, w->network, true)));
+		const int before = wire < 0 ? -1 : fbd_variable(&w->project->names, w->pou, w->network,
+			fbd_wire_name(&w->project->names, name.text, name.len, w->network, true));
 
 		if (before >= 0)
 			set_like(w, before, &w->pou->vars.var[wire]);
@@ -332,8 +336,11 @@ static void declare_all(struct wiring *w)
 			w->item = &w->pou->st->item[i];
 			declare_line(w, &edges);
 		}
+		for (int i = network->first; !network->off && i < network->first + network->count; i++) {
+			w->item = &w->pou->st->item[i];
+			declare_before(w);
+		}
 	}
-	each(w, declare_before);
 }
 
 static bool has_networks(const struct project *project)
@@ -457,6 +464,8 @@ static uint32_t renamed(struct project *project, const struct renaming *as, uint
 
 uint32_t wires_operand(struct project *project, const struct pou *pou, int network, uint32_t operand)
 {
+	if (!pou->fbd->network[network].wires)
+		return operand;
 	return renamed(project, &(struct renaming){ .pou = pou, .network = network }, operand);
 }
 

@@ -34,11 +34,22 @@ uint32_t fbd_wire_name(struct names *names, const char *name, size_t len, int ne
 	return names_intern(names, text, (size_t)size);
 }
 
+int fbd_variable(struct names *names, const struct pou *pou, int network, uint32_t id)
+{
+	const struct fbd_network *of = &pou->fbd->network[network];
+	const uint32_t fold = id ? names_fold(names, id) : 0;
+
+	for (int i = of->wire; fold && i < of->wire + of->wires; i++)
+		if (pou->vars.var[i].fold == fold)
+			return i;
+	return -1;
+}
+
 int fbd_wire(struct names *names, const struct pou *pou, int network, const char *name, size_t len)
 {
-	const uint32_t id = fbd_wire_name(names, name, len, network, false);
+	const struct fbd_network *of = &pou->fbd->network[network];
 
-	return id ? vars_find(&pou->vars, names_fold(names, id)) : -1;
+	return of->wires ? fbd_variable(names, pou, network, fbd_wire_name(names, name, len, network, false)) : -1;
 }
 
 static const char *take_number(const char *at, const char *end, uint8_t *out)

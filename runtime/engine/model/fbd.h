@@ -18,6 +18,7 @@ struct fbd_network {
 	bool off;
 	int first, count;               /* of pou->st->item                   */
 	int line;                       /* of the word NETWORK                */
+	int wire, wires;                /* of pou->vars: those of this network (VAR_WIRE) */
 };
 
 struct fbd {
@@ -32,6 +33,8 @@ int fbd_find_label(struct names *names, const struct fbd *fbd, uint32_t fold);
 /** fbd_wire_name - string id of the variable that wire @name of network @network (from 0) is; @before: of its
  * value at the end of the scan before. 0: no memory. Scan-safe: no. */
 uint32_t fbd_wire_name(struct names *names, const char *name, size_t len, int network, bool before);
+/** fbd_variable - index in pou->vars of the variable of network @network with this name; -1: it has none. */
+int fbd_variable(struct names *names, const struct pou *pou, int network, uint32_t id);
 /** fbd_wire - index in pou->vars of that variable; -1: the network has no such wire. Scan-safe: no. */
 int fbd_wire(struct names *names, const struct pou *pou, int network, const char *name, size_t len);
 /** fbd_hint - does the comment say where a box stands: { at 3,1 }? Scan-safe: yes. */

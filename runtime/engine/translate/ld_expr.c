@@ -823,6 +823,7 @@ static struct value argument(struct chain *c, int index, const struct word_pin *
 }
 
 /* A comparison of several: each with the next. */
+__attribute__((noinline))
 static struct value call_tests(struct chain *c, enum word word, const struct expr_args *args)
 {
 	const enum iec_type type = infer_shared(&c->in, ld_row(c->ld, word), args);
@@ -839,6 +840,46 @@ static struct value call_tests(struct chain *c, enum word word, const struct exp
 		out.operand = ld_store_new(c->ld);
 	}
 	return out;
+}
+
+/* The operator that the function is; OP_COUNT: it is none. */
+static enum op logic_of(enum word word)
+{
+	static const enum op ops[] = { OP_AND, OP_OR, OP_XOR };
+
+	for (size_t i = 0; i < sizeof(ops) / sizeof(*ops); i++)
+		if (word == op_function(ops[i]))
+			return ops[i];
+	return OP_COUNT;
+}
+
+/* AND(a, b, c) of BOOLs: as an operator, without EN and ENO. */
+__attribute__((noinline))
+static struct value call_logic(struct chain *c, enum op op, const struct expr_args *args)
+{
+	struct value in[LIMIT_FN_INPUTS], out = { .type = IEC_BOOL };
+
+	for (int i = 0; i < args->count; i++)
+		in[args->arg[i].pin] = settle(c, chain_side(c, args->arg[i].at, IEC_BOOL));
+	ld_emit(c->ld, OP_LD, 0, in[0].operand);
+	for (int i = 1; i < args->count; i++)
+		ld_emit(c->ld, op, 0, in[i].operand);
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
+/* Do the inputs have one type that can be compared without EN and ENO: no text, no number with a point? */
+static bool tests_plain(struct chain *c, enum word word, const struct expr_args *args)
+{
+	const enum iec_type type = infer_shared(&c->in, ld_row(c->ld, word), args);
+
+	for (int i = 0; i < args->count; i++) {
+		const enum iec_type is = infer_type(&c->in, args->arg[i].at);
+
+		if (is != type && is != IEC_NONE)
+			return false;
+	}
+	return iec_type_row(type)->class & ANY_INT;
 }
 
 /* Of the catalogue. */
@@ -1111,8 +1152,11 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	if (infer_is_whole_power(&c->in, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
 		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
 	if (!word_is_own(word) && word_is_test(ld_row(c->ld, word)) &&
-	    args.count > ld_row(c->ld, word)->most_inputs)
+	    (args.count > ld_row(c->ld, word)->most_inputs || (c->ld->fbd && !args.more && tests_plain(c, word, &args))))
 		return call_tests(c, word, &args);
+	if (c->ld->fbd && !args.more && logic_of(word) != OP_COUNT &&
+	    infer_shared(&c->in, ld_row(c->ld, word), &args) == IEC_BOOL)
+		return call_logic(c, logic_of(word), &args);
 	return word_is_own(word) ? call_own(c, word, &args, target) :
 				   call_known(c, word, &args, index, hint, target);
 }

@@ -1373,11 +1373,13 @@ static void keep_before(struct st_il *s, int network)
 	char end[16];
 	const size_t size = (size_t)snprintf(end, sizeof(end), ".P%d", network + 1);
 
-	for (int i = 0; i < vars->count; i++) {
+	const struct fbd_network *of = &s->pou->fbd->network[network];
+
+	for (int i = of->wire; i < of->wire + of->wires; i++) {
 		const char *name = project_text(project, vars->var[i].name);
 		const size_t len = strlen(name);
 
-		if (!(vars_flags(vars, i) & VAR_WIRE) || len <= size || strcmp(name + len - size, end) != 0)
+		if (len <= size || strcmp(name + len - size, end) != 0)
 			continue;
 		const uint32_t wire = fbd_wire_name(&project->names, name, len - size, network, false);
 
