@@ -498,7 +498,7 @@ install-editor: $(BUILD)/ladder-editor $(MO)
 	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
 	install -m 644 $(BUILD)/rung.lang $(BUILD)/rung-st.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
-	$(foreach s,$(wildcard ladders/*/*.st ladders/cement-plant/*),install -Dm 644 $s $(appdir)/rungboard/$s;)
+	$(foreach s,$(wildcard ladders/*/*.st ladders/cement-plant/* ladders/boiler-room/*),install -Dm 644 $s $(appdir)/rungboard/$s;)
 	install -m 644 ladders/boards/*.io $(appdir)/rungboard/ladders/boards/
 	install -m 644 docs/*.md docs/*.png $(appdir)/rungboard/docs/
 	install -m 644 docs/tutorial/* $(appdir)/rungboard/docs/tutorial/
