@@ -9,6 +9,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
+#include "engine/model/fbd.h"
 #include "engine/model/dialect.h"
 #include "engine/base/name.h"
 #include "engine/base/nearest.h"
@@ -293,6 +294,10 @@ static void offer_labels(const struct offer *o)
 	for (int i = 0; pou && i < pou->rung_count; i++)
 		give(o, EXPECT_LABEL, project_text(o->project, pou->rung[i]->label),
 		     project_text(o->project, pou->rung[i]->title));
+	for (int i = 0; pou && pou->fbd && i < pou->fbd->count; i++)
+		if (pou->fbd->network[i].label)
+			give(o, EXPECT_LABEL, project_text(o->project, pou->fbd->network[i].label),
+			     project_text(o->project, pou->fbd->network[i].title));
 	for (int i = 0; pou && i < pou->il.count; i++)
 		if (pou->il.line[i].kind == IL_LABEL)
 			give(o, EXPECT_LABEL,
@@ -1455,13 +1460,42 @@ static bool in_choice(const struct before *b)
 	       st_is(&b->st.token[b->st.count - 1], ",") && !has_word(&b->st, ":=");
 }
 
+/* At the beginning of a line of a network, in its heading, behind JMP. */
+static struct expect_want fbd_want(const struct before *b)
+{
+	static const char *const begin[][5] = {
+		[POU_PROGRAM] = { "NETWORK", "JMP", "RETURN", "END_PROGRAM" },
+		[POU_FUNCTION] = { "NETWORK", "JMP", "RETURN", "END_FUNCTION" },
+		[POU_BLOCK] = { "NETWORK", "JMP", "RETURN", "END_FUNCTION_BLOCK" },
+		[POU_SUBROUTINE] = { "NETWORK", "JMP", "RETURN", "END_SUBROUTINE" },
+		[POU_ACTION] = { "NETWORK", "JMP", "RETURN", "END_ACTION" },
+	};
+	static const char *const off[] = { "OFF", NULL }, *const condition[] = { "IF", NULL };
+	struct expect_want want;
+
+	if (b->st.count && st_is(b->st.token, "NETWORK"))
+		return b->st.count == 1 ? words_want(off) : nothing;
+	if (b->st.count == 2)
+		return words_want(condition);
+	if (b->st.count)
+		return kinds_want(EXPECT_LABEL);
+	want = words_want(begin[b->pou->kind]);
+	want.kinds |= EXPECT_VARIABLE | EXPECT_INSTANCE | EXPECT_SUBROUTINE;
+	want.write = true;
+	return want;
+}
+
 static struct expect_want expect_st(struct before *b, const char *text, size_t line, size_t to)
 {
-	const size_t body = body_of(b, text, line);
+	const bool fbd = b->pou && b->pou->fbd && !b->boxed; /* a line is whole by itself */
+	const size_t body = fbd ? line : body_of(b, text, line);
 	struct expect_want want;
 	struct st_open open;
 
 	st_place_find(&b->st, text + body, to - body);
+	if (fbd && (b->st.count == 0 || (st_is(b->st.token, "JMP") && b->st.count < 3) ||
+		    st_is(b->st.token, "NETWORK")))
+		return fbd_want(b);
 	if (b->st.count == 0)
 		return st_begin_want(b, text);
 	open = st_place_open(&b->st);
@@ -1701,7 +1735,7 @@ static bool find_call(struct before *b, const char *text, size_t at, int line,
 	size_t body;
 
 	b->pou = pou_at(scope_project(b->scope), text, from, line);
-	body = body_of(b, text, from);
+	body = b->pou && b->pou->fbd ? from : body_of(b, text, from);
 	if (!b->pou || body > at || (b->pou->language != LANGUAGE_ST && !b->pou->fbd && !in_box(b, text, from) && !is_st_action(b, text, from)))
 		return false;
 	st_place_find(&b->st, text + body, at - body);
