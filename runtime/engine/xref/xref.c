@@ -152,7 +152,8 @@ static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target targ
 struct level {
 	uint16_t word;        /* of the part so far; WORD_COUNT: no members    */
 	uint8_t kind;         /* kind of use of the name                       */
-	bool used;            /* index of the use that ends here               */
+	bool used : 1;        /* index of the use that ends here               */
+	bool output : 1;      /* behind =>                                     */
 	int use;
 };
 
@@ -445,9 +446,15 @@ static bool scan_symbol(struct scan *scan)
 			return false;
 		scan->call[scan->parens++] = scan->function;
 		level->used = false;
-	} else if (lex_is(&scan->lex, ")")) {
-		scan->parens -= scan->parens > 0;
+	} else if (lex_is(&scan->lex, ")") || lex_is(&scan->lex, ",")) {
+		scan->parens -= scan->parens > 0 && lex_is(&scan->lex, ")");
 		level->used = false;
+		level->kind = level->output ? XREF_READ : level->kind;
+		level->output = false;
+	} else if (lex_is(&scan->lex, "=>") && scan->parens > 0) {
+		level->used = false;
+		level->kind = XREF_WRITTEN;
+		level->output = true;
 	} else if (lex_is(&scan->lex, ":=") || lex_is(&scan->lex, "?=")) {
 		level->kind = XREF_READ;
 	} else if (!lex_is(&scan->lex, ".")) {
