@@ -438,7 +438,7 @@ for my $path (@documents) {
 my @samples = map { basename($_, '.rung') } glob('ladders/*.rung'), map { dirname($_) } glob('ladders/*/main.st');
 my @folders = grep { -e "ladders/$_/$_.rung" } map { basename($_) } glob('ladders/*');
 list_is('README.md: the samples', [$text{'README.md'} =~ /^\| \[([\w-]+)\]\(ladders\//mg], [@folders, grep { !/\.plant$/ } @samples]);
-my @plants = (@folders, map { s/\.plant$//r } grep { /\.plant$/ } @samples);
+my @plants = ((grep { -e "ladders/$_/$_.plant.rung" } @folders), map { s/\.plant$//r } grep { /\.plant$/ } @samples);
 list_is('README.md: the samples with a plant', [$text{'README.md'} =~ /\(ladders\/(?:[\w-]+\/)?([\w-]+)\.plant\.rung\)/g], \@plants);
 my ($with) = $text{'docs/scenarios.md'} =~ /^(`ladders\/garage-door\.rung`.*? come with one.*)$/m;
 list_is('docs/scenarios.md: the samples with a plant', [$with =~ /`(?:ladders\/)?(?:[\w-]+\/)?([\w-]+)\.rung`/g], \@plants);
