@@ -363,8 +363,6 @@ GtkWidget *welcome_new(void)
 		"win.begin-chart", NULL);
 	add_row(begin, _("New project in Structured Text"), _("Statements and expressions as text."),
 		"win.begin-statements", NULL);
-	add_row(begin, _("New project with function blocks"), _("Networks of boxes and wires."),
-		"win.begin-networks", NULL);
 	add_row(begin, _("Open a file…"), _("Rung files; IEC text: .st, .iec, .il, .EXP, .TcPOU"),
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
