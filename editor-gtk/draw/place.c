@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/draw/place.h"
 
+#include "editor-gtk/edit/fbd_lines.h"
 #include "editor-gtk/edit/grid_display.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/rung_layout.h"
@@ -124,6 +125,16 @@ static const struct boxed *boxed_at(const struct pou *pou, int line)
 	return found;
 }
 
+/* The network that has a line of the file, from 0; -1: it is above the first one. */
+static int network_of(const struct pou *pou, int line)
+{
+	int network = fbd_lines_count(pou) - 1;
+
+	while (network >= 0 && fbd_lines_line(pou, network) > line)
+		network--;
+	return network;
+}
+
 char *place_line(const struct project *project, int pou, int row)
 {
 	const struct pou *of = &project->pou[pou];
@@ -133,6 +144,8 @@ char *place_line(const struct project *project, int pou, int row)
 
 	if (of->sfc && !boxed)
 		return chart_text(project, of->sfc, name, of->line + row);
+	if (network_of(of, of->line + row) >= 0)
+		return g_strdup_printf(_("%s, network %d"), name, network_of(of, of->line + row) + 1);
 	path = !boxed ? g_strdup(name) :
 	       g_strdup_printf("%s.%s", name, boxed->name ? project_text(project, boxed->name) : "EXECUTE");
 	row -= boxed ? boxed->line - of->line + 1 : of->kind == POU_ACTION && row > 0;

@@ -454,15 +454,6 @@ static void add_charts(struct maker *maker)
 
 /* ---- all ---- */
 
-/* Length of the declared name at the beginning of @name, with its POU if that is before it. */
-static gsize head_len(const struct maker *maker, const char *name)
-{
-	const gsize len = strcspn(name, ".[");
-
-	return name[len] == '.' && project_find_pou(maker->project, name, len) >= 0 ?
-	       len + 1 + strcspn(name + len + 1, ".[") : len;
-}
-
 /* Arrays of inputs and outputs have a line for each, as other inputs and outputs. */
 static bool is_part(const struct maker *maker, const struct symbol *symbol, gsize head)
 {
@@ -496,6 +487,25 @@ static const struct var *declared(const struct maker *maker, const char *name, g
 		if (!pou_has_frame(&project->pou[p]))
 			var = var_in(maker, &project->pou[p].vars, name, head);
 	return var;
+}
+
+/* `Low.N1`, `Low.P1`: the wire of a network, whose name is not declared, and its value of the scan before. */
+static bool is_wire(const struct maker *maker, const char *name, gsize head)
+{
+	const char *tail = name + head;
+
+	return tail[0] == '.' && (tail[1] == 'N' || tail[1] == 'P') && tail[2] &&
+	       tail[2 + strspn(tail + 2, "0123456789")] == '\0' && !declared(maker, name, head);
+}
+
+/* Length of the declared name at the beginning of @name, with its POU if that is before it. */
+static gsize head_len(const struct maker *maker, const char *name)
+{
+	const gsize len = strcspn(name, ".[");
+	const gsize head = name[len] == '.' && project_find_pou(maker->project, name, len) >= 0 ?
+			   len + 1 + strcspn(name + len + 1, ".[") : len;
+
+	return is_wire(maker, name, head) ? strlen(name) : head;
 }
 
 /* A structure is a variable, as an array of values is; an instance, and an array of them, are
