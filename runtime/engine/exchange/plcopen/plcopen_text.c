@@ -264,10 +264,16 @@ static void report_element(struct plcopen *c, const struct xml_node *node)
 	c->pou_name = before;
 }
 
+/* What an attribute has that is left out. */
+static bool says_nothing(const char *value)
+{
+	return !*value || !strcmp(value, "false") || !strcmp(value, "none");
+}
+
 static void report_attributes(struct plcopen *c, const struct xml_node *node)
 {
 	for (const struct xml_attribute *a = node->attribute; a; a = a->next)
-		if (!a->taken && !is_layout(a->name))
+		if (!a->taken && !is_layout(a->name) && !says_nothing(a->value))
 			plc_report(c, REPORT_LOST, node,
 				   report_said(c->report,
 					       REPORTED("%s %s=\"%.*s\" is left out")),
