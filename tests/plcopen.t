@@ -136,6 +136,17 @@ rungs_are((ladder_of('boxes', contact(2, 'A', '', 1) . given(3, 'T#1s') . box(4,
 like($rung, qr/^RUNG OFF "NOBODY is not known"\n.*Wait\(IN := A\);\n.*B := Wait\.Q;/ms, 'a block of a type that is not known stays, OFF');
 like($said, qr/:\d+: changed: Main: the type of the block "NOBODY" is not known/, 'and is in the report');
 
+# ---- functions that do not run ----
+# While EN is FALSE, what takes the result keeps its value, one variable or several.
+for my $more ('', '<outVariable localId="9" ><connectionPointIn><connection refLocalId="4" formalParameter="OUT"/></connectionPointIn><expression>M</expression></outVariable>') {
+	my $name = $more ? 'several' : 'one';
+	imported($name, project('', pou('Main', 'program', '<localVars>' . $bits . variable('N', 'UINT') . variable('M', 'UINT') . '</localVars>', '<body><FBD>'
+		. given(2, 'A') . given(3, $more ? 'N + 7' : '7') . box(4, 'MOVE', '', ['EN 2', 'IN 3'], 'ENO', 'OUT')
+		. "<outVariable localId=\"5\"><connectionPointIn><connection refLocalId=\"4\" formalParameter=\"OUT\"/></connectionPointIn><expression>N</expression></outVariable>\n$more"
+		. '<outVariable localId="6"><connectionPointIn><connection refLocalId="4" formalParameter="ENO"/></connectionPointIn><expression>B</expression></outVariable></FBD></body>')));
+	trace_is($name, "\@print N M B\n.\nA=1\nA=0\nN=3\n", $more ? "2 t=20 N=7 M=7 B=1\n3 t=30 B=0\n4 t=40 N=3\n" : "2 t=20 N=7 B=1\n3 t=30 B=0\n4 t=40 N=3\n");
+}
+
 # ---- charts ----
 my $chart = <<'END';
 <body><SFC>

@@ -117,6 +117,8 @@ struct plc_lines {
 	const char **wire;      /* of each output pin: its wire; NULL: none      */
 	bool *done;             /* of each element: its call has begun           */
 	bool *called;           /* of each function: its arguments are computed  */
+	const char **guard;     /* of each function: the wire of its ENO, which decides whether others
+				 * take its result; NULL: they always do          */
 	bool unknown;           /* a block has a type that is not known          */
 	bool failed;            /* a message is there                            */
 	int work;               /* values computed so far                        */

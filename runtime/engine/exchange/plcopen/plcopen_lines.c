@@ -271,12 +271,49 @@ static bool may_wait(const struct plc_lines *l, const struct plc_element *e, int
 	return false;
 }
 
+/* The variable that alone takes the result of a function, as it is; NULL: there is none. */
+static struct plc_element *only_store(const struct plc_lines *l, const struct plc_element *e, int result)
+{
+	for (int i = 0; i < l->graph->steps; i++) {
+		struct plc_element *user = &l->graph->element[l->graph->step[i]];
+		const struct plc_pin *pin = user->ins == 1 ? plc_in(l->graph, user, 0) : NULL;
+
+		if (pin && user->kind == PLC_OUT && pin->sources == 1 && !user->negated &&
+		    user->edge == PLC_NO_EDGE && user->storage == PLC_NO_STORAGE && user->order <= 0 &&
+		    &l->graph->element[l->graph->source[pin->first].element] == e &&
+		    l->graph->source[pin->first].output == result)
+			return user;
+	}
+	return NULL;
+}
+
+/* While EN is FALSE the function does not run, and what takes its result keeps its value. */
+static bool has_enable(const struct plc_lines *l, const struct plc_element *e)
+{
+	const struct plc_pin *pin = plc_input(l->graph, e, "EN");
+
+	return pin && (pin->sources || pin->expression);
+}
+
+/* Text of the call whose ENO decides whether others take the result. */
+static const char *guard(struct plc_lines *l, const struct plc_element *e, const char *all)
+{
+	for (int i = 0; i < e->outs; i++)
+		if (plc_same(plc_out(l->graph, e, i)->name, "ENO") && l->wire[e->first_out + i]) {
+			l->guard[e - l->graph->element] = l->wire[e->first_out + i];
+			return all;
+		}
+	l->guard[e - l->graph->element] = new_wire(l, e, "ENO");
+	return plc_print(l->c, "%s, ENO => %s", all, l->guard[e - l->graph->element]);
+}
+
 /* A function stands in a line of its own if it has several users or several outputs. */
 static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 {
 	const int result = result_of(l, e);
 	const bool more = uses_besides(l, e, result) > 0;
 	const bool named = all_named(l, e) && (takes_names(l, e->name) || more || plc_input(l->graph, e, "EN"));
+	struct plc_element *user;
 	const char *all;
 
 	l->done[e - l->graph->element] = true;
@@ -292,6 +329,14 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 		return;
 	if (more && l->networks)
 		all = further_outputs(l, e, result, all);
+	user = more && l->networks && result >= 0 && plc_out(l->graph, e, result)->uses == 1 && e->order <= 0 ?
+	       only_store(l, e, result) : NULL;
+	if (user && !plc_out(l->graph, e, result)->negated) {
+		l->done[user - l->graph->element] = true;
+		begin_line(l, e);
+		plc_put(l->c, "%s := %s(%s)\n", user->name, plc_renamed(l->c, e->name), all);
+		return;
+	}
 	if (result >= 0 && plc_out(l->graph, e, result)->uses <= 1 && !(more && l->networks) &&
 	    !l->wire[e->first_out + result] && (!l->networks || may_wait(l, e, result))) {
 		l->wire[e->first_out + result] = plc_print(l->c, "%s(%s)", plc_renamed(l->c, e->name), all);
@@ -302,6 +347,8 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 		l->wire[e->first_out + result] = plc_print(l->c, "%s(%s)", plc_renamed(l->c, e->name), all);
 		return;
 	}
+	if (has_enable(l, e) && result >= 0 && plc_out(l->graph, e, result)->uses)
+		all = guard(l, e, all);
 	begin_line(l, e);
 	if (result >= 0 && plc_out(l->graph, e, result)->uses) {
 		if (!l->wire[e->first_out + result])
@@ -481,6 +528,19 @@ const char *plc_lines_value(struct plc_lines *l, struct plc_pin *pin)
 
 /* ---- what acts ---- */
 
+/* A variable does not take the result of a function that did not run. */
+static struct value guarded(struct plc_lines *l, const struct plc_element *e, struct value value)
+{
+	const struct plc_pin *pin = plc_in(l->graph, e, 0);
+	const struct plc_source *source = &l->graph->source[pin->first];
+	const char *ran = pin->sources == 1 ? l->guard[source->element] : NULL;
+
+	if (!ran || e->storage != PLC_NO_STORAGE ||
+	    source->output != result_of(l, &l->graph->element[source->element]))
+		return value;
+	return (struct value){ plc_print(l->c, "MOVE(EN := %s, IN := %s)", ran, value.text), TIE_ATOM };
+}
+
 static void store(struct plc_lines *l, struct plc_element *e, struct value value)
 {
 	const char *target = e->name, *end = l->networks ? "" : ";";
@@ -522,7 +582,8 @@ void plc_lines_step(struct plc_lines *l, struct plc_element *e)
 		return;
 	}
 	value = e->ins ? value_of(l, plc_in(l->graph, e, 0), 0) : (struct value){ NULL, TIE_ATOM };
-	if (l->failed)
+	/* It stands in the line of the function that it takes its value from. */
+	if (l->failed || l->done[e - l->graph->element])
 		return;
 	if (!value.text) {
 		if (e->kind != PLC_INOUT)
@@ -532,6 +593,8 @@ void plc_lines_step(struct plc_lines *l, struct plc_element *e)
 		return;
 	}
 	value = modified(l, e, e->negated, e->edge, value);
+	if (e->kind == PLC_OUT || e->kind == PLC_INOUT)
+		value = guarded(l, e, value);
 	if (e->kind == PLC_JUMP || e->kind == PLC_RETURN)
 		leave(l, e, value);
 	else
@@ -545,5 +608,6 @@ bool plc_lines_init(struct plc_lines *lines, struct plcopen *c, struct plc_graph
 	lines->wire = arena_alloc(c->arena, sizeof(*lines->wire) * ((size_t)graph->pins + 1));
 	lines->done = arena_alloc(c->arena, (size_t)graph->elements + 1);
 	lines->called = arena_alloc(c->arena, (size_t)graph->elements + 1);
-	return lines->wire && lines->done && lines->called;
+	lines->guard = arena_alloc(c->arena, sizeof(*lines->guard) * ((size_t)graph->elements + 1));
+	return lines->wire && lines->done && lines->called && lines->guard;
 }
