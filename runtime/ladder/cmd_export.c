@@ -78,9 +78,9 @@ static enum status export_ladder(struct call *call, struct ladder *ladder,
 
 /* ---- other languages ---- */
 
-static bool is_ladder(const struct pou *pou)
+static bool becomes_st(const struct pou *pou)
 {
-	return pou->language == LANGUAGE_LD && !pou->included;
+	return (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_FBD) && !pou->included;
 }
 
 static bool is_no_list(const struct pou *pou)
@@ -177,7 +177,7 @@ static bool has_chart(const struct project *project, const uint8_t *wanted)
 
 static enum status export_st(struct call *call, struct ladder *ladder, const char *path)
 {
-	uint8_t *wanted = choose(call, ladder_project(ladder), LANGUAGE_ST, is_ladder);
+	uint8_t *wanted = choose(call, ladder_project(ladder), LANGUAGE_ST, becomes_st);
 	struct diag_list *diags = wanted ? report_list(path) : NULL;
 	enum status status = STATUS_NO;
 	char *text = NULL;

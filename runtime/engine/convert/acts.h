@@ -98,6 +98,7 @@ struct act_temp {
 struct act_edge {
 	uint32_t name;
 	bool rising;
+	bool other;           /* no edge: a name that is taken                */
 };
 
 struct acts {
@@ -150,6 +151,11 @@ uint32_t acts_name(struct acts *acts, const char *text);
 /* ---- ladder_acts.c ---- */
 /** ladder_acts - what the rungs of a POU do. Fails: false after a diagnostic, or without memory. */
 bool ladder_acts(struct acts *acts);
+
+/* ---- fbd_st.c ---- */
+/** fbd_st - the declarations that networks need, and their lines as Structured Text. Fails: false after a
+ * diagnostic, or without memory. */
+bool fbd_st(struct acts *acts, const struct sink *sink);
 
 /* ---- settle_acts.c ---- */
 /** settle_acts - temporaries that need not be give way to their values; the others get names. */

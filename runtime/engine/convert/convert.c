@@ -31,6 +31,8 @@ static void take(void *context, const struct text_span *span)
 static bool convert_one(struct acts *acts, const struct pou *pou, const struct sink *sink)
 {
 	acts->pou = pou;
+	if (pou->language == LANGUAGE_FBD)
+		return fbd_st(acts, sink);
 	if (!ladder_acts(acts))
 		return false;
 	settle_acts(acts);

@@ -1283,7 +1283,7 @@ static uint32_t edge_instance(struct rungs *r, uint32_t operand, bool rising)
 		acts->failed = true;
 		return id;
 	}
-	*edge = (struct act_edge){ id, rising };
+	*edge = (struct act_edge){ .name = id, .rising = rising };
 	return id;
 }
 

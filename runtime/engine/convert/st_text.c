@@ -385,10 +385,14 @@ void st_declare(const struct acts *acts, const struct sink *sink)
 		sink_text(sink, ";\n");
 	}
 	sink_text(sink, begun ? "END_VAR\n" : "");
+	begun = false;
 	for (int i = 0; i < acts->edges; i++) {
-		sink_text(sink, i ? "" : "VAR\n");
+		if (acts->edge[i].other)
+			continue;
+		sink_text(sink, begun ? "" : "VAR\n");
+		begun = true;
 		sink_text(sink, project_text(acts->project, acts->edge[i].name));
 		sink_text(sink, acts->edge[i].rising ? " : R_TRIG;\n" : " : F_TRIG;\n");
 	}
-	sink_text(sink, acts->edges ? "END_VAR\n" : "");
+	sink_text(sink, begun ? "END_VAR\n" : "");
 }
