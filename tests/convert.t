@@ -63,7 +63,8 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 	ok($good, "$name: its ladders become Structured Text") or diag($said), next;
 	unlike(slurp("$dir/st-$name"), qr/^PROGRAM \w+ LD/m, "$name: no ladder is left");
 	(my $scenario = $sample) =~ s/rung$/scn/;
-	next unless -e $scenario;
+	# Steps of a chart have no names in Structured Text.
+	next if !-e $scenario || slurp($sample) =~ /^PROGRAM \w+ SFC/m;
 	copy($scenario, "$dir/st-" . basename($scenario));
 	(my $plant = $sample) =~ s/rung$/plant.rung/;
 	copy($plant, "$dir/st-" . basename($plant)) if -e $plant;
@@ -79,7 +80,8 @@ for my $case (sort glob "$tests/golden/*") {
 	next if -e "$case/stimulus" && slurp("$case/stimulus") =~ /\.N\d/; # a wire has another name in a list
 	system "cp $case/* $dir/";
 	for my $as ('st', 'il') {
-		next if $as eq 'st' && slurp("$case/main.rung") !~ /^\w+ .* ?LD$/m;
+		next if $as eq 'st' && slurp("$case/main.rung") =~ /^PROGRAM \w+ SFC/m; # its steps lose their names
+		next if $as eq 'st' && slurp("$case/main.rung") !~ /^\w+ .* ?(?:LD|FBD)$/m;
 		my ($good, $said) = converts('main.rung', $as, "$as.rung");
 		if (!$good) {
 			ok($said =~ m{error LD78}, "$name: a reason why it does not become $as") or diag(join "\n", grep { !m{warning} } split m{\n}, $said);
@@ -92,6 +94,61 @@ for my $case (sort glob "$tests/golden/*") {
 	unlink glob "$dir/*.rung";
 }
 ok($done{st} > 100 && $done{il} > 150, "most golden cases are converted: $done{st} st, $done{il} il");
+
+# Charts become ladders, and these Structured Text: both texts do the same.
+for my $sample (qw(sequence-s0-s8 press-two-hand traffic-crossing)) {
+	copy("$tests/../ladders/$sample.rung", "$dir/chart.rung");
+	converts('chart.rung', 'ld', 'chart-ld.rung');
+	my ($good, $said) = converts('chart.rung', 'st', 'chart-st.rung');
+	ok($good, "$sample: its charts become Structured Text") or diag($said), next;
+	srand 7;
+	spew("$dir/s", '@print %QB0 %QB1' . "\n" . join '', map { sprintf "%%IX0.%d=%d\n", rand 8, rand 2 } 1 .. 200);
+	my $was = trace_of('chart-ld.rung', 's');
+	ok($was =~ /^200 t=/m && $was eq trace_of('chart-st.rung', 's'), "$sample: both do the same");
+}
+
+# Networks: their wires have other names, so only the variables of both are compared.
+sub network {
+	my ($number) = @_;
+	my (@bit, @int);
+	my $bit = sub { ('%IX0.' . int rand 8, map({ "b$_" } 0 .. 3), @bit, @bit)[rand 12 + 2 * @bit] // 'c1' };
+	my $int = sub { ('n' . int rand 3, @int, int rand 9)[rand 2 + @int] };
+	my $text = 'NETWORK ' . (rand() < 0.1 ? 'OFF ' : '') . "L$number\n";
+	for my $line (1 .. 2 + rand 6) {
+		my $wire = "w$line" . '_' x ($number % 3);
+		my $kind = int rand 10;
+		my ($p, $q, $m, $n) = ($bit->(), $bit->(), $int->(), $int->());
+		if ($kind == 0) { $text .= "  $wire := $p AND NOT $q\n"; push @bit, $wire }
+		elsif ($kind == 1) { $text .= "  $wire := ADD($m, n1)\n"; push @int, $wire }
+		elsif ($kind == 2) { $text .= "  b" . int(rand 4) . ' ' . (rand() < 0.5 ? 'S' : 'R') . "= $p XOR $q\n" }
+		elsif ($kind == 3) { $text .= "  $wire := " . (rand() < 0.5 ? 'R' : 'F') . "_EDGE($p OR $q)\n"; push @bit, $wire }
+		elsif ($kind == 4) { $text .= "  $wire := ADD(PREVIOUS($wire), SEL($p, n0, $m))\n"; push @int, $wire }
+		elsif ($kind == 5) { $text .= "  $wire := SUB(EN := $p, IN1 := n2, IN2 := $n, ENO => e$wire)\n"; push @int, $wire; push @bit, "e$wire" }
+		elsif ($kind == 6) { $text .= "  n" . int(rand 3) . " := MUL($m, n0) / $n\n" }
+		elsif ($kind == 7) { $text .= "  t" . int(rand 2) . "(IN := $p, PT := T#20ms)\n  b" . int(rand 4) . " := t0.Q AND $q\n" }
+		elsif ($kind == 8) { $text .= "  b" . int(rand 4) . " := n0 > $m OR R_EDGE($q)\n" }
+		else { $text .= rand() < 0.7 ? '  JMP L' . ($number + 1) . " IF $p\n" : "  RETURN IF $p AND $q AND c1\n" }
+	}
+	return $text;
+}
+
+my ($networks, $unequal) = (0, '');
+for my $seed (1 .. ($ENV{CONVERT_COUNT} // 200)) {
+	srand $seed;
+	my $body = join '', map { network($_) } 1 .. 5;
+	spew("$dir/n.rung", "RUNGBOARD 1\n\nVAR\n" . join('', map { "  b$_ : BOOL;\n" } 0 .. 3) .
+	     join('', map { "  n$_ : INT := $_;\n" } 0 .. 2) . "  t0 : TON;\n  t1 : TON;\n  c1 : BOOL := TRUE;\nEND_VAR\n\n" .
+	     "PROGRAM Main FBD\n${body}NETWORK L6\n  c1 := NOT %IX0.0\nEND_PROGRAM\n");
+	next if system("cd $dir && $ladder check n.rung >/dev/null 2>&1");
+	my ($good, $said) = converts('n.rung', 'st', 'm.rung');
+	spew("$dir/s", '@print ' . join(' ', map({ "b$_" } 0 .. 3), 'n0 n1 n2 t0.ET t1.Q c1 SYS_ERRORS') . "\n" .
+	     join '', map { sprintf "%%IX0.%d=%d %%IX0.%d=%d\n", rand 8, rand 2, rand 8, rand 2 } 1 .. 20);
+	my ($was, $is) = (trace_of('n.rung', 's'), $good ? trace_of('m.rung', 's') : $said);
+	$networks++;
+	$unequal .= "seed $seed: " . first_difference($was, $is) . "\n" if $was ne $is || $was !~ /^20 t=/m;
+}
+is($unequal, '', "$networks random programs of networks and their Structured Text do the same");
+ok($networks > ($ENV{CONVERT_COUNT} // 200) / 4, 'many random networks are good');
 
 # Random programs.
 sub names_of {

@@ -170,12 +170,12 @@ static uint8_t *choose(const struct call *call, const struct project *project, e
 static bool has_chart(const struct project *project, const uint8_t *wanted)
 {
 	for (int i = 0; i < project->pou_count; i++)
-		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC)
+		if ((!wanted || wanted[i]) && project->pou[i].language == LANGUAGE_SFC)
 			return true;
 	return false;
 }
 
-static enum status export_st(struct call *call, struct ladder *ladder, const char *path)
+static enum status export_st_of(struct call *call, struct ladder *ladder, const char *path)
 {
 	uint8_t *wanted = choose(call, ladder_project(ladder), LANGUAGE_ST, becomes_st);
 	struct diag_list *diags = wanted ? report_list(path) : NULL;
@@ -192,6 +192,27 @@ static enum status export_st(struct call *call, struct ladder *ladder, const cha
 		status = write_converted(call, path, text, len, LANGUAGE_ST);
 	free(text);
 	free(wanted);
+	return status;
+}
+
+/* Charts become ladders first. */
+static enum status export_st(struct call *call, struct ladder *ladder, const char *path)
+{
+	struct ladder *again;
+	enum status status = STATUS_NO;
+	size_t len;
+	char *text;
+
+	if (call->arg_count > 1 || !has_chart(ladder_project(ladder), NULL))
+		return export_st_of(call, ladder, path);
+	again = ladder_new();
+	text = as_ladder(ladder, path, &len);
+	if (text && again && ladder_load_text(again, path, text, len) && ladder_build(again))
+		status = export_st_of(call, again, path);
+	else if (text && again)
+		report_diags(ladder_diags(again));
+	free(text);
+	ladder_free(again);
 	return status;
 }
 
