@@ -40,7 +40,7 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 
 # Golden cases of Structured Text and of blocks, with the variables that their stimulus prints.
 for my $case (qw(st-case-labels st-splits st-calls st-main-none st-stored-values st-at-copies st-jumps
-		any-bounds-everywhere edges-of-inputs word-bytes-and-letters)) {
+		st-at-everywhere any-bounds-everywhere edges-of-inputs word-bytes-and-letters)) {
 	my $from = "$tests/golden/$case";
 	spew("$dir/case.rung", scalar `$ladder il '$from/main.rung' 2>/dev/null`);
 	is(scalar `cd $dir && $ladder trace case.rung '$from/stimulus' 2>/dev/null`, slurp("$from/expected.trace"),

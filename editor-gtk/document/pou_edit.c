@@ -111,6 +111,10 @@ static char *text_of(enum pou_kind kind, enum pou_language language, const char 
 	char *called = list ? g_strdup_printf("  LD In\n  ST %s\n", result) :
 		       statements ? g_strdup_printf("  %s := In;\n", result) :
 		       networks ? g_strdup_printf("NETWORK\n  %s := In\n", result) :
+		       chart ? g_strdup_printf("  INITIAL_STEP Start:\n  END_STEP\n\n"
+				"  TRANSITION FROM Start TO Work := In; END_TRANSITION\n\n"
+				"  STEP Work:\n    %s(N);\n  END_STEP\n\n"
+				"  TRANSITION FROM Work TO Start := NOT In; END_TRANSITION\n", result) :
 		       g_strdup_printf("RUNG\n  | NO In | COIL %s |\n", result);
 	char *text = g_strdup_printf("\n%s %s%s %s\n%s%s%sEND_%s\n", pou_word(kind), name,
 		function ? " : BOOL" : "", pou_language_word(language),

@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* In the order of the drop-downs. A chart is always a program. */
+/* In the order of the drop-downs. A chart is a program or a function block. */
 static const enum pou_kind kinds[] = { POU_PROGRAM, POU_BLOCK, POU_FUNCTION, POU_SUBROUTINE };
 static const enum pou_language languages[] = { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_ST,
 						 LANGUAGE_FBD, LANGUAGE_SFC };
@@ -104,7 +104,8 @@ static void fill_languages(struct fresh *fresh, enum pou_language chosen)
 {
 	const char *names[] = { _("Ladder (LD)"), _("Instruction list (IL)"),
 				_("Structured Text (ST)"), _("Function blocks (FBD)"),
-				fresh->kind_now == POU_PROGRAM ? _("Chart (SFC)") : NULL, NULL };
+				fresh->kind_now == POU_PROGRAM || fresh->kind_now == POU_BLOCK ?
+				_("Chart (SFC)") : NULL, NULL };
 	GtkStringList *list = gtk_string_list_new(names);
 	guint at = 0;
 

@@ -261,7 +261,7 @@ static void test_names(void)
 		for (int language = LANGUAGE_LD; language <= LANGUAGE_SFC; language++) {
 			char *name = pou_free_name(document, kinds[kind]), *why;
 
-			if (language == LANGUAGE_SFC && kinds[kind] != POU_PROGRAM) {
+			if (language == LANGUAGE_SFC && kinds[kind] != POU_PROGRAM && kinds[kind] != POU_BLOCK) {
 				g_free(name);
 				continue;
 			}
