@@ -559,7 +559,7 @@ bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the d
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read st code script scenario iomap retain classic ldmicro link record serial peer
+FUZZ      := read st code script scenario iomap retain classic ldmicro openplc link record serial peer
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential st_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
@@ -629,7 +629,7 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|code|script|scenario|iomap|retain|classic|ldmicro|link|record|serial SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|code|script|scenario|iomap|retain|classic|ldmicro|openplc|link|record|serial SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \

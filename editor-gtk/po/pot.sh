@@ -68,7 +68,7 @@ $take -L C -k -kreader_fail_word:3 -kreader_fail_many:3 -kfail_word:3 -kfail_exp
 
 # Reports of an import or export; "%s" and the like are no words.
 $take -L C -k -ktell:3 -ktell_change:2 -ktell_lost:2 -ktell_line:3 -kclassic_lost:2 -kREPORTED -o - \
-	-kw_tell:3 runtime/engine/exchange/classic/*.c runtime/engine/exchange/ldmicro/*.c runtime/engine/exchange/plcopen/*.c | sed 's/charset=CHARSET/charset=UTF-8/' |
+	-kw_tell:3 runtime/engine/exchange/classic/*.c runtime/engine/exchange/ldmicro/*.c runtime/engine/exchange/openplc/*.c runtime/engine/exchange/plcopen/*.c | sed 's/charset=CHARSET/charset=UTF-8/' |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/told.pot" -
 $take -L C -k -kPROPERTY:2 -o "$work/properties.pot" runtime/engine/properties.def
 $take -L C -k -kEVENT:3 -kALARM:4 -o "$work/events.pot" runtime/online/events.def runtime/online/alarms.def

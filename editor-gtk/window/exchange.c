@@ -174,17 +174,20 @@ void exchange_add_filter(GtkFileChooser *chooser, bool numbers, bool chosen)
 
 void exchange_add_others(GtkFileChooser *chooser)
 {
-	GtkFileFilter *filter = gtk_file_filter_new();
+	static const char *const others[][2] = {
+		{ "LDmicro (*.ld)", "*.ld" },
+		{ "PLCopen XML (*.xml)", "*.xml" },
+		{ "OpenPLC Editor 4 (project.json)", "project.json" },
+	};
 
-	gtk_file_filter_set_name(filter, "LDmicro (*.ld)");
-	gtk_file_filter_add_pattern(filter, "*.ld");
-	gtk_file_chooser_add_filter(chooser, filter);
-	g_object_unref(filter);
-	filter = gtk_file_filter_new();
-	gtk_file_filter_set_name(filter, "PLCopen XML (*.xml)");
-	gtk_file_filter_add_pattern(filter, "*.xml");
-	gtk_file_chooser_add_filter(chooser, filter);
-	g_object_unref(filter);
+	for (gsize i = 0; i < G_N_ELEMENTS(others); i++) {
+		GtkFileFilter *filter = gtk_file_filter_new();
+
+		gtk_file_filter_set_name(filter, others[i][0]);
+		gtk_file_filter_add_pattern(filter, others[i][1]);
+		gtk_file_chooser_add_filter(chooser, filter);
+		g_object_unref(filter);
+	}
 }
 
 static void export_chosen(gpointer exchange, const char *path)

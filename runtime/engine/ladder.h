@@ -49,7 +49,7 @@ void ladder_classic_task(struct ladder *ladder, bool task);
 /** ladder_import_language - reports of later loads are in the language of @translate,
  * which gets each text, or printf format, in English. */
 void ladder_import_language(struct ladder *ladder, const char *(*translate)(const char *text));
-/** ladder_take_others - makes later loads accept the formats of exchange/import.h (LDmicro), too. */
+/** ladder_take_others - makes later loads accept the formats of exchange/import.h (LDmicro, OpenPLC Editor 4), too. */
 bool ladder_take_others(struct ladder *ladder);
 /** ladder_take_plcopen - makes later loads accept projects in PLCopen XML, too, as
  * ladder_take_classic() does. */

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const struct import_format *const formats[] = { &ldmicro_format };
+static const struct import_format *const formats[] = { &ldmicro_format, &openplc_format };
 #define FORMATS (sizeof(formats) / sizeof(*formats))
 
 struct other_foreign {
@@ -95,17 +95,21 @@ static int line_of(const struct foreign *foreign, int line)
 	return line > 0 && line <= other->text.lines ? other->text.place[line - 1].line : 0;
 }
 
-/* In a folder, a line belongs to one of its files. */
+/* A line belongs to one of the files of a project. */
 static const char *file_of(struct other_foreign *other, int line)
 {
 	const char *member = line > 0 && line <= other->text.lines ?
 			     other->text.place[line - 1].member : "";
+	const char *slash = strrchr(other->path, '/');
 	const size_t size = strlen(other->path) + strlen(member) + 2;
-	char *whole = other->folder && *member ? arena_alloc(&other->arena, size) : NULL;
+	char *whole = *member ? arena_alloc(&other->arena, size) : NULL;
 
 	if (!whole)
 		return other->path;
-	snprintf(whole, size, "%s/%s", other->path, member);
+	if (other->folder)
+		snprintf(whole, size, "%s/%s", other->path, member);
+	else
+		snprintf(whole, size, "%.*s%s", slash ? (int)(slash + 1 - other->path) : 0, other->path, member);
 	return whole;
 }
 

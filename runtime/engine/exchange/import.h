@@ -31,5 +31,5 @@ struct import_format {
 	bool (*read)(struct import *import);        /* false after a diagnostic    */
 };
 
-extern const struct import_format ldmicro_format;
+extern const struct import_format ldmicro_format, openplc_format;
 #endif

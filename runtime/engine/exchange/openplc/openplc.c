@@ -1,0 +1,673 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * openplc - a project of OpenPLC Editor 4: a folder with project.json and a file for each POU.
+ *
+ * It becomes a project in PLCopen XML, as it does when OpenPLC Editor compiles it, and
+ * exchange/plcopen/ reads that. Each line of the XML remembers its place in the project.
+ */
+#include "engine/exchange/openplc/openplc_parts.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/file.h"
+#include "engine/base/lex.h"
+#include "engine/base/limits.h"
+#include "engine/exchange/plcopen/plcopen.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FILES_MOST = 1000 };
+
+static const char *const kinds[][3] = {
+	{ "programs", "program", "PROGRAM" }, { "functions", "function", "FUNCTION" },
+	{ "function-blocks", "functionBlock", "FUNCTION_BLOCK" },
+};
+
+bool openplc_fail(struct openplc *c, enum diag_id id, const char *what)
+{
+	struct diag place = { .id = id, .file = c->import->path, .line = c->w.at.line };
+
+	if (*c->w.at.member)
+		place.file = w_text(&c->w, "%s/%s", c->root, c->w.at.member);
+	if (!c->failed)
+		diag_add(c->import->diags, place, "%.60s", what);
+	c->failed = true;
+	return false;
+}
+
+const char *xml_written(struct openplc *c, const char *text)
+{
+	static const char *const entity[] = { "&amp;", "&lt;", "&gt;", "&quot;", "&apos;" };
+	static const char bytes[] = "&<>\"'";
+	char *out = arena_alloc(c->w.arena, 6 * strlen(text) + 1);
+	size_t len = 0;
+
+	for (; out && *text; text++) {
+		const char *special = strchr(bytes, *text);
+
+		if (special) {
+			memcpy(out + len, entity[special - bytes], strlen(entity[special - bytes]));
+			len += strlen(entity[special - bytes]);
+		} else {
+			out[len++] = (unsigned char)*text < ' ' ? ' ' : *text;
+		}
+	}
+	return out ? out : "";
+}
+
+/* ---- declarations ---- */
+
+static bool is_elementary(const char *type)
+{
+	static const char *const words[] = {
+		"BOOL", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT",
+		"UDINT", "ULINT", "REAL", "LREAL", "TIME", "DATE", "TOD", "DT",
+	};
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (ascii_is(words[i], type, strlen(type)))
+			return true;
+	return false;
+}
+
+static const char *upper(struct openplc *c, const char *text)
+{
+	char *copy = arena_copy(c->w.arena, text, strlen(text));
+
+	for (char *at = copy; at && *at; at++)
+		*at = ascii_upper(*at);
+	return copy ? copy : "";
+}
+
+/* `ARRAY [0..3, 1..2] OF INT` */
+static void put_array(struct openplc *c, const char *type)
+{
+	struct lex lex;
+
+	lex_init(&lex, type, strlen(type));
+	lex_next(&lex);
+	w_put(&c->w, "<array>");
+	while (lex_next(&lex) != TOKEN_END && !lex_is(&lex, "OF")) {
+		const char *from = lex.token.text, *dots, *to;
+
+		if (lex_is(&lex, "[") || lex_is(&lex, ",") || lex_is(&lex, "]"))
+			continue;
+		to = from + strcspn(from, ",]");
+		dots = strstr(from, "..");
+		if (!dots || dots > to)
+			break;
+		w_put(&c->w, "<dimension lower=\"%s\" upper=\"%s\"/>",
+		      xml_written(c, w_text(&c->w, "%.*s", (int)(dots - from), from)),
+		      xml_written(c, w_text(&c->w, "%.*s", (int)(to - dots - 2), dots + 2)));
+		lex.at = to;
+	}
+	w_put(&c->w, "<baseType>");
+	put_type(c, lex.token.kind == TOKEN_END ? "INT" : lex.at + strspn(lex.at, " \t\r\n"));
+	w_put(&c->w, "</baseType></array>");
+}
+
+void put_type(struct openplc *c, const char *type)
+{
+	if (ascii_prefix("ARRAY", type, strlen(type)) && strstr(type, "[") && !c->w.arena->failed)
+		put_array(c, type);
+	else if (ascii_is("STRING", type, strlen(type)))
+		w_put(&c->w, "<string/>");
+	else if (is_elementary(type))
+		w_put(&c->w, "<%s/>", upper(c, type));
+	else
+		w_put(&c->w, "<derived name=\"%s\"/>", xml_written(c, type));
+}
+
+void put_variable(struct openplc *c, const char *name, const char *type, const char *address,
+		  const char *initial, const char *note)
+{
+	struct writing *w = &c->w;
+
+	w_put(w, "<variable name=\"%s\"", xml_written(c, name));
+	if (*address)
+		w_put(w, " address=\"%s\"", xml_written(c, address));
+	w_put(w, "><type>");
+	put_type(c, type);
+	w_put(w, "</type>");
+	if (*initial)
+		w_put(w, "<initialValue><simpleValue value=\"%s\"/></initialValue>", xml_written(c, initial));
+	if (*note)
+		w_put(w, "<documentation><xhtml:p>%s</xhtml:p></documentation>", xml_written(c, note));
+	w_put(w, "</variable>\n");
+}
+
+static const char *list_of(const char *word, size_t len)
+{
+	static const char *const lists[][2] = {
+		{ "VAR", "localVars" }, { "VAR_INPUT", "inputVars" }, { "VAR_OUTPUT", "outputVars" },
+		{ "VAR_IN_OUT", "inOutVars" }, { "VAR_EXTERNAL", "externalVars" }, { "VAR_TEMP", "tempVars" },
+		{ "VAR_GLOBAL", "globalVars" },
+	};
+
+	for (size_t i = 0; i < sizeof(lists) / sizeof(*lists); i++)
+		if (ascii_is(lists[i][0], word, len))
+			return lists[i][1];
+	return NULL;
+}
+
+/* A text of the file without blanks around it. */
+static const char *piece(struct openplc *c, const char *from, const char *to)
+{
+	while (from < to && strchr(" \t\r\n", *from))
+		from++;
+	while (to > from && strchr(" \t\r\n", to[-1]))
+		to--;
+	return w_text(&c->w, "%.*s", (int)(to - from), from);
+}
+
+/* `name : type AT %IX0.0 := value; (* note *)`, from its name on. The address stands behind the type. */
+static bool read_declaration(struct openplc *c, struct lex *lex)
+{
+	const char *name = piece(c, lex->token.text, lex->token.text + lex->token.len);
+	const char *address = "", *initial = "", *note = "", *from, *to;
+	struct lex ahead;
+	const int line = lex->token.line;
+
+	c->w.at.line = line;
+	if (lex->token.kind != TOKEN_NAME)
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, name);
+	lex_next(lex);
+	if (lex_is(lex, "AT")) {
+		lex_next(lex);
+		address = piece(c, lex->token.text, lex->token.text + lex->token.len);
+		lex_next(lex);
+	}
+	if (!lex_is(lex, ":"))
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, name);
+	from = to = lex->at;
+	while (lex_next(lex) != TOKEN_END && !lex_is(lex, ";") && !lex_is(lex, ":=") && !lex_is(lex, "AT"))
+		to = lex->at;
+	const char *type = piece(c, from, to);
+
+	if (lex_is(lex, "AT")) {
+		lex_next(lex);
+		address = piece(c, lex->token.text, lex->token.text + lex->token.len);
+		lex_next(lex);
+	}
+	if (lex_is(lex, ":=")) {
+		from = to = lex->at;
+		while (lex_next(lex) != TOKEN_END && !lex_is(lex, ";"))
+			to = lex->at;
+		initial = piece(c, from, to);
+	}
+	if (!lex_is(lex, ";") || !*type)
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, name);
+	ahead = *lex;
+	ahead.comments = true;
+	if (lex_next(&ahead) == TOKEN_COMMENT && ahead.token.line == lex->token.line && ahead.token.len > 4)
+		note = piece(c, ahead.token.text + 2, ahead.token.text + ahead.token.len - (ahead.token.text[1] == '*' ? 2 : 0));
+	put_variable(c, name, type, address, initial, note);
+	return true;
+}
+
+/* The lists of variables in front of a body. */
+static bool read_interface(struct openplc *c, struct lex *lex)
+{
+	const char *list;
+	struct lex before = *lex;
+
+	while ((list = lex_next(lex) == TOKEN_NAME ? list_of(lex->token.text, lex->token.len) : NULL)) {
+		c->w.at.line = lex->token.line;
+		w_put(&c->w, "<%s", list);
+		lex_next(lex);
+		while (lex_is(lex, "CONSTANT") || lex_is(lex, "RETAIN") || lex_is(lex, "NON_RETAIN")) {
+			w_put(&c->w, " %s=\"true\"", lex_is(lex, "CONSTANT") ? "constant" :
+			      lex_is(lex, "RETAIN") ? "retain" : "nonretain");
+			lex_next(lex);
+		}
+		w_put(&c->w, ">\n");
+		while (!lex_is(lex, "END_VAR")) {
+			if (lex->token.kind == TOKEN_END)
+				return openplc_fail(c, DIAG_OPENPLC_TEXT, "END_VAR");
+			if (!read_declaration(c, lex))
+				return false;
+			lex_next(lex);
+		}
+		w_put(&c->w, "</%s>\n", list);
+		before = *lex;
+	}
+	*lex = before;
+	return true;
+}
+
+/* ---- POUs ---- */
+
+/* Lines of a text as CDATA; each remembers its place. */
+static void put_text_body(struct openplc *c, const char *text, const char *end, int line, bool il)
+{
+	w_put(&c->w, il ? "<body><IL><xhtml:p><![CDATA[" : "<body><ST><xhtml:p><![CDATA[");
+	while (text < end) {
+		const char *next = memchr(text, '\n', (size_t)(end - text));
+		const char *to = next ? next : end;
+		const char *copy = w_text(&c->w, "%.*s", (int)(to - text), text);
+
+		c->w.at.line = line++;
+		for (const char *mark; (mark = strstr(copy, "]]>")); copy = mark + 2)
+			w_put(&c->w, "%.*s]]><![CDATA[", (int)(mark + 2 - copy), copy);
+		w_put(&c->w, "%s\n", copy);
+		text = next ? next + 1 : end;
+	}
+	w_put(&c->w, il ? "]]></xhtml:p></IL></body>\n" : "]]></xhtml:p></ST></body>\n");
+}
+
+/* Where the POU ends: its last END_…. NULL: there is none. */
+static const char *find_end(const char *text, size_t len, const char *word)
+{
+	const size_t size = strlen(word);
+
+	for (size_t at = len; at >= size + 4; at--)
+		if (!memcmp(text + at - size - 4, "END_", 4) && ascii_same(text + at - size, word, size))
+			return text + at - size - 4;
+	return NULL;
+}
+
+static bool read_pou(struct openplc *c, const char *text, size_t len, int kind, const char *ending)
+{
+	const char *end = find_end(text, len, kinds[kind][2]), *note = "", *behind;
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex.comments = true;
+	c->w.at.line = 1;
+	if (lex_next(&lex) == TOKEN_COMMENT && lex.token.len > 4) {
+		note = piece(c, lex.token.text + 2, lex.token.text + lex.token.len - 2);
+		lex_next(&lex);
+	}
+	lex.comments = false;
+	c->w.at.line = lex.token.line;
+	if (!lex_is(&lex, kinds[kind][2]) || lex_next(&lex) != TOKEN_NAME)
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, kinds[kind][2]);
+	if (!end)
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, w_text(&c->w, "END_%s", kinds[kind][2]));
+	lex.end = end;
+	w_put(&c->w, "<pou name=\"%s\" pouType=\"%s\"><interface>\n",
+	      xml_written(c, w_text(&c->w, "%.*s", (int)lex.token.len, lex.token.text)), kinds[kind][1]);
+	if (kind == 1) {
+		lex_next(&lex);
+		lex_next(&lex);
+		w_put(&c->w, "<returnType>");
+		put_type(c, w_text(&c->w, "%.*s", (int)lex.token.len, lex.token.text));
+		w_put(&c->w, "</returnType>\n");
+	}
+	if (!read_interface(c, &lex))
+		return false;
+	w_put(&c->w, "</interface>\n");
+	behind = lex.at;
+	if (!strcmp(ending, "st") || !strcmp(ending, "il")) {
+		put_text_body(c, behind, end, lex.token.line, *ending == 'i');
+	} else {
+		int line = lex.token.line;
+		const struct json *body = json_read(c->w.arena, behind, (size_t)(end - behind), &line, &behind);
+
+		c->w.at.line = line;
+		if (!body || behind + strspn(behind, " \t\r\n") < end)
+			return openplc_fail(c, DIAG_OPENPLC_JSON, "");
+		put_drawing(c, body, !strcmp(ending, "ld"));
+	}
+	if (*note)
+		w_put(&c->w, "<documentation><xhtml:p>%s</xhtml:p></documentation>\n", xml_written(c, note));
+	w_put(&c->w, "</pou>\n");
+	c->pous++;
+	return !c->failed;
+}
+
+/* POUs of an older version, which stand in project.json itself. */
+static void put_old_pou(struct openplc *c, const struct json *pou)
+{
+	static const char *const classes[][2] = {
+		{ "local", "localVars" }, { "input", "inputVars" }, { "output", "outputVars" },
+		{ "inOut", "inOutVars" }, { "external", "externalVars" }, { "temp", "tempVars" },
+	};
+	const struct json *data = json_get(pou, "data"), *body = json_get(data, "body"), *value = json_get(body, "value");
+	const char *type = json_text(pou, "type"), *language = json_text(body, "language");
+
+	c->w.at.line = pou->line;
+	w_put(&c->w, "<pou name=\"%s\" pouType=\"%s\"><interface>\n", xml_written(c, json_text(data, "name")),
+	      !strcmp(type, "function-block") ? "functionBlock" : !strcmp(type, "function") ? "function" : "program");
+	if (*json_text(data, "returnType")) {
+		w_put(&c->w, "<returnType>");
+		put_type(c, json_text(data, "returnType"));
+		w_put(&c->w, "</returnType>\n");
+	}
+	for (size_t i = 0; i < sizeof(classes) / sizeof(*classes); i++) {
+		w_put(&c->w, "<%s>\n", classes[i][1]);
+		for (const struct json *each = json_items(json_get(data, "variables")); each; each = each->next) {
+			c->w.at.line = each->line;
+			if (!strcmp(json_text(each, "class"), classes[i][0]))
+				put_variable(c, json_text(each, "name"), json_text(json_get(each, "type"), "value"),
+					     json_text(each, "location"), json_text(each, "initialValue"),
+					     json_text(each, "documentation"));
+		}
+		w_put(&c->w, "</%s>\n", classes[i][1]);
+	}
+	w_put(&c->w, "</interface>\n");
+	if (!strcmp(language, "ld") || !strcmp(language, "fbd"))
+		put_drawing(c, value, *language == 'l');
+	else if (value && value->kind == JSON_TEXT)
+		put_text_body(c, value->text, value->text + strlen(value->text), value->line,
+			      !strcmp(language, "il"));
+	else
+		w_put(&c->w, "<body><ST><xhtml:p></xhtml:p></ST></body>\n");
+	w_put(&c->w, "</pou>\n");
+	c->pous++;
+}
+
+/* ---- files ---- */
+
+static int by_name(const void *a, const void *b)
+{
+	return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+struct file_names { const char **name; int count; };
+
+static struct file_names names_in(struct openplc *c, const char *folder)
+{
+	struct file_names files = { NULL, 0 };
+	DIR *dir = opendir(w_text(&c->w, "%s/%s", c->root, folder));
+	const struct dirent *each;
+
+	while (dir && files.count < FILES_MOST && (each = readdir(dir))) {
+		const char **slot = each->d_name[0] == '.' ? NULL :
+				    arena_push(c->w.arena, &files.name, &files.count, sizeof(*slot));
+
+		if (slot)
+			*slot = w_text(&c->w, "%s/%s", folder, each->d_name);
+	}
+	if (dir)
+		closedir(dir);
+	if (files.count)
+		qsort(files.name, (size_t)files.count, sizeof(*files.name), by_name);
+	return files;
+}
+
+static void read_file_of(struct openplc *c, const char *member, int kind)
+{
+	static const char *const known[] = { "st", "il", "ld", "fbd" };
+	const char *dot = strrchr(member, '.'), *ending = dot ? dot + 1 : "";
+	bool is_known = false;
+	size_t len;
+	char *text;
+
+	c->w.at = (struct foreign_place){ member, 0 };
+	for (size_t i = 0; i < sizeof(known) / sizeof(*known); i++)
+		is_known = is_known || !strcmp(known[i], ending);
+	if (!is_known) {
+		w_tell(&c->w, REPORT_LOST, "its language has no equivalent; write it in Structured Text");
+		return;
+	}
+	text = file_read(w_text(&c->w, "%s/%s", c->root, member), LIMIT_TEXT, &len, c->import->diags);
+	if (!text || !utf8_valid(text, len, NULL)) {
+		if (text)
+			openplc_fail(c, DIAG_OPENPLC_TEXT, "UTF-8");
+		c->failed = true;
+	} else {
+		read_pou(c, text, len, kind, ending);
+	}
+	free(text);
+}
+
+/* ---- types, tasks ---- */
+
+static void put_data_type(struct openplc *c, const struct json *type)
+{
+	struct writing *w = &c->w;
+	const char *derivation = json_text(type, "derivation"), *initial = json_text(type, "initialValue");
+
+	w->at.line = type->line;
+	w_put(w, "<dataType name=\"%s\"><baseType>", xml_written(c, json_text(type, "name")));
+	if (!strcmp(derivation, "array")) {
+		w_put(w, "<array>");
+		for (const struct json *each = json_items(json_get(type, "dimensions")); each; each = each->next) {
+			const char *bounds = json_text(each, "dimension"), *dots = strstr(bounds, "..");
+
+			if (dots)
+				w_put(w, "<dimension lower=\"%s\" upper=\"%s\"/>",
+				      xml_written(c, w_text(w, "%.*s", (int)(dots - bounds), bounds)), xml_written(c, dots + 2));
+		}
+		w_put(w, "<baseType>");
+		put_type(c, json_text(json_get(type, "baseType"), "value"));
+		w_put(w, "</baseType></array>");
+	} else if (!strcmp(derivation, "enumerated")) {
+		w_put(w, "<enum><values>");
+		for (const struct json *each = json_items(json_get(type, "values")); each; each = each->next)
+			w_put(w, "<value name=\"%s\"/>", xml_written(c, json_text(each, "description")));
+		w_put(w, "</values></enum>");
+	} else {
+		w_put(w, "<struct>\n");
+		for (const struct json *each = json_items(json_get(type, "variable")); each; each = each->next) {
+			const struct json *of = json_get(each, "type"), *array = json_get(of, "data");
+			const char *name = json_text(of, "value");
+
+			w->at.line = each->line;
+			if (array && json_items(json_get(array, "dimensions"))) {
+				name = "ARRAY[";
+				for (const struct json *at = json_items(json_get(array, "dimensions")); at; at = at->next)
+					name = w_text(w, "%s%s%s", name, json_text(at, "dimension"), at->next ? ", " : "");
+				name = w_text(w, "%s] OF %s", name, json_text(json_get(array, "baseType"), "value"));
+			}
+			put_variable(c, json_text(each, "name"), name, "",
+				     json_text(json_get(json_get(each, "initialValue"), "simpleValue"), "value"), "");
+		}
+		w_put(w, "</struct>");
+	}
+	w_put(w, "</baseType>");
+	if (*initial)
+		w_put(w, "<initialValue><simpleValue value=\"%s\"/></initialValue>", xml_written(c, initial));
+	w_put(w, "</dataType>\n");
+}
+
+static void put_configuration(struct openplc *c, const struct json *resource)
+{
+	struct writing *w = &c->w;
+	const struct json *each, *instance;
+
+	w_put(w, "<instances><configurations><configuration name=\"Config0\"><resource name=\"Res0\">\n");
+	for (each = json_items(json_get(resource, "tasks")); each; each = each->next) {
+		const char *name = json_text(each, "name");
+
+		w->at.line = each->line;
+		w_put(w, "<task name=\"%s\" priority=\"%d\"", xml_written(c, name), json_int(each, "priority"));
+		if (!strcmp(json_text(each, "triggering"), "Cyclic"))
+			w_put(w, " interval=\"%s\"", xml_written(c, json_text(each, "interval")));
+		else
+			w_tell(w, REPORT_CHANGED, "task %s has no event here; it runs in each cycle", name);
+		w_put(w, ">\n");
+		for (instance = json_items(json_get(resource, "instances")); instance; instance = instance->next)
+			if (!strcmp(json_text(instance, "task"), name))
+				w_put(w, "<pouInstance name=\"%s\" typeName=\"%s\"/>\n",
+				      xml_written(c, json_text(instance, "name")), xml_written(c, json_text(instance, "program")));
+		w_put(w, "</task>\n");
+	}
+	w_put(w, "</resource>\n");
+	each = json_items(json_get(resource, "globalVariables"));
+	if (each)
+		w_put(w, "<globalVars>\n");
+	for (const struct json *global = each; global; global = global->next) {
+		w->at.line = global->line;
+		put_variable(c, json_text(global, "name"), json_text(json_get(global, "type"), "value"),
+			     json_text(global, "location"), json_text(global, "initialValue"),
+			     json_text(global, "documentation"));
+	}
+	w_put(w, "%s</configuration></configurations></instances>\n", each ? "</globalVars>\n" : "");
+}
+
+/* What is in the project and no program. */
+static void tell_others(struct openplc *c, const struct json *data)
+{
+	static const char *const lists[] = { "servers", "remoteDevices", "dataLoggers" };
+	static const char *const folders[] = { "devices", "datatypes", "libraries" };
+
+	for (size_t i = 0; i < sizeof(lists) / sizeof(*lists); i++)
+		for (const struct json *each = json_items(json_get(data, lists[i])); each; each = each->next) {
+			c->w.at = (struct foreign_place){ c->own, each->line };
+			w_tell(&c->w, REPORT_LOST, "%s is no part of the program: give its points a device in an I/O map",
+			       w_string(&c->w, json_text(each, "name"), 60));
+		}
+	for (size_t i = 0; i < sizeof(folders) / sizeof(*folders); i++) {
+		const struct file_names files = names_in(c, folders[i]);
+
+		for (int k = 0; k < files.count; k++) {
+			c->w.at = (struct foreign_place){ files.name[k], 0 };
+			w_tell(&c->w, REPORT_LOST, "this file has no meaning here");
+		}
+	}
+}
+
+/* ---- the whole ---- */
+
+static bool put_project(struct openplc *c, const struct json *project)
+{
+	const struct json *data = json_get(project, "data");
+	struct writing *w = &c->w;
+
+	w_put(w, "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\" xmlns:xhtml=\"http://www.w3.org/1999/xhtml\">\n"
+	      "<fileHeader companyName=\"\" productName=\"OpenPLC Editor\" productVersion=\"4\" creationDateTime=\"2024-01-01T00:00:00\"/>\n"
+	      "<contentHeader name=\"%s\"><coordinateInfo><fbd><scaling x=\"1\" y=\"1\"/></fbd><ld><scaling x=\"1\" y=\"1\"/></ld>"
+	      "<sfc><scaling x=\"1\" y=\"1\"/></sfc></coordinateInfo></contentHeader>\n<types>\n<dataTypes>\n",
+	      xml_written(c, json_text(json_get(project, "meta"), "name")));
+	for (const struct json *type = json_items(json_get(data, "dataTypes")); type; type = type->next)
+		put_data_type(c, type);
+	w_put(w, "</dataTypes>\n<pous>\n");
+	for (const struct json *pou = json_items(json_get(data, "pous")); pou && !c->failed; pou = pou->next)
+		put_old_pou(c, pou);
+	for (int kind = 0; kind < 3; kind++) {
+		const struct file_names files = names_in(c, w_text(w, "pous/%s", kinds[kind][0]));
+
+		for (int i = 0; i < files.count && !c->failed; i++)
+			read_file_of(c, files.name[i], kind);
+	}
+	w->at = (struct foreign_place){ c->own, 0 };
+	w_put(w, "</pous>\n</types>\n");
+	put_configuration(c, json_get(json_get(data, "configuration"), "resource"));
+	w_put(w, "</project>\n");
+	if (!c->pous && !c->failed) {
+		w->at.line = 0;
+		return openplc_fail(c, DIAG_OPENPLC_EMPTY, "");
+	}
+	tell_others(c, data);
+	return !c->failed;
+}
+
+static struct foreign_place place_of(const struct openplc *c, int line)
+{
+	return line > 0 && line <= c->w.out.lines ? c->w.out.place[line - 1] :
+						    (struct foreign_place){ "", 0 };
+}
+
+/* Places in the XML become places in the project. */
+static bool convert(struct openplc *c)
+{
+	struct import *import = c->import;
+	const int lines = import->report->count, diags = import->diags->count;
+	struct plcopen_text out = { .text = NULL };
+	const bool good = plcopen_to_rung(import->path, c->w.out.text, c->w.out.len, import->arena, &out,
+					  import->report, import->diags);
+
+	for (int i = lines; i < import->report->count; i++) {
+		struct report_line *line = &import->report->line[i];
+		const struct foreign_place place = place_of(c, line->line);
+
+		if (line->line)
+			line->member = place.member;
+		line->line = place.line;
+	}
+	for (int i = diags; i < import->diags->count; i++) {
+		struct diag *diag = &import->diags->diag[i];
+		const struct foreign_place place = place_of(c, diag->line);
+
+		if (*place.member)
+			diag->file = w_text(&c->w, "%s/%s", c->root, place.member);
+		diag->line = place.line;
+		diag->column = 0;
+	}
+	if (!good)
+		return false;
+	import->text = (struct foreign_text){ .text = out.text, .len = out.len };
+	for (int i = 0; i < out.lines; i++) {
+		struct foreign_place *slot = arena_push(import->arena, &import->text.place, &import->text.lines,
+							sizeof(*slot));
+
+		if (slot)
+			*slot = place_of(c, out.line[i]);
+	}
+	return !import->arena->failed;
+}
+
+static bool read(struct import *import)
+{
+	struct openplc c = { .import = import };
+	const char *slash = strrchr(import->path, '/'), *end;
+	const struct json *project = NULL;
+	struct diag place = { .id = DIAG_NO_MEMORY, .file = import->path };
+	int line = 1;
+	size_t len = 0;
+	char *text = NULL;
+
+	writing_init(&c.w, import->arena, import->report);
+	c.root = import->bytes ? slash ? w_text(&c.w, "%.*s", (int)(slash - import->path), import->path) : "." :
+		 import->path;
+	c.own = import->bytes ? "" : "project.json";
+	c.w.at = (struct foreign_place){ c.own, 0 };
+	if (!import->bytes)
+		text = file_read(w_text(&c.w, "%s/project.json", c.root), LIMIT_TEXT, &len, import->diags);
+	if (!import->bytes && !text)
+		return false;
+	if (import->bytes)
+		len = import->len;
+	project = json_read(import->arena, text ? text : import->bytes, len, &line, &end);
+	free(text);
+	c.w.at.line = line;
+	if (!project)
+		return openplc_fail(&c, DIAG_OPENPLC_JSON, "");
+	if (!put_project(&c, project))
+		return false;
+	if (import->arena->failed)
+		return diag_add(import->diags, place, "%s", "");
+	return convert(&c);
+}
+
+/* ---- what it is ---- */
+
+static bool has(const char *bytes, size_t len, const char *word)
+{
+	const size_t size = strlen(word);
+
+	for (size_t i = 0; i + size <= len && i < 400; i++)
+		if (!memcmp(bytes + i, word, size))
+			return true;
+	return false;
+}
+
+static bool is_project(const void *bytes, size_t len)
+{
+	const char *text = bytes;
+	size_t at = 0;
+
+	while (at < len && text[at] && strchr(" \t\r\n", text[at]))
+		at++;
+	return at < len && text[at] == '{' && has(text, len, "\"plc-project\"");
+}
+
+static bool is_folder(const char *path)
+{
+	char name[600], head[400];
+	const int len = snprintf(name, sizeof(name), "%s/project.json", path);
+	FILE *file = len > 0 && (size_t)len < sizeof(name) ? fopen(name, "rb") : NULL;
+	size_t got = 0;
+
+	if (file) {
+		got = fread(head, 1, sizeof(head), file);
+		fclose(file);
+	}
+	return is_project(head, got);
+}
+
+const struct import_format openplc_format = { "OpenPLC Editor", is_project, is_folder, read };
