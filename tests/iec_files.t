@@ -160,6 +160,10 @@ NUMOFCONNECTIONS : 0
 VISUALISATION main _VISU_NO_BITMAP
 _TEXT : 1
 END_VISUALISATION
+PLC_CONFIGURATION
+_GLOBAL
+_VERSION: 3
+PLC_END
 END
 is((said("$ladder trace pump.EXP script"))[0] =~ s/^pump\.EXP:\d+:\d+: warning .*\n//mgr, <<'END', 'an export of CODESYS 2.3 runs');
 1 t=10 Total=2 n=1 level=3
@@ -168,4 +172,5 @@ is((said("$ladder trace pump.EXP script"))[0] =~ s/^pump\.EXP:\d+:\d+: warning .
 4 t=40 Total=20 n=4 level=24
 END
 like((said("$ladder check pump.EXP"))[0], qr{^pump\.EXP:46:1: warning LD\d+: "VISUALISATION"}m, 'what is no program is told');
+like((said("$ladder check pump.EXP"))[0], qr{^pump\.EXP:49:1: warning LD\d+: "PLC_CONFIGURATION"}m, 'the configuration of the controller, too');
 done_testing();

@@ -33,7 +33,8 @@ static enum line_kind kind_of(const char *name, size_t len, bool inside)
 {
 	static const char *const pous[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK",
 					    "FUNCTIONBLOCK", "ACTION" };
-	static const char *const parts[] = { "LIBRARY", "VISUALISATION", "TRANSITION" };
+	static const char *const parts[] = { "LIBRARY", "VISUALISATION", "TRANSITION",
+					     "PLC_CONFIGURATION", "TASK_CONFIGURATION" };
 	static const char body[] = "_BODY";
 
 	if (ascii_prefix("END_", name, len))
