@@ -13,6 +13,7 @@ use warnings;
 use utf8;
 use Cwd qw(abs_path);
 use File::Basename qw(dirname basename);
+use File::Path qw(make_path);
 use File::Temp qw(tempdir);
 use Test::More;
 use lib abs_path(dirname(__FILE__));
@@ -158,6 +159,7 @@ for my $path (glob("$top/docs/*.md"), "$top/README.md") {
 
 		$name = sprintf 'block%d.rung', ++$number
 			if $kind eq 'rung' && $name eq '';
+		make_path(dirname("$folder/$name")) if $name =~ m{/};
 		spew("$folder/$name", $block->{text}, $utf8) if $name ne '';
 		$count{$kind}++ if exists $count{$kind};
 		check_rung($folder, $name, "$doc:$block->{line}")
