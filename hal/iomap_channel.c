@@ -88,7 +88,8 @@ struct line_reader {
 	struct io_channel channel;
 	uint32_t count;          /* values                                    */
 	uint64_t seen;           /* options, a bit each                       */
-	struct map_word at, substitute, safe, limits, threshold, ask; /* len 0: none */
+	struct map_word at, substitute, safe, limits, threshold; /* len 0: none  */
+	int ask_column;          /* of ask=, in the line of the address       */
 	double hysteresis;
 	enum io_unit at_unit, limits_unit, threshold_unit, hysteresis_unit;
 	const struct module_type *module;
@@ -380,7 +381,7 @@ static bool set_of(struct line_reader *line, const struct option_word *option)
 
 static bool set_ask(struct line_reader *line, const struct option_word *option)
 {
-	line->ask = option->word;
+	line->ask_column = option->word.column;
 	line->channel.ask = find_ask(line->reader, option->value, option->len);
 	return line->channel.ask >= 0;
 }
@@ -851,20 +852,24 @@ static bool settle_ask(struct line_reader *line)
 {
 	static const char *const by_time[] = { "poll", "stale", "refresh", "on-change", "safe" };
 	struct io_point *point = &line->point;
+	struct map_word word = line->address;
 	struct io_ask *ask;
 
 	if (line->channel.ask < 0)
 		return true;
+	ask = &line->reader->net->net.ask[line->channel.ask];
+	word.text = ask->name;
+	word.len = strlen(ask->name);
+	word.column = line->ask_column;
 	for (size_t i = 0; i < sizeof(by_time) / sizeof(*by_time); i++)
 		if (is_given(line, by_time[i]))
-			return complain(line->reader, DIAG_IO_CONFLICT, &line->ask);
-	ask = &line->reader->net->net.ask[line->channel.ask];
+			return complain(line->reader, DIAG_IO_CONFLICT, &word);
 	if (ask->bus < 0)
 		*ask = (struct io_ask){ .name = ask->name, .bus = line->channel.bus, .writes = point->output,
-					.text_line = line->ask.line, .text_column = line->ask.column };
+					.text_line = word.line, .text_column = word.column };
 	point->has_safe = point->hold = point->output;
 	return (ask->bus == line->channel.bus && ask->writes == point->output) ||
-	       complain(line->reader, DIAG_IO_ASK_MIXED, &line->ask);
+	       complain(line->reader, DIAG_IO_ASK_MIXED, &word);
 }
 
 static void settle(struct line_reader *line)

@@ -430,7 +430,7 @@ static void test_bad_nets(void)
 	BAD("WINDOW s input-register=0 %MW0 read-write", "LD543");
 	BAD("WINDOW s coil=0..9 %MX0.0 read-only\nWINDOW s coil=9 %QX0.0 read-only", "test.io:6:1: error LD544");
 	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=", "LD505");
-	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M poll=1s", "LD520: \"ask=M\"");
+	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M poll=1s", "LD520: \"M\"");
 	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M stale=1s", "LD520");
 	BAD("%QW9 modbus bus=a unit=1 holding-register=0 ask=M safe=0", "LD520");
 	BAD("%QW9 modbus bus=a unit=1 holding-register=0 ask=M refresh=1s", "LD520");
