@@ -514,6 +514,7 @@ pictures: $(BUILD)/ladder-editor ## draw docs/tutorial/*.svg again, from the run
 	$(foreach r,$(wildcard docs/tutorial/*.rung),$< --render $r -o $(r:.rung=.svg) &&) :
 screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, and docs/editor.png, the windows of the tutorial and the pictures of charts
 	$(BUILD)/ladder-editor --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
+	$(BUILD)/ladder-editor --render ladders/boiler-room/boiler-room.rung --pou Values -o docs/boiler-room.png
 	$(BUILD)/ladder-editor --render ladders/cement-plant/cement-plant.rung --pou Mixer -o docs/cement-plant.png
 	$(BUILD)/ladder-editor --render ladders/cement-plant/cement-plant.rung --pou Drives --rung 4 -o docs/cement-plant-screw.png
 	$(BUILD)/ladder-editor --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
