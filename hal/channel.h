@@ -59,7 +59,8 @@ struct io_channel {
 	union iec_value safe;  /* of an output, unless point->hold             */
 	int64_t poll_ns;       /* between two reads                            */
 	int64_t refresh_ns;    /* longest time between two writes              */
-	int ask;               /* moved only when this block of the program asks; -1: by time */
+	int ask;               /* moved only when a block of the program asks: its number in the map's
+				* list, + 1; 0: by time */
 
 	/* iio: device=ads1115 channel=voltage0; pwm: chip=pwmchip0 channel=0 period=20ms; w1:
 	 * sensor=28-000005e2fdc3; hwmon: device=cpu_thermal channel=temp1; peer: from=pump-house

@@ -98,7 +98,7 @@ static enum hal_quality read_cell(struct cell *cell, int64_t now_ns)
 	const uint32_t failures = atomic_load_explicit(&cell->failures, memory_order_acquire);
 	const int64_t age_ns = now_ns - atomic_load_explicit(&cell->read_ns, memory_order_relaxed);
 	enum hal_quality quality = is_always_good(cell) ? QUALITY_GOOD :
-		cell->channel.ask >= 0 ? asked_quality(failures) : failures >= HAL_FAILURES ? QUALITY_FAULT :
+		cell->channel.ask ? asked_quality(failures) : failures >= HAL_FAILURES ? QUALITY_FAULT :
 		!goods || age_ns > cell->channel.stale_ns ? QUALITY_STALE : QUALITY_GOOD;
 
 	if (quality == QUALITY_GOOD && goods && !take_value(cell, now_ns))
@@ -131,7 +131,7 @@ static enum hal_quality quality_of_output(const struct cell *cell)
 
 	if (is_always_good(cell))
 		return QUALITY_GOOD;
-	if (cell->channel.ask >= 0)
+	if (cell->channel.ask)
 		return asked_quality(failures);
 	if (failures >= HAL_FAILURES)
 		return QUALITY_FAULT;

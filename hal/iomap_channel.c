@@ -382,8 +382,8 @@ static bool set_of(struct line_reader *line, const struct option_word *option)
 static bool set_ask(struct line_reader *line, const struct option_word *option)
 {
 	line->ask_column = option->word.column;
-	line->channel.ask = find_ask(line->reader, option->value, option->len);
-	return line->channel.ask >= 0;
+	line->channel.ask = find_ask(line->reader, option->value, option->len) + 1;
+	return line->channel.ask > 0;
 }
 
 static const struct channel_option channel_options[] = {
@@ -855,9 +855,9 @@ static bool settle_ask(struct line_reader *line)
 	struct map_word word = line->address;
 	struct io_ask *ask;
 
-	if (line->channel.ask < 0)
+	if (!line->channel.ask)
 		return true;
-	ask = &line->reader->net->net.ask[line->channel.ask];
+	ask = &line->reader->net->net.ask[line->channel.ask - 1];
 	word.text = ask->name;
 	word.len = strlen(ask->name);
 	word.column = line->ask_column;
@@ -903,7 +903,7 @@ bool read_channel(struct reader *reader, const struct map_word *address, enum dr
 		.reader = reader, .address = *address,
 		.point = { .driver = driver, .text_line = address->line, .text_column = address->column },
 		.channel = { .stale_ns = IO_STALE_NS, .poll_ns = IO_POLL_NS, .refresh_ns = IO_REFRESH_NS,
-			     .bus = -1, .module = -1, .reg_bit = -1, .ask = -1 },
+			     .bus = -1, .module = -1, .reg_bit = -1 },
 	};
 	struct option_word option;
 	const int before = reader->errors;

@@ -209,9 +209,13 @@ sub missing_codes {
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
 }
 
+# Without libxml2 a PLCopen project is only named (LD040); plcopen.t looks at that.
+my $reads_xml = (run_case("$tests/golden/diag-LD740-xml-damaged", @{$command{diag}}))[1] !~ /LD040/;
+
 for my $dir (cases()) {
 	my $name = basename($dir);
 	my @kinds = grep { -e "$dir/expected.$_" } sort keys %command;
+	next if $name =~ /^diag-LD\d+-xml-/ && !$reads_xml;
 	ok(@kinds > 0, "$name expects something");
 	for my $kind (@kinds) {
 		my ($text, $good, $status) = produce($dir, $kind);

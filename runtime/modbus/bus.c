@@ -359,7 +359,7 @@ static bool is_due(void *context, int item)
 	const struct bus_sent *sent = &row->bus->sent[item];
 	const uint32_t serial = row->bus->field->place[it->point].serial;
 
-	if (it->channel->ask >= 0)
+	if (it->channel->ask)
 		return true;
 	return serial && (serial != sent->serial ||
 			  (it->channel->refresh_ns && row->now_ns - sent->at_ns >= it->channel->refresh_ns));

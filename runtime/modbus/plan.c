@@ -79,7 +79,7 @@ static bool joins(const struct plan_ask *ask, const struct plan_item *last, cons
 	const int most = ask->output ? (bits ? limits->write_bits : limits->write_words) :
 				       (bits ? limits->read_bits : limits->read_words);
 
-	if (item->channel->unit_id != ask->unit || item->output != ask->output || item->channel->ask != ask->by ||
+	if (item->channel->unit_id != ask->unit || item->output != ask->output || item->channel->ask - 1 != ask->by ||
 	    item->channel->table != ask->table ||
 	    end_of(item) - ask->first > most)
 		return false;
@@ -127,7 +127,7 @@ static void add_asks(struct plan *plan, const struct iomap *map, int bus,
 			*ask = (struct plan_ask){ .unit = item->channel->unit_id, .table = item->channel->table,
 						  .output = item->output, .first = item->channel->reg,
 						  .from = i, .period_ns = item->channel->poll_ns,
-						  .by = item->channel->ask };
+						  .by = item->channel->ask - 1 };
 		}
 		if (end_of(item) - ask->first > ask->count)
 			ask->count = end_of(item) - ask->first;

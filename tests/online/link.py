@@ -1242,8 +1242,8 @@ RUNG Again
             until(lambda: sum(it['id'] == 24 for it in desk.events()) == turn + 1)  # pylint: disable=cell-var-from-loop
             assert desk.status()['program'] == first
             sizes.append(used())
-        # Each store of these values takes more than 1 MB.
-        assert sizes[11] - sizes[3] < 2048, sizes
+        # Each store of these values takes more than 1 MB; the C library keeps some of what was freed.
+        assert sizes[11] - max(sizes[:4]) < 2048, sizes
 
 
 def test_a_trial_ends_with_an_order_and_keeps_others_out():

@@ -221,7 +221,7 @@ def no_bookmark(screen):
     editor, path, view = in_the_text(screen, TWO)
     before = view.text()
     editor.keys('ctrl+b')
-    until(lambda: editor.all('This works on rungs. Open a sheet first.', 'label'),
+    until(lambda: editor.all('This works on rungs and networks. Open a sheet first.', 'label'),
           'why not')
     editor.shot('text-no-bookmark')
     assert view.text() == before and 'VIEW' not in open(path).read()

@@ -36,7 +36,7 @@ static inline struct io_channel *bench_map_add(struct bench_map *it, int unit, e
 
 	*channel = (struct io_channel){ .type = type, .raw = type, .bus = 0, .unit_id = (uint8_t)unit,
 					.table = table, .reg = (uint16_t)reg, .poll_ns = IO_POLL_NS,
-					.refresh_ns = IO_REFRESH_NS, .module = -1, .ask = -1,
+					.refresh_ns = IO_REFRESH_NS, .module = -1,
 					.reg_bit = type == IEC_BOOL && table > TABLE_DISCRETE_INPUT ? 0 : -1 };
 	*point = (struct io_point){ .driver = DRIVER_modbus, .output = output, .channel = channel };
 	return channel;
