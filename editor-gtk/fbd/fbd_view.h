@@ -39,5 +39,8 @@ void ladder_fbd_view_set_found(LadderFbdView *view, int row);
 const struct xref_use *ladder_fbd_view_use(LadderFbdView *view, const struct xref *xref);
 /** ladder_fbd_view_word - the word of the box at the cursor, "TON"; NULL: none. Borrowed until the next change. */
 const char *ladder_fbd_view_word(LadderFbdView *view);
+/** ladder_fbd_view_why - why the BOOL at the cursor is TRUE or FALSE, in the scan that is shown; of an instance also why
+ * its first BOOL input is. Caller frees; NULL: there is none, or its values are unknown. */
+char *ladder_fbd_view_why(LadderFbdView *view);
 
 #endif

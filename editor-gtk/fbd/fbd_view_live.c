@@ -8,6 +8,7 @@
  */
 #include "editor-gtk/fbd/fbd_view_inside.h"
 
+#include "editor-gtk/sim/st_why.h"
 
 #include <string.h>
 
@@ -192,4 +193,77 @@ char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
 	live_value_print(place.type, image_get(&ladder_sim_twin(view->canvas->sim)->resource.image, place), text,
 			 sizeof(text));
 	return g_strdup(text);
+}
+
+/* ---- why ---- */
+
+/* The input that a place asks about: that of the cursor, else the first one of its box; -1: none. */
+static int asked_pin(const struct fbd_graph *graph, struct fbd_pos at)
+{
+	const struct fbd_box *box = &graph->box[at.box];
+
+	if (at.pin >= 0 && !graph->pin[at.pin].output)
+		return at.pin;
+	for (int i = box->first_pin; i < box->first_pin + box->pins; i++)
+		if (!graph->pin[i].output && graph->pin[i].len)
+			return i;
+	return -1;
+}
+
+/* The first BOOL input of an instance; -1: it has none with a value. */
+static int first_bool(const struct fbd_graph *graph, const struct fbd_box *box)
+{
+	for (int i = box->first_pin; i < box->first_pin + box->pins; i++)
+		if (!graph->pin[i].output && graph->pin[i].len && graph->pin[i].declared &&
+		    graph->pin[i].declared->type == IEC_BOOL)
+			return i;
+	return -1;
+}
+
+static char *item_text(LadderFbdView *view, int item, int at, int len)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+
+	return g_strndup(fbd_lines_text(project, fbd_pou(view), item) + at, (gsize)len);
+}
+
+/* Why a pin has its value. A wire is followed to the operator or function that makes it. */
+static char *why_pin(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin)
+{
+	const struct fbd_pin *p = &graph->pin[pin];
+	const int source = fbd_graph_source(graph, pin);
+	const struct fbd_box *from = source >= 0 ? &graph->box[graph->pin[source].box] : NULL;
+	const bool made = from && (from->kind == FBD_OPERATOR || from->kind == FBD_FUNCTION) && from->len;
+	char *text = made ? item_text(view, from->item, from->at, from->len) :
+			    item_text(view, graph->box[p->box].item, p->at, p->len);
+	char *why = st_why_network(view->canvas->sim, project_text(ladder_document_project(view->canvas->document),
+							       fbd_pou(view)->name), network, text);
+
+	g_free(text);
+	return why;
+}
+
+char *ladder_fbd_view_why(LadderFbdView *view)
+{
+	const struct fbd_pos at = view->cursor;
+	const struct fbd_graph *graph;
+	const struct fbd_box *from;
+	int pin, source, inner;
+	char *why, *deeper, *both;
+
+	if (!fbd_box_at(view, at) || !fbd_pou(view) || !canvas_is_live(LADDER_CANVAS(view)))
+		return NULL;
+	graph = fbd_graph_of(view, at.network);
+	pin = asked_pin(graph, at);
+	why = pin >= 0 ? why_pin(view, at.network, graph, pin) : NULL;
+	source = why ? fbd_graph_source(graph, pin) : -1;
+	from = source >= 0 ? &graph->box[graph->pin[source].box] : NULL;
+	inner = from && from->kind == FBD_BLOCK && from->instance ? first_bool(graph, from) : -1;
+	deeper = inner >= 0 ? why_pin(view, at.network, graph, inner) : NULL;
+	if (!deeper)
+		return why;
+	both = g_strdup_printf("%s · %s.%s %s", why, from->instance, graph->pin[inner].name, deeper);
+	g_free(why);
+	g_free(deeper);
+	return both;
 }

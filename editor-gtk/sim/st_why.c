@@ -20,6 +20,7 @@
 struct asked {
 	LadderSim *sim;
 	const char *pou;
+	int network;              /* whose wires are names; -1: none            */
 	const struct image *image;
 	struct project *project;
 };
@@ -66,9 +67,15 @@ static GArray *condition_at(const char *text, int line)
 static char *whole_name(const struct asked *asked, const struct token *token, struct location *at)
 {
 	char *name = g_strndup(token->text, token->len);
-	char *local = g_strdup_printf("%s.%s", asked->pou, name);
+	char *local = asked->network < 0 ? g_strdup_printf("%s.%s", asked->pou, name) :
+		      g_strdup_printf("%s.%s.N%d", asked->pou, name, asked->network + 1);
 
 	*at = live_value_find(asked->image, local);
+	if (at->type == IEC_NONE && asked->network >= 0) { /* it is no wire */
+		g_free(local);
+		local = g_strdup_printf("%s.%s", asked->pou, name);
+		*at = live_value_find(asked->image, local);
+	}
 	if (at->type != IEC_NONE) {
 		g_free(name);
 		return local;
@@ -245,19 +252,37 @@ static char *say(const struct asked *asked, GArray *tokens)
 	return g_string_free(why, !on && !known);
 }
 
-char *st_why(LadderSim *sim, const char *pou, const char *text, int line)
+/* Takes over @tokens. */
+static char *say_tokens(LadderSim *sim, const char *pou, int network, GArray *tokens)
 {
 	const struct twin *twin = ladder_sim_twin(sim);
 	struct ladder *ladder = ladder_sim_ladder(sim);
-	GArray *tokens = twin && ladder && ladder_project(ladder) ? condition_at(text, line) : NULL;
-	struct asked asked = { sim, pou, NULL, NULL };
-	char *said;
+	struct asked asked = { sim, pou, network, NULL, NULL };
+	char *said = NULL;
 
-	if (!tokens)
-		return NULL;
-	asked.image = &twin->resource.image;
-	asked.project = ladder_project(ladder);
-	said = say(&asked, tokens);
+	if (twin && ladder && ladder_project(ladder)) {
+		asked.image = &twin->resource.image;
+		asked.project = ladder_project(ladder);
+		said = say(&asked, tokens);
+	}
 	g_array_unref(tokens);
 	return said;
+}
+
+char *st_why(LadderSim *sim, const char *pou, const char *text, int line)
+{
+	GArray *tokens = condition_at(text, line);
+
+	return tokens ? say_tokens(sim, pou, -1, tokens) : NULL;
+}
+
+char *st_why_network(LadderSim *sim, const char *pou, int network, const char *text)
+{
+	GArray *tokens = g_array_new(FALSE, FALSE, sizeof(struct token));
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END)
+		g_array_append_val(tokens, lex.token);
+	return say_tokens(sim, pou, network, tokens);
 }

@@ -17,5 +17,8 @@
  * Owns: the caller, g_free().   Fails: NULL: no such condition is there, or its values are unknown.
  */
 char *st_why(LadderSim *sim, const char *pou, const char *text, int line);
+/** st_why_network - the same of a value in a network; @text: the value alone; @network: 0-based, of which wires are
+ * names. */
+char *st_why_network(LadderSim *sim, const char *pou, int network, const char *text);
 
 #endif

@@ -173,6 +173,14 @@ static void tell_condition(struct blockers *blockers, LadderTextView *list)
 	g_free(why);
 }
 
+static void tell_network(struct blockers *blockers, LadderFbdView *networks)
+{
+	char *why = ladder_fbd_view_why(networks);
+
+	messages_tell(blockers->core->messages, why ? why : _("Put the cursor on an input that is TRUE or FALSE"));
+	g_free(why);
+}
+
 void blockers_ask(struct blockers *blockers)
 {
 	LadderGridView *sheet = front_seen_sheet(blockers->core->front);
@@ -188,6 +196,10 @@ void blockers_ask(struct blockers *blockers)
 	/* Opens the condition as rungs first, so that their power is visible. */
 	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
+	if (!sheet && front_seen_networks(blockers->core->front)) {
+		tell_network(blockers, front_seen_networks(blockers->core->front));
+		return;
+	}
 	if (!sheet && front_list(blockers->core->front)) {
 		tell_condition(blockers, front_list(blockers->core->front));
 		return;
