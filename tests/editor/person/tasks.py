@@ -223,6 +223,7 @@ def tree(screen):
     is_saved(editor, path, *deleted)
     editor.keys('ctrl+z')
     is_saved(editor, path)
+    in_tree(editor, 'Fast') # then the rows stay where they are
     editor.click(in_tree(editor, 'Each scan'))
     for key in 'F2', 'Delete':
         editor.keys(key)
