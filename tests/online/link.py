@@ -3733,8 +3733,9 @@ def test_attach_joins_a_stream_to_the_socket():
         assert done.returncode == 2 and 'LD852' in done.stderr
 
 
-def run(number, test):
-    """One test in a process of its own: as root only if it needs that. Returns whether it was good."""
+def run(number, test, kept):
+    """One test in a process of its own: as root only if it needs that. Returns whether it was good. @kept: a file for
+    what it says of a failure."""
     global ROOT  # pylint: disable=global-statement
     name = test.__name__[5:].replace('_', ' ')
     if getattr(test, 'root', False) and not ROOT:
@@ -3755,7 +3756,26 @@ def run(number, test):
     except Exception as error:  # pylint: disable=broad-except
         print(f'not ok {number} - {name}\n# {error!r}')
         print(''.join('# ' + line + '\n' for line in traceback.format_exc().splitlines()))
+        ways = [f'{os.path.basename(it.filename)}:{it.lineno} {it.line}' for it in traceback.extract_tb(error.__traceback__)]
+        kept.write('\n'.join([name, *ways[1:5], repr(error)[:600], '']))
+        kept.flush()
         return False
+
+
+def keep(build, number, kept):
+    """Keeps what a test said of its failure for the end of a long log, as the scripts of the editor do."""
+    kept.seek(0)
+    os.makedirs(f'{build}/failed', exist_ok=True)
+    with open(f'{build}/failed/{os.path.basename(sys.argv[0])}-{number}', 'w', encoding='utf-8') as file:
+        file.write(kept.read())
+
+
+def in_front():
+    """Other tests run beside these, which wait for milliseconds: root is served before them."""
+    try:
+        os.setpriority(os.PRIO_PROCESS, 0, -10)
+    except OSError:
+        pass
 
 
 def main(names):
@@ -3765,7 +3785,8 @@ def main(names):
              (not sys.argv[1:] or name in sys.argv[1:])]
     if not tests:
         sys.exit(f'no test has one of the names: {" ".join(sys.argv[1:])}')
-    failed = 0
+    failed, build = 0, BUILD
+    in_front()
     with tempfile.TemporaryDirectory() as folder:
         # Where the other users can reach them.
         os.chmod(folder, 0o755)
@@ -3775,12 +3796,15 @@ def main(names):
         BUILD = folder
         print(f'1..{len(tests)}', flush=True)
         for number, test in enumerate(tests, 1):
-            child = os.fork()
-            if not child:
-                good = run(number, test)
-                sys.stdout.flush()
-                os._exit(not good)
-            failed |= os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
+            with tempfile.TemporaryFile('w+', encoding='utf-8') as kept:
+                child = os.fork()
+                if not child:
+                    good = run(number, test, kept)
+                    sys.stdout.flush()
+                    os._exit(not good)
+                if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0:
+                    failed = 1
+                    keep(build, number, kept)
     return failed
 
 

@@ -200,7 +200,7 @@ def test_three_boards_tell_each_other():
         soon(mixer, {'Level': 7, 'Running': True})
         soon(tank, {'Level': 7, 'Twice': 14})
         print(f'# back after {time.monotonic() - began:.2f} s', flush=True)
-        until(lambda: units(tank)['yard/pump-house'][2] > 0)
+        until(lambda: units(tank).get('yard/pump-house', (0, 0, 0))[2] > 0)
         # In STOP its values do not move, so they are not new.
         desk.set_mode(0)
         soon(mixer, {'Level': -1})

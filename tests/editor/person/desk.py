@@ -16,7 +16,7 @@ import report
 from finder import Finder
 from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node  # noqa: F401
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
-from screen import PATIENCE, Screen, dbus, lacking, sh, until
+from screen import PATIENCE, Focus, Screen, dbus, lacking, sh, until
 
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
@@ -57,6 +57,7 @@ class Editor(Finder):
         editors.append(self)
         self.bus = screen.accessibility()
         self.palette = None
+        self.focus = None
         self.name, self.root = until(self.application, 'the editor on the accessibility bus')
         self.window = until(self.windows, 'a window')[0]
         def look():
@@ -126,7 +127,14 @@ class Editor(Finder):
             self.shot(look)
         sh('xdotool', 'mouseup', '1', *(['keyup', key] if key else []))
 
+    def has_keys(self):
+        """Does a window get the keys? When one has closed, the window manager has them for a moment."""
+        self.focus = self.focus or Focus()
+        return self.process.poll() is not None or self.focus.program() not in (0, self.screen.manager)
+
     def keys(self, *keys):
+        if not self.has_keys():
+            until(self.has_keys, 'a window for the keys')
         sh('xdotool', 'key', '--delay', '20', *keys)
 
     def type(self, text):

@@ -94,6 +94,19 @@ def close_window(window):
     x.XCloseDisplay(display)
 
 
+class Focus:
+    """Which program gets the keys."""
+
+    def __init__(self):
+        self.x, self.display = open_display()
+
+    def program(self):
+        """A number for it; 0 for none. An X server gives each program a range of 2^21 numbers for its windows."""
+        window, revert = ctypes.c_ulong(), ctypes.c_int()
+        self.x.XGetInputFocus(self.display, ctypes.byref(window), ctypes.byref(revert))
+        return window.value >> 21
+
+
 class Screen:
     """A private X screen with a window manager, a session bus, a home folder."""
 
@@ -121,6 +134,7 @@ class Screen:
             self.start('xcompmgr')
         until(self.is_managed, 'the window manager')
         self.always = len(self.running)
+        self.manager = Focus().program()  # no other program has a window yet
 
     def move_in(self):
         """A new home folder."""
