@@ -369,12 +369,23 @@ static bool next_of_chain(struct st_walk *walk, struct st_part *part, struct exp
 	return true;
 }
 
+/* Does it begin with x = …, whatever comes behind? In x = A AND B the AND is the outermost node. */
+static bool begins_with_equals(const struct expr *expr, const char *first)
+{
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *node = &expr->node[i];
+
+		if (node->op == EXPR_FN && node->fn == FN_EQ && node->left >= 0 && expr->node[node->left].text == first)
+			return true;
+	}
+	return false;
+}
+
 /* Level := Level + 1 */
 static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *expr,
 		     struct diag_list *diags, struct diag place)
 {
 	const struct token first = walk->lex.token;
-	const struct expr_node *root;
 
 	part->role = walk->last = ST_ASSIGNED;
 	part->text = first.text;
@@ -385,8 +396,7 @@ static bool assigned(struct st_walk *walk, struct st_part *part, struct expr *ex
 	walk->missing = !expr->target;
 	if (expr->target)
 		return true;
-	root = &expr->node[expr->root];
-	place.id = root->op == EXPR_FN && root->fn == FN_EQ ? DIAG_ST_COMPARES : DIAG_ST_NOTHING;
+	place.id = begins_with_equals(expr, first.text) ? DIAG_ST_COMPARES : DIAG_ST_NOTHING;
 	place.column = first.column;
 	return diag_add(diags, place, "%.*s", first.len < LIMIT_ARG ? (int)first.len : LIMIT_ARG,
 			first.text);
