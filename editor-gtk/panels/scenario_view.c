@@ -79,19 +79,41 @@ static void show_summary(LadderScenarioView *view)
 	g_free(text);
 }
 
+/* What stands there before the first run. Caller frees. */
+static char *before_run(LadderScenarioView *view)
+{
+	GPtrArray *files = scenario_files(ladder_document_path(view->document));
+	GString *names = g_string_new(NULL);
+	char *text;
+
+	for (guint i = 0; i < files->len; i++) {
+		char *name = g_path_get_basename(files->pdata[i]);
+
+		g_string_append_printf(names, "%s%s", i ? ", " : "", name);
+		g_free(name);
+	}
+	text = files->len ? g_strdup_printf(_("Not run yet: %s"), names->str) :
+	       g_strdup(_("Scenarios say what a program must do. They are in files beside it whose "
+			  "names begin with its name and end in .scn."));
+	g_string_free(names, TRUE);
+	g_ptr_array_unref(files);
+	return text;
+}
+
 static void show_rows(LadderScenarioView *view)
 {
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	char *empty = view->running ? g_strdup(_("Running…")) :
+		      view->results ? g_strdup(_("The project has no scenarios yet. Record one.")) :
+		      before_run(view);
 
 	for (guint i = 0; view->results && i < view->results->len; i++)
 		g_ptr_array_add(rows, row_of(view->results->pdata[i], (int)i));
 	panel_list_update(&view->list, rows);
-	gtk_label_set_label(GTK_LABEL(view->empty), view->running ? _("Running…") :
-		view->results ? _("The project has no scenarios yet. Record one.") :
-		_("Scenarios say what a program must do. They are in files beside it whose "
-		  "names begin with its name and end in .scn."));
+	gtk_label_set_label(GTK_LABEL(view->empty), empty);
 	gtk_stack_set_visible_child_name(GTK_STACK(view->stack), rows->len ? "list" : "none");
 	g_ptr_array_unref(rows);
+	g_free(empty);
 	show_summary(view);
 }
 
@@ -174,6 +196,13 @@ static void show_recorder(LadderScenarioView *view)
 	gtk_widget_set_sensitive(view->expect_button, on);
 }
 
+/* A file of scenarios may be there since the last look. */
+static void map(GtkWidget *widget)
+{
+	GTK_WIDGET_CLASS(ladder_scenario_view_parent_class)->map(widget);
+	show_rows(LADDER_SCENARIO_VIEW(widget));
+}
+
 /* ---- the widget ---- */
 
 static void dispose(GObject *object)
@@ -196,6 +225,7 @@ static void ladder_scenario_view_class_init(LadderScenarioViewClass *class)
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
 	G_OBJECT_CLASS(class)->dispose = dispose;
+	widget->map = map;
 	opened = g_signal_new("opened", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL,
 			      NULL, NULL, G_TYPE_NONE, 1, G_TYPE_POINTER);
 	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
