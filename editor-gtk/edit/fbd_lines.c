@@ -42,6 +42,19 @@ const char *fbd_lines_text(const struct project *project, const struct pou *pou,
 	return project_text(project, pou->st->item[item].text);
 }
 
+bool fbd_lines_place(const struct project *project, const struct pou *pou, int item, int *first, int *last)
+{
+	const struct st_item *at = pou->st && item >= 0 && item < pou->st->count ? &pou->st->item[item] : NULL;
+	const char *text = at ? project_text(project, at->text) : NULL;
+	int column;
+
+	if (!at)
+		return false;
+	st_where(&project->names, at, text, first, &column);
+	st_where(&project->names, at, text + strlen(text), last, &column);
+	return true;
+}
+
 size_t fbd_heading_len(const char *text, size_t len)
 {
 	const char *at = text, *end = text + len;

@@ -17,6 +17,8 @@ struct fbd_heading fbd_lines_heading(const struct project *project, const struct
 int fbd_lines_line(const struct pou *pou, int network);
 /** fbd_lines_statement - the number of item @item of the POU in its network, comments not counted. */
 int fbd_lines_statement(const struct pou *pou, int network, int item);
+/** fbd_lines_place - the lines of the file in which item @item of the POU stands. Fails: false: it has no such item. */
+bool fbd_lines_place(const struct project *project, const struct pou *pou, int item, int *first, int *last);
 /** fbd_lines_text - of item @item of the POU. Borrowed. */
 const char *fbd_lines_text(const struct project *project, const struct pou *pou, int item);
 /** fbd_heading_len - bytes of a network's text before the first line below its heading. */

@@ -3,8 +3,8 @@
  * fbd_view_live - values of the running program on the pins and wires of networks.
  *
  * It shows what the scan has computed and evaluates nothing: the value of a name in place, of an output of an
- * instance, of a wire that has a name or that a variable or an instance gets. The result of another nested box is kept
- * nowhere, so its wire is not known.
+ * instance, of a wire that has a name. The result of another box is what the line of the list left that computes it;
+ * a board keeps no such results, so there it is known only if a variable or an instance gets it.
  */
 #include "editor-gtk/fbd/fbd_view_inside.h"
 
@@ -17,6 +17,7 @@ struct fbd_places {
 	LadderFbdView *view;
 	int network;
 	struct location *pin;      /* by pin                                    */
+	uint32_t *ran;             /* by pin: a BOOL, has what computes it run? 0: it needs not */
 	struct location *now, *goal; /* by box: what it counts, and up to where   */
 	struct location at[];
 };
@@ -44,11 +45,46 @@ static bool is_wire(const struct fbd_graph *graph, const char *name)
 	return false;
 }
 
-static struct location find_output(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin)
+/* The result of a box, which no variable need have. */
+static struct live_result find_made(LadderFbdView *view, const struct fbd_box *box)
+{
+	LadderSim *sim = view->canvas->sim;
+	struct ladder *ladder = ladder_sim_ladder(sim);
+	const struct project *running = ladder ? ladder_project(ladder) : NULL;
+	const int pou = ladder_sim_pou(sim, view->canvas->document, view->canvas->pou);
+	const struct il *il = running && pou >= 0 ? ladder_il(ladder, pou) : NULL;
+	struct live_result result = { .at.type = IEC_NONE };
+	int first, last;
+
+	/* Another statement may stand there since an edit. */
+	if (il && box->made && fbd_lines_place(running, &running->pou[pou], box->item, &first, &last) &&
+	    strcmp(fbd_lines_text(running, &running->pou[pou], box->item),
+		   fbd_lines_text(ladder_document_project(view->canvas->document), fbd_pou(view), box->item)) == 0 &&
+	    !live_map_made(view->map, il, first, last, box->made, &result))
+		result.at.type = IEC_NONE;
+	return result;
+}
+
+/* The output that has the result of its box: OUT of a function, the one of an operator. */
+static bool is_result(const struct fbd_graph *graph, int pin)
+{
+	const struct fbd_pin *p = &graph->pin[pin];
+
+	return graph->box[p->box].made && (!*p->name || strcmp(p->name, "OUT") == 0);
+}
+
+static struct location find_output(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin,
+				   uint32_t *ran)
 {
 	const struct fbd_pin *p = &graph->pin[pin];
 	const struct fbd_box *box = &graph->box[p->box];
+	const struct live_result made = is_result(graph, pin) ? find_made(view, box) :
+					(struct live_result){ .at.type = IEC_NONE };
 
+	if (made.at.type != IEC_NONE) {
+		*ran = made.ran;
+		return made.at;
+	}
 	if (box->kind == FBD_BLOCK && box->instance && p->name[0])
 		return live_map_find_pin(view->map, box->instance, p->name);
 	if (p->operand)
@@ -73,7 +109,8 @@ static struct location find_output(LadderFbdView *view, int network, const struc
 	return (struct location){ .type = IEC_NONE };
 }
 
-static struct location find_pin(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin)
+static struct location find_pin(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin,
+				uint32_t *ran)
 {
 	const struct fbd_pin *p = &graph->pin[pin];
 	const int source = p->output ? pin : fbd_graph_source(graph, pin);
@@ -82,7 +119,7 @@ static struct location find_pin(LadderFbdView *view, int network, const struct f
 		return find_wire(view, network, p->operand, true);
 	if (!p->output && p->operand)
 		return find(view, p->operand);
-	return source >= 0 ? find_output(view, network, graph, source) : (struct location){ .type = IEC_NONE };
+	return source >= 0 ? find_output(view, network, graph, source, ran) : (struct location){ .type = IEC_NONE };
 }
 
 static void find_count(LadderFbdView *view, const struct fbd_box *box, struct location *now, struct location *goal)
@@ -109,14 +146,16 @@ static struct fbd_places *find_places(LadderFbdView *view, int network)
 {
 	const struct fbd_graph *graph = fbd_graph_of(view, network);
 	const size_t pins = (size_t)graph->pin_count, boxes = (size_t)graph->box_count;
-	struct fbd_places *places = g_malloc0(sizeof(*places) + (pins + 2 * boxes + 1) * sizeof(struct location));
+	struct fbd_places *places = g_malloc0(sizeof(*places) +
+		(pins + 2 * boxes + 1) * sizeof(struct location) + pins * sizeof(uint32_t));
 
 	*places = (struct fbd_places){ .view = view, .network = network };
 	places->pin = places->at;
 	places->now = places->at + pins;
 	places->goal = places->now + boxes;
+	places->ran = (uint32_t *)(places->goal + boxes + 1);
 	for (int i = 0; i < graph->pin_count; i++)
-		places->pin[i] = find_pin(view, network, graph, i);
+		places->pin[i] = find_pin(view, network, graph, i, &places->ran[i]);
 	for (int i = 0; i < graph->box_count; i++)
 		find_count(view, &graph->box[i], &places->now[i], &places->goal[i]);
 	return places;
@@ -129,7 +168,8 @@ static unsigned int pin_state(void *context, int pin, char *text, size_t size)
 	const struct location at = places->pin[pin];
 
 	text[0] = '\0';
-	if (at.type == IEC_NONE)
+	if (at.type == IEC_NONE ||
+	    (places->ran[pin] && !image_get(image, (struct location){ .type = IEC_BOOL, .where = places->ran[pin] }).i))
 		return 0;
 	if (at.type == IEC_BOOL)
 		return LIVE_KNOWN | (image_get(image, at).i ? LIVE_OUT : 0);

@@ -119,13 +119,6 @@ static int behind(const struct il *il, int i)
 	return i;
 }
 
-/* Has code_listed() a number for it? */
-static bool is_instruction(const struct il_line *line)
-{
-	return line->kind == IL_OP || line->kind == IL_FN || line->kind == IL_CLOSE ||
-	       line->kind == IL_LABEL || line->kind == IL_CALL;
-}
-
 /* The cells of a ladder without jumps: else nobody knows which of its rungs have run. */
 static void find_cells(struct code_view *code, const struct pou *pou, const struct il *il, int at)
 {
@@ -163,23 +156,13 @@ static void find_spots(struct code_view *code, const struct pou *pou, const stru
 	for (int i = 0, at = first; i < il->count; i = behind(il, i), at++) {
 		struct spot *spot = &g_array_index(code->spots, struct spot, at);
 
-		if (!is_instruction(&il->line[i]))
+		if (!live_map_is_listed(&il->line[i]))
 			continue;
 		number = rung == (int)il->line[i].rung - 1 ? number + 1 : 0;
 		rung = (int)il->line[i].rung - 1;
 		*spot = (struct spot){ .at = i, .rung = rung, .number = number, .row = -1 };
 	}
 	find_cells(code, pou, il, first);
-}
-
-/* How many instructions stand before line @end. */
-static uint32_t count_before(const struct il *il, int end)
-{
-	uint32_t count = 0;
-
-	for (int i = 0; i < end && i < il->count; i++)
-		count += is_instruction(&il->line[i]);
-	return count;
 }
 
 /* The line of the list that runs; -1: it has another one. Before a rung may now be others than
@@ -192,7 +175,7 @@ static int line_of_rung(const struct code_view *code, const struct spot *spot,
 	int number = spot->number;
 
 	for (int i = 0; rung >= 0 && i < running->count; i++)
-		if ((int)running->line[i].rung - 1 == rung && is_instruction(&running->line[i]) &&
+		if ((int)running->line[i].rung - 1 == rung && live_map_is_listed(&running->line[i]) &&
 		    number-- == 0)
 			return i;
 	return -1;
@@ -228,7 +211,7 @@ static bool find_listed(const struct code_view *code, const struct project *proj
 		line = line_of_rung(code, spot, running);
 	else if (running)
 		line = line_of_chart(spot, project, il, ladder_project(ladder), running);
-	return line >= 0 && live_map_listed(map, count_before(running, line) + 1, out);
+	return line >= 0 && live_map_listed(map, live_map_before(running, line) + 1, out);
 }
 
 /* As a board keeps it. */

@@ -214,6 +214,30 @@ bool live_map_listed(const struct live_map *map, uint32_t number, struct live_re
 	       take_result(map, code_listed(map->program, (uint32_t)map->unit, number), out);
 }
 
+bool live_map_is_listed(const struct il_line *line)
+{
+	return line->kind == IL_OP || line->kind == IL_FN || line->kind == IL_CLOSE ||
+	       line->kind == IL_LABEL || line->kind == IL_CALL;
+}
+
+uint32_t live_map_before(const struct il *il, int end)
+{
+	uint32_t count = 0;
+
+	for (int i = 0; i < end && i < il->count; i++)
+		count += live_map_is_listed(&il->line[i]);
+	return count;
+}
+
+bool live_map_made(const struct live_map *map, const struct il *il, int first, int last, uint16_t made,
+		   struct live_result *out)
+{
+	for (int i = 0; made && i < il->count; i++)
+		if (il->line[i].made == made && (int)il->line[i].line >= first && (int)il->line[i].line <= last)
+			return live_map_listed(map, live_map_before(il, i) + 1, out);
+	return false;
+}
+
 struct live_result live_map_always(const struct live_map *map)
 {
 	return (struct live_result){ .ran = CODE_TRUE_AT(&map->program->areas),

@@ -55,6 +55,15 @@ bool live_map_result(const struct live_map *map, uint32_t line, struct live_resu
 /** live_map_listed - the same of instruction @number, from 1, of the list that a ladder or a chart
  * becomes, as code_listed() counts it. Fails: false: the program keeps no such results. */
 bool live_map_listed(const struct live_map *map, uint32_t number, struct live_result *out);
+/** live_map_before - how many instructions of a list stand before line @end, as live_map_listed() counts. */
+uint32_t live_map_before(const struct il *il, int end);
+/** live_map_is_listed - does live_map_listed() count this line? */
+bool live_map_is_listed(const struct il_line *line);
+/** live_map_made - the result of an operation of a network, in the program that runs
+ * @il: the list of its POU; @first, @last: the lines of its statement in the file; @made: expr_mark()
+ * Fails: false: no line leaves it, or the program keeps no such results. */
+bool live_map_made(const struct live_map *map, const struct il *il, int first, int last, uint16_t made,
+		   struct live_result *out);
 /** live_map_always - of a line that has run, without a value. */
 struct live_result live_map_always(const struct live_map *map);
 

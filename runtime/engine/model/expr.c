@@ -921,3 +921,45 @@ bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		return refuse(&parser, DIAG_BAD_EXPRESSION);
 	return true;
 }
+
+/* ---- marks ---- */
+
+/* NOT or the sign in front of @operand. */
+static const char *sign_before(const char *operand, const char *text, bool is_not)
+{
+	while (operand > text && strchr(" \t\r\n(", operand[-1]))
+		operand--;
+	return operand - text >= (is_not ? 3 : 1) ? operand - (is_not ? 3 : 1) : text;
+}
+
+const char *expr_first(const struct expr *expr, int index, const char *text)
+{
+	const struct expr_node *node = &expr->node[index];
+
+	while (node->op == EXPR_INDEX && node->right >= 0)
+		node = &expr->node[node->right];
+	if (node->op == EXPR_NOT || node->op == EXPR_NEG)
+		return sign_before(expr_first(expr, node->left, text), text, node->op == EXPR_NOT);
+	if (node->op == EXPR_NAME || node->op == EXPR_INDEX || node->op == EXPR_LITERAL || node->op == EXPR_CALL ||
+	    node->left < 0)
+		return node->text;
+	return expr_first(expr, node->left, text);
+}
+
+uint16_t expr_mark(const struct expr *expr, int index, const char *text)
+{
+	const struct expr_node *node = &expr->node[index];
+	const char *place = expr_first(expr, index, text), *other;
+	bool sides = false;
+	size_t mark;
+
+	if (node->op == EXPR_FN || node->op == EXPR_AND || node->op == EXPR_XOR || node->op == EXPR_OR) {
+		other = node->right >= 0 ? expr_first(expr, node->right, text) : place;
+		place = other > place ? other : place; /* a check may turn the sides */
+		sides = true;
+	} else if (node->op != EXPR_CALL && node->op != EXPR_NOT && node->op != EXPR_NEG) {
+		return 0;
+	}
+	mark = place && place >= text ? 2 * (size_t)(place - text) + 1 + sides : 0;
+	return mark <= UINT16_MAX ? (uint16_t)mark : 0;
+}

@@ -81,6 +81,12 @@ struct expr {
  */
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 		struct diag place);
+/** expr_mark - a number for an operation or call of an expression that no other one within @text has, from the
+ * place where it stands: the list that it becomes and its drawing call it so. 0: it has none, or stands too far
+ * behind. Scan-safe: yes. */
+uint16_t expr_mark(const struct expr *expr, int index, const char *text);
+/** expr_first - the first byte of an operand within @text: of its name, constant or sign. Scan-safe: yes. */
+const char *expr_first(const struct expr *expr, int index, const char *text);
 /** expr_parse_cell - `expression` or `target := expression` at the lexer. */
 bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
 		     struct diag place);

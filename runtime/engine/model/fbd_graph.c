@@ -634,7 +634,8 @@ static bool has_result(const struct maker *m, const struct word_row *row)
 }
 
 /* The box of a call of a function. */
-static struct value finish_call(struct maker *m, struct call *call, const struct word_row *row, struct span part)
+static struct value finish_call(struct maker *m, struct call *call, const struct word_row *row, struct span part,
+				uint16_t made)
 {
 	const struct piece *name = &m->piece[part.first];
 	const char *type = is_function(row) ? row->word : keep(m, name->text, name->len);
@@ -644,6 +645,7 @@ static struct value finish_call(struct maker *m, struct call *call, const struct
 	if (!box)
 		return box_value(m, -1, part);
 	box->row = row;
+	box->made = made;
 	match(row, call);
 	result = put_pins(m, call, row, has_result(m, row));
 	return box_value(m, result, part);
@@ -683,8 +685,10 @@ static struct value edge_value(struct maker *m, const struct expr *expr, const s
 	const struct value value = build(m, expr, expr->node[node->left].left);
 	struct fbd_box *box = add_box(m, FBD_TRIGGER, ascii_upper(*node->text) == 'R' ? "R_EDGE" : "F_EDGE", part);
 
-	if (box)
+	if (box) {
+		box->made = expr_mark(expr, (int)(node - expr->node), m->text);
 		connect(m, add_pin(m, "", NULL, false), &value);
+	}
 	return box_value(m, box ? add_pin(m, "", NULL, true) : -1, part);
 }
 
@@ -727,7 +731,8 @@ static struct value call_value(struct maker *m, const struct expr *expr, const s
 	call->count = 0;
 	take_arguments(m, expr, node->left, call);
 	take_open(m, part, call);
-	return finish_call(m, call, function_row(m, node->text, node->len), part);
+	return finish_call(m, call, function_row(m, node->text, node->len), part,
+			   expr_mark(expr, (int)(node - expr->node), m->text));
 }
 
 struct sign {
@@ -789,6 +794,24 @@ static struct span joined(struct span a, struct span b)
 	return (struct span){ a.first < b.first ? a.first : b.first, a.last > b.last ? a.last : b.last };
 }
 
+/* Up to the partners of parentheses of which only one stands in it, as in (a + b) + (c + d), where all are operands
+ * of one box. */
+static struct span balanced(const struct maker *m, struct span part)
+{
+	int open = 0, close = 0;
+
+	for (int i = part.first; i <= part.last; i++) {
+		open += is_piece(m, i, "(");
+		close += is_piece(m, i, ")") && open == 0;
+		open -= is_piece(m, i, ")") && open > 0;
+	}
+	for (; close > 0 && part.first > 0; part.first--)
+		close -= is_piece(m, part.first - 1, "(");
+	for (; open > 0 && part.last + 1 < m->pieces; part.last++)
+		open -= is_piece(m, part.last + 1, ")");
+	return part;
+}
+
 static struct value operator_value(struct maker *m, const struct expr *expr, int at)
 {
 	const struct expr_node *node = &expr->node[at];
@@ -805,12 +828,14 @@ static struct value operator_value(struct maker *m, const struct expr *expr, int
 		value[i] = build(m, expr, operand[i]);
 		part = i ? joined(part, value[i].part) : value[i].part;
 	}
+	part = balanced(m, part);
 	if (node->right < 0)
 		part.first -= part.first > 0; /* the sign */
 	box = add_box(m, FBD_OPERATOR, node->lazy ? sign->lazy : sign->text, part);
 	if (!box)
 		return box_value(m, -1, part);
 	box->row = word_row(sign->fn);
+	box->made = expr_mark(expr, at, m->text);
 	for (int i = 0; i < count; i++) {
 		const int pin = add_pin(m, "", box->row->pin_count ? word_input(box->row, (uint32_t)i) : NULL,
 					false);
@@ -820,14 +845,6 @@ static struct value operator_value(struct maker *m, const struct expr *expr, int
 			m->out->pin[pin].extends = i > 1;
 	}
 	return box_value(m, add_pin(m, "", NULL, true), part);
-}
-
-/* Of an element whose indices are expressions: its first byte. */
-static const char *place_text(const struct expr *expr, const struct expr_node *node)
-{
-	while ((node->op == EXPR_INDEX && node->right >= 0) || node->op == EXPR_BIT)
-		node = &expr->node[node->op == EXPR_BIT ? node->left : node->right];
-	return node->text;
 }
 
 static struct value operand_value(struct maker *m, const char *text)
@@ -867,7 +884,7 @@ static struct value build(struct maker *m, const struct expr *expr, int at)
 	case EXPR_INDEX:
 	case EXPR_BIT:
 	case EXPR_LITERAL:
-		return operand_value(m, place_text(expr, node));
+		return operand_value(m, expr_first(expr, at, m->text));
 	case EXPR_NEG:
 		if (expr->node[node->left].op != EXPR_LITERAL)
 			return operator_value(m, expr, at);
@@ -1030,7 +1047,7 @@ static void call_line(struct maker *m)
 		take_part_of_call(m, call, &part);
 	block = instance_row(m, text, strlen(text));
 	if (!block) {
-		finish_call(m, call, function_row(m, text, strlen(text)), whole);
+		finish_call(m, call, function_row(m, text, strlen(text)), whole, 0);
 		return;
 	}
 	if (!add_box(m, FBD_BLOCK, block->word, whole))

@@ -48,6 +48,7 @@ struct fbd_box {
 	int item;             /* the statement, of pou->st                         */
 	bool nested;          /* not the outermost box of its statement            */
 	int first_pin, pins;  /* inputs, then outputs, each in the order of the catalogue */
+	uint16_t made;        /* il_line.made of its result, in the statement; 0: it has none */
 	int order;            /* of execution, from 1; FBD_VALUE and what ends a line have 0 */
 	int at_column, at_row; /* the hint, from 1; 0: none                        */
 	int at, len;          /* bytes of the item's text: all of the call or expression */

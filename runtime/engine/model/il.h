@@ -50,6 +50,7 @@ struct il_line {
 	uint16_t row, col;   /* 1-based cell it comes from. In a list that was written
 				(rung 0): column of its operator, of its operand.
 				0: none                                    */
+	uint16_t made;       /* of a network: the operation whose result the line leaves, expr_mark(); 0: none */
 	uint32_t rung;       /* 1-based; 0: none                               */
 	uint32_t operand;    /* string id; label name; comment text            */
 	uint32_t pin;        /* string id of IL_ARG_*                          */

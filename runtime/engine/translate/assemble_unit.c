@@ -13,6 +13,7 @@
 
 #include <limits.h>
 #include <string.h>
+#include <strings.h>
 
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
 
@@ -868,13 +869,17 @@ static void note_listed(struct list *list, struct frame *frame, const struct il_
 		list->as->failed = true;
 }
 
+static bool is_listed(const struct list *list, const struct il_line *line)
+{
+	return list->as->listing && list->pou->language != LANGUAGE_IL && !(line->mark & IL_WATCHING);
+}
+
 /* Both sections have the same lines, but for those that keep power. */
 static void keep_listed(struct list *list, const struct il_line *line)
 {
 	struct frame *frame = frame_of(list);
 
-	if (!list->as->listing || list->pou->language == LANGUAGE_IL ||
-	    line->mark & IL_WATCHING)
+	if (!is_listed(list, line))
 		return;
 	list->number++;
 	if (list->as->text != &list->as->watch)
@@ -883,10 +888,71 @@ static void keep_listed(struct list *list, const struct il_line *line)
 		store_result(list, &frame->listed[list->number - 1], frame->always);
 }
 
+/* ---- what a call of a network leaves: its OUT ---- */
+
+static bool is_argument(const struct il_line *line)
+{
+	return line->kind == IL_ARG_IN || line->kind == IL_ARG_OUT;
+}
+
+/* The variable at OUT of a box, after the last line of its call; NULL: no such line, or its value is of no plain type. */
+static const struct meaning *made_out(struct list *list)
+{
+	const struct il *il = list->il;
+	int call = list->at, out = -1;
+	const struct meaning *m;
+
+	if (!is_argument(&il->line[call]) || (call + 1 < il->count && is_argument(&il->line[call + 1])))
+		return NULL;
+	for (; call > 0 && is_argument(&il->line[call]); call--)
+		if (il->line[call].kind == IL_ARG_OUT &&
+		    strcasecmp(names_text(&list->as->translation->project->names, il->line[call].pin), "OUT") == 0)
+			out = call;
+	if (out < 0 || il->line[call].kind != IL_CALL || !il->line[call].made || il->line[call].mark & IL_INDEX ||
+	    !is_listed(list, &il->line[call]))
+		return NULL;
+	m = list_meaning(list, il->line[out].operand);
+	return m && m->kind == MEANING_VARIABLE && !meaning_is_indexed(m) && !meaning_is_whole(m) &&
+	       m->type != IEC_STRING && m->type != IEC_NONE ? m : NULL;
+}
+
+/* Looks at a BOOL that may still wait, and takes it away from nobody. */
+static struct bits out_bits(struct list *list, const struct meaning *m)
+{
+	const int var = list_temp(list, m);
+	const struct pending *pending = var >= 0 ? find_pending(list, var) : NULL;
+
+	return pending ? pending->value : bits_leaf(list->as, spot_of(list, m).offset);
+}
+
+/* Into the place of the result of the call's own line. */
+static void keep_made(struct list *list)
+{
+	const struct meaning *m = made_out(list);
+	struct frame *frame = frame_of(list);
+	struct result *result = m && list->number > 0 && list->number <= (uint32_t)frame->listed_count ?
+				&frame->listed[list->number - 1] : NULL;
+	struct bits value;
+
+	if (!result || spot_of(list, m).packed)
+		return;
+	if (list->as->text != &list->as->watch) {
+		result->type = m->type;
+	} else if (result->type != m->type) {
+		return;
+	} else if (m->type == IEC_BOOL) {
+		value = out_bits(list, m);
+		bits_store(list->as, &value, result->at);
+	} else {
+		list_copy(list, CODE_OPERAND(m->type, result->at), CODE_OPERAND(m->type, spot_of(list, m).offset));
+	}
+}
+
 static void keep_result(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 
+	keep_made(list);
 	if (!is_instruction(line))
 		return;
 	keep_written(list, line);

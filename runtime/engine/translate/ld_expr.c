@@ -1176,12 +1176,38 @@ static void chain_at(struct chain *c, const char *text)
 	ld->row = ld->col = column > UINT16_MAX ? 0 : (uint16_t)column;
 }
 
+static bool is_stored(const struct il_line *line)
+{
+	return line->kind == IL_ARG_OUT || (line->kind == IL_OP && line->op == OP_ST);
+}
+
+/* Of a network: which of the lines from @from on leaves the value that an operation has. A wire has another name
+ * there. */
+static void mark_made(struct chain *c, int index, int from, uint32_t operand, bool is_target)
+{
+	struct il *il = c->ld->il;
+	const uint16_t mark = c->ld->fbd && c->ld->item ?
+		expr_mark(c->expr, index, names_text(&c->ld->translation->project->names, c->ld->item->text)) : 0;
+	int at = il->count - 1;
+
+	while (mark && at >= from && !(is_stored(&il->line[at]) && (is_target || il->line[at].operand == operand)))
+		at--;
+	while (mark && at > from && (il->line[at].kind == IL_ARG_OUT || il->line[at].kind == IL_ARG_IN))
+		at--; /* back to the call */
+	if (mark && at >= from && !il->line[at].made)
+		il->line[at].made = mark;
+}
+
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target)
 {
-	const struct value value = compute_raw(c, index, hint, target);
+	const int from = c->ld->il->count;
+	struct value value = compute_raw(c, index, hint, target);
 
-	return value.whole ? cut(c, value, infer_type(&c->in, index), hint, target) : value;
+	if (value.whole)
+		value = cut(c, value, infer_type(&c->in, index), hint, target);
+	mark_made(c, index, from, value.operand, target && value.operand == target);
+	return value;
 }
 
 /* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
