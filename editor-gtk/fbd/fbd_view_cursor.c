@@ -141,7 +141,8 @@ graphene_rect_t fbd_rect(LadderFbdView *view, struct fbd_pos at)
 		return GRAPHENE_RECT_INIT(16, 8, 120, FBD_ROW);
 	layout = view->strip[at.network].layout;
 	if (at.box < 0)
-		rect = GRAPHENE_RECT_INIT(layout->title_x - 4, layout->title_y - 16, 220, 22);
+		rect = GRAPHENE_RECT_INIT(RUNG_LEFT - 4, layout->title_y - 16,
+					  MAX(120, layout->title_x + layout->title.width - RUNG_LEFT + 8), 22);
 	else
 		rect = at.pin >= 0 ? pin_rect(layout, at.pin) : fbd_layout_box(layout, at.box);
 	graphene_rect_offset(&rect, 0, view->strip[at.network].y);
