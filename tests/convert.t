@@ -1,10 +1,10 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# convert.t - what `ladder export --as st` and `--as il` write does the same as the program that it comes
+# convert.t - what `ladder export --as` st, fbd and il write does the same as the program that it comes
 # from: all samples with their scenarios, all golden cases that have a trace, and random programs.
 #
-#   convert.t [--seed N]   one random program; both texts and the first difference are printed
+#   convert.t [--seed N [LANGUAGE]]   one random program; both texts and the first difference are printed
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -26,8 +26,8 @@ my $dir = tempdir(CLEANUP => 1);
 sub plain {
 	my ($trace) = @_;
 	$trace =~ s/ Rung\d+(?:_\d+|_edge(?:_\d+)?\.(?:CLK|Q))?=\S+//g;
-	$trace =~ s/ (?:\w+\.)?\w+_(?:rises|falls)(?:_\d+)?\.(?:CLK|Q)=\d//g;
-	$trace =~ s/ (?:[\w.\[\]]+\.)?(?:Rung\d|_[A-Z]\d)\w*=\S+//g;
+	$trace =~ s/ (?:\w+\.)?\w+_(?:rises|falls)(?:_\d+)?\.(?:CLK|Q|N\d+)=\d//g;
+	$trace =~ s/ (?:[\w.\[\]]+\.)?(?:Rung\d|_[A-Z]\d|EDGE\d+\.E\d)\w*(?:\.N\d+)?=\S+//g;
 	$trace =~ s/^# (STOP|FAULT)[^\n]*\n/# $1\n/mg;
 	return $trace;
 }
@@ -55,33 +55,40 @@ sub converts {
 }
 
 # Samples. Ladders of samples can all be converted.
-for my $sample (sort glob "$tests/../ladders/*.rung") {
+sub sample {
+	my ($sample, $as) = @_;
 	my $name = basename($sample);
 	copy($sample, "$dir/$name");
-	next unless slurp($sample) =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK)\b.* LD$/m;
-	my ($good, $said) = converts($name, 'st', "st-$name");
-	ok($good, "$name: its ladders become Structured Text") or diag($said), next;
-	unlike(slurp("$dir/st-$name"), qr/^PROGRAM \w+ LD/m, "$name: no ladder is left");
+	my ($good, $said) = converts($name, $as, "$as-$name");
+	ok($good, "$name: its ladders become $as") or diag($said), return;
+	unlike(slurp("$dir/$as-$name"), qr/^PROGRAM \w+ LD/m, "$name: no ladder is left");
 	(my $scenario = $sample) =~ s/rung$/scn/;
 	# Steps of a chart have no names in Structured Text.
-	next if !-e $scenario || slurp($sample) =~ /^PROGRAM \w+ SFC/m;
-	copy($scenario, "$dir/st-" . basename($scenario));
+	return if !-e $scenario || ($as eq 'st' && slurp($sample) =~ /^PROGRAM \w+ SFC/m);
+	copy($scenario, "$dir/$as-" . basename($scenario));
 	(my $plant = $sample) =~ s/rung$/plant.rung/;
-	copy($plant, "$dir/st-" . basename($plant)) if -e $plant;
-	my $tap = `cd $dir && $ladder test 'st-$name' 2>&1`;
-	ok($? == 0 && $tap =~ /^ok/m, "$name: its scenarios hold") or diag($tap);
+	copy($plant, "$dir/$_" . basename($plant)) for -e $plant ? ('', "$as-") : ();
+	my $tap = `cd $dir && $ladder test '$as-$name' 2>&1`;
+	ok($? == 0 && $tap =~ /^ok/m, "$name: its scenarios hold as $as") or diag($tap);
+}
+
+for my $sample (sort(glob("$tests/../ladders/*.rung"), glob("$tests/../ladders/*/*.rung"))) {
+	next unless slurp($sample) =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK)\b.* LD$/m && $sample !~ /plant\.rung$/;
+	next if slurp($sample) =~ /^(?:INCLUDE|USES)/m;
+	sample($sample, $_) for 'st', 'fbd';
 }
 
 # Golden cases with a trace.
-my %done = (st => 0, il => 0);
+my %done = (st => 0, fbd => 0, il => 0);
 for my $case (sort glob "$tests/golden/*") {
 	next unless -e "$case/main.rung" && -e "$case/expected.trace";
 	my $name = basename($case);
 	next if -e "$case/stimulus" && slurp("$case/stimulus") =~ /\.N\d/; # a wire has another name in a list
 	system "cp $case/* $dir/";
-	for my $as ('st', 'il') {
+	for my $as ('st', 'fbd', 'il') {
 		next if $as eq 'st' && slurp("$case/main.rung") =~ /^PROGRAM \w+ SFC/m; # its steps lose their names
 		next if $as eq 'st' && slurp("$case/main.rung") !~ /^\w+ .* ?(?:LD|FBD)$/m;
+		next if $as eq 'fbd' && slurp("$case/main.rung") !~ /^\w+ .* ?LD$/m;
 		my ($good, $said) = converts('main.rung', $as, "$as.rung");
 		if (!$good) {
 			ok($said =~ m{error LD78}, "$name: a reason why it does not become $as") or diag(join "\n", grep { !m{warning} } split m{\n}, $said);
@@ -93,7 +100,8 @@ for my $case (sort glob "$tests/golden/*") {
 	}
 	unlink glob "$dir/*.rung";
 }
-ok($done{st} > 100 && $done{il} > 150, "most golden cases are converted: $done{st} st, $done{il} il");
+ok($done{st} > 100 && $done{fbd} > 100 && $done{il} > 150,
+   'most golden cases are converted: ' . join ', ', map { "$done{$_} $_" } sort keys %done);
 
 # Charts become ladders, and these Structured Text: both texts do the same.
 for my $sample (qw(sequence-s0-s8 press-two-hand traffic-crossing)) {
@@ -170,28 +178,34 @@ sub stimulus {
 	return $text;
 }
 
-my ($same, $refused) = (0, 0);
-my (@bad, %why);
-my $only = @ARGV == 2 && $ARGV[0] eq '--seed' ? $ARGV[1] : 0;
+my (%same, %refused, @bad, %why);
+my $only = @ARGV > 1 && $ARGV[0] eq '--seed' ? $ARGV[1] : 0;
+my @as = $ARGV[2] // ('st', 'fbd');
 for my $seed ($only ? $only : 1 .. $count) {
 	my $program = `$random --seed $seed --text`;
 	spew("$dir/a.rung", $program);
 	next if system("cd $dir && $ladder check a.rung >/dev/null 2>&1");
-	my ($good, $said) = converts('a.rung', 'st', 'b.rung');
-	if (!$good) {
-		$refused++;
-		$said =~ /error (LD\d+)/;
-		$why{$1 // $said}++;
-		push @bad, "seed $seed: $said" if ($1 // '') !~ /^LD78/;
-		next;
-	}
 	spew("$dir/s", stimulus($seed, names_of($program)));
-	my ($was, $is) = (trace_of('a.rung', 's'), trace_of('b.rung', 's'));
-	$same += $was eq $is && $was =~ /^1 t=/;
-	push @bad, "seed $seed: " . first_difference($was, $is) if $was ne $is;
-	print $program, slurp("$dir/b.rung"), first_difference($was, $is), "\n" if $only;
+	my $was = trace_of('a.rung', 's');
+	for my $as (@as) {
+		my ($good, $said) = converts('a.rung', $as, 'b.rung');
+		if (!$good) {
+			$refused{$as}++;
+			$said =~ /error (LD\d+)/;
+			$why{$1 // $said}++;
+			push @bad, "seed $seed: $as: $said" if ($1 // '') !~ /^LD78/;
+			next;
+		}
+		my $is = trace_of('b.rung', 's');
+		$same{$as} += $was eq $is && $was =~ /^1 t=/;
+		push @bad, "seed $seed: $as: " . first_difference($was, $is) if $was ne $is;
+		print $program, slurp("$dir/b.rung"), first_difference($was, $is), "\n" if $only;
+	}
 }
-is(@bad, 0, "$same random programs do the same, $refused are refused") or diag(join "\n", @bad[0 .. ($#bad < 9 ? $#bad : 9)]);
+is(@bad, 0, 'random programs do the same: ' . join ', ', map { "$same{$_} as $_, " . ($refused{$_} // 0) . ' refused' } sort keys %same)
+	or diag(join "\n", @bad[0 .. ($#bad < 9 ? $#bad : 9)]);
 diag(join ', ', map { "$_: $why{$_}" } sort keys %why) if $ENV{CONVERT_SAY};
-ok($only || $same * 2 > $count, 'most random programs can be converted');
+for my $as (@as) {
+	ok($only || $same{$as} * 2 > $count, "most random programs can be converted to $as");
+}
 done_testing();

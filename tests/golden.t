@@ -11,7 +11,8 @@
 #   expected.why    output of `ladder why main.rung stimulus COIL` for each line in `ask`
 #   expected.show   output of `ladder show main.rung`; expected.ascii: with --ascii
 #   expected.ladder output of `ladder export --as ld`, and its messages
-#   expected.st     output of `ladder export --as st`, and its messages; expected.lists: --as il
+#   expected.st     output of `ladder export --as st`, and its messages; expected.lists: --as il;
+#                   expected.networks: --as fbd
 #   expected.classic output of `ladder export --as classicladder`, and its messages;
 #                   expected.numeric: --as numeric
 #   expected.test   standard error of `ladder test main.scn`
@@ -43,6 +44,7 @@ my %command = (
 	ladder => ['export', '--as', 'ld', 'main.rung'],
 	st => ['export', '--as', 'st', 'main.rung'],
 	lists => ['export', '--as', 'il', 'main.rung'],
+	networks => ['export', '--as', 'fbd', 'main.rung'],
 	classic => ['export', '--as', 'classicladder', 'main.rung'],
 	numeric => ['export', '--as', 'numeric', 'main.rung'],
 	show  => ['show', 'main.rung'],
@@ -117,8 +119,8 @@ sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|^st$|lists|classic|numeric/ ? "$out$err" : $out;
-	my $wanted = $kind eq 'fault' || ($kind =~ /diag|^test|^st$|lists|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
+	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|^st$|lists|networks|classic|numeric/ ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind =~ /diag|^test|^st$|lists|networks|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
@@ -203,7 +205,7 @@ my %in_library = (LD135 => 'unit/trial/test_scenario.c');
 
 sub missing_codes {
 	my $shown = join '', map { my $dir = $_; map { slurp("$dir/expected.$_") // '' }
-		qw(diag test st lists ladder classic numeric) } cases();
+		qw(diag test st lists networks ladder classic numeric) } cases();
 	slurp("$tests/$in_library{$_}") =~ /"$_:\d/ and $shown .= " $_: " for keys %in_library;
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;

@@ -229,13 +229,17 @@ char *ladder_write_source(struct ladder *ladder, int number, size_t *len);
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
 /**
- * ladder_export_st - the project with ladders as Structured Text (convert/convert.h)
- * @wanted: a byte a POU: 1 for a ladder that becomes Structured Text
- * @diags:  gets LD780 to LD785 for parts that cannot be converted
+ * ladder_export_as - the project with POUs in another language (convert/convert.h)
+ * @wanted: a byte a POU: 1 for one that is converted
+ * @to:     LANGUAGE_ST: ladders and networks; LANGUAGE_FBD: ladders
+ * @diags:  gets LD780 to LD786 for parts that cannot be converted
  *
  * The project is built. The text is not canonical. Owns: the caller, free(). Scan-safe: no.
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
+char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_language to, size_t *len,
+		       struct diag_list *diags);
+/** ladder_export_st - the same with LANGUAGE_ST. */
 char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags);
 /**
  * ladder_export_lists - the project with the lists that run, in canonical form

@@ -10,7 +10,8 @@
 
 #include <stdlib.h>
 
-char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags)
+char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_language to, size_t *len,
+		       struct diag_list *diags)
 {
 	struct project *project = ladder_project(ladder);
 	struct sink_memory memory;
@@ -20,7 +21,7 @@ char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len
 		return NULL;
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	if (convert_to_st(project, wanted, &sink, diags) && !memory.failed) {
+	if (convert_to(project, wanted, to, &sink, diags) && !memory.failed) {
 		*len = memory.len;
 		return memory.text;
 	}
@@ -28,6 +29,11 @@ char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len
 		diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = project->file }, "%s", "");
 	sink_memory_free(&memory);
 	return NULL;
+}
+
+char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags)
+{
+	return ladder_export_as(ladder, wanted, LANGUAGE_ST, len, diags);
 }
 
 char *ladder_export_lists(struct ladder *ladder, const uint8_t *wanted, size_t *len)

@@ -83,6 +83,11 @@ static bool becomes_st(const struct pou *pou)
 	return (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_FBD) && !pou->included;
 }
 
+static bool becomes_fbd(const struct pou *pou)
+{
+	return pou->language == LANGUAGE_LD && !pou->included;
+}
+
 static bool is_no_list(const struct pou *pou)
 {
 	return pou->language != LANGUAGE_IL && !pou->included;
@@ -175,21 +180,22 @@ static bool has_chart(const struct project *project, const uint8_t *wanted)
 	return false;
 }
 
-static enum status export_st_of(struct call *call, struct ladder *ladder, const char *path)
+static enum status export_to(struct call *call, struct ladder *ladder, const char *path, enum pou_language to,
+			     bool (*fits)(const struct pou *pou))
 {
-	uint8_t *wanted = choose(call, ladder_project(ladder), LANGUAGE_ST, becomes_st);
+	uint8_t *wanted = choose(call, ladder_project(ladder), to, fits);
 	struct diag_list *diags = wanted ? report_list(path) : NULL;
 	enum status status = STATUS_NO;
 	char *text = NULL;
 	size_t len;
 
 	if (diags) {
-		text = ladder_export_st(ladder, wanted, &len, diags);
+		text = ladder_export_as(ladder, wanted, to, &len, diags);
 		ladder_import_places(ladder, diags);
 		report_end(diags);
 	}
 	if (text)
-		status = write_converted(call, path, text, len, LANGUAGE_ST);
+		status = write_converted(call, path, text, len, to);
 	free(text);
 	free(wanted);
 	return status;
@@ -204,16 +210,21 @@ static enum status export_st(struct call *call, struct ladder *ladder, const cha
 	char *text;
 
 	if (call->arg_count > 1 || !has_chart(ladder_project(ladder), NULL))
-		return export_st_of(call, ladder, path);
+		return export_to(call, ladder, path, LANGUAGE_ST, becomes_st);
 	again = ladder_new();
 	text = as_ladder(ladder, path, &len);
 	if (text && again && ladder_load_text(again, path, text, len) && ladder_build(again))
-		status = export_st_of(call, again, path);
+		status = export_to(call, again, path, LANGUAGE_ST, becomes_st);
 	else if (text && again)
 		report_diags(ladder_diags(again));
 	free(text);
 	ladder_free(again);
 	return status;
+}
+
+static enum status export_fbd(struct call *call, struct ladder *ladder, const char *path)
+{
+	return export_to(call, ladder, path, LANGUAGE_FBD, becomes_fbd);
 }
 
 static enum status export_il(struct call *call, struct ladder *ladder, const char *path)
@@ -487,7 +498,7 @@ static enum status export_to_classic(struct call *call, struct ladder *ladder, c
 static const struct {
 	const char *word;
 	enum status (*run)(struct call *call, struct ladder *ladder, const char *path);
-} languages[] = { { "ld", export_ladder }, { "st", export_st }, { "il", export_il },
+} languages[] = { { "ld", export_ladder }, { "st", export_st }, { "fbd", export_fbd }, { "il", export_il },
 	{ "plcopen", export_plcopen } };
 enum { LANGUAGES = sizeof(languages) / sizeof(*languages) };
 
@@ -503,10 +514,10 @@ enum status cmd_export(struct call *call)
 	while (as && language < LANGUAGES && strcmp(as, languages[language].word) != 0)
 		language++;
 	if (!as || (classic == CLASSIC_WORDS && language == LANGUAGES))
-		return report_usage(call, "--as needs st, ld, il, plcopen, classicladder, linuxcnc or numeric");
+		return report_usage(call, "--as needs st, ld, fbd, il, plcopen, classicladder, linuxcnc or numeric");
 	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_ladder ||
 				   languages[language].run == export_plcopen))
-		return report_usage(call, "POUs can be named with --as st and --as il");
+		return report_usage(call, "POUs can be named with --as st, --as fbd and --as il");
 	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);

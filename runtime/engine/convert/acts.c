@@ -92,6 +92,27 @@ const struct term *term_not(struct acts *acts, const struct term *of)
 	return term;
 }
 
+const struct term *term_edge(struct acts *acts, const struct term *of, bool rising)
+{
+	struct term *term = term_new(acts, TERM_EDGE, 1);
+
+	if (term->parts)
+		term->part[0] = of;
+	term->rising = rising;
+	return term;
+}
+
+bool term_has_edge(const struct acts *acts, const struct term *term)
+{
+	term = term_plain(acts, term);
+	if (term->kind == TERM_EDGE)
+		return true;
+	for (int i = 0; i < term->parts; i++)
+		if (term_has_edge(acts, term->part[i]))
+			return true;
+	return false;
+}
+
 static int count_parts(const struct term *term, enum term_kind kind)
 {
 	return term->kind == kind && !term->lazy ? term->parts : 1;
@@ -141,7 +162,7 @@ bool term_equal(const struct acts *acts, const struct term *a, const struct term
 	if (a == b)
 		return true;
 	if (a->kind != b->kind || a->text != b->text || a->temp != b->temp ||
-	    a->parts != b->parts || a->lazy != b->lazy)
+	    a->parts != b->parts || a->lazy != b->lazy || a->kind == TERM_EDGE)
 		return false;
 	for (int i = 0; i < a->parts; i++)
 		if (!term_equal(acts, a->part[i], b->part[i]) ||

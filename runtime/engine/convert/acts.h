@@ -3,7 +3,7 @@
  * acts - what the body of a POU does, one act behind the other, between two languages.
  *
  * Private to convert/. A ladder becomes acts (ladder_acts.c), acts become simpler ones
- * (settle_acts.c) and then text (st_text.c). Values are terms: trees that never change, so
+ * (settle_acts.c) and then text (st_text.c, fbd_text.c). Values are terms: trees that never change, so
  * several acts may share one.
  */
 #ifndef CONVERT_ACTS_H
@@ -19,12 +19,14 @@ enum term_kind {
 	TERM_TEMP,
 	TERM_NOT, TERM_AND, TERM_XOR, TERM_OR,
 	TERM_CALL,  /* a function that can always be computed                  */
+	TERM_EDGE,  /* of networks: R_EDGE or F_EDGE of its part, which it remembers */
 };
 
 struct term {
 	enum term_kind kind;
 	uint8_t level;        /* of WORDS: how strongly it binds, enum level   */
 	bool lazy;            /* of AND: AND_THEN                              */
+	bool rising;          /* of EDGE                                       */
 	bool reads_any;       /* of WORDS: nobody knows what it reads          */
 	uint32_t text;        /* string id; of CALL the function               */
 	int temp;
@@ -80,6 +82,7 @@ struct act {
 	const uint32_t *write; /* operands that it writes beside target        */
 	int writes;
 	bool writes_globals, writes_any;
+	bool fails;           /* a value or the target may not exist          */
 	int rung;             /* 0-based                                      */
 	bool apart;           /* of REMARK: an empty line stands above it      */
 };
@@ -88,6 +91,7 @@ struct act {
 struct act_temp {
 	const struct term *is; /* its value is written in its place; NULL: it is a variable */
 	uint32_t name;        /* string id, once it is known that it stays     */
+	uint32_t wish;        /* string id: the name that it should get; 0: that of its rung */
 	enum iec_type type;
 	int rung;             /* 0-based                                      */
 	int defined;          /* how many acts store it                       */
@@ -115,6 +119,7 @@ struct acts {
 	struct act_edge *edge;
 	int edges;
 	int rung;             /* in work, 0-based                             */
+	bool networks;        /* they become networks, not Structured Text    */
 	bool failed;          /* memory is out                                */
 	bool refused;
 	struct term no_term;  /* given when memory is out                     */
@@ -131,6 +136,10 @@ const struct term *term_not(struct acts *acts, const struct term *of);
 /** term_both - @kind of two; TRUE before AND is left out. */
 const struct term *term_both(struct acts *acts, enum term_kind kind, const struct term *a,
 			     const struct term *b);
+/** term_edge - TERM_EDGE of @of. */
+const struct term *term_edge(struct acts *acts, const struct term *of, bool rising);
+/** term_has_edge - does computing it change what an edge remembers? */
+bool term_has_edge(const struct acts *acts, const struct term *term);
 /** term_plain - itself, or what its temporary stands for. */
 const struct term *term_plain(const struct acts *acts, const struct term *term);
 bool term_equal(const struct acts *acts, const struct term *a, const struct term *b);
@@ -157,13 +166,24 @@ bool ladder_acts(struct acts *acts);
  * diagnostic, or without memory. */
 bool fbd_st(struct acts *acts, const struct sink *sink);
 
+/* ---- fbd_text.c ---- */
+/** fbd_text - the acts as networks, one for each rung, with what they declare.
+ * Fails: false after a diagnostic, or without memory. */
+bool fbd_text(struct acts *acts, const struct sink *sink);
+
 /* ---- settle_acts.c ---- */
 /** settle_acts - temporaries that need not be give way to their values; the others get names. */
 void settle_acts(struct acts *acts);
+/** act_is_latch - does it store TRUE or FALSE under a condition, as S= and R= do? */
+bool act_is_latch(struct acts *acts, const struct act *act);
 
 /* ---- st_text.c ---- */
 /** st_declare - the declarations that the acts need. */
 void st_declare(const struct acts *acts, const struct sink *sink);
+/** term_text - a value. @part: of another one, in parentheses if it needs them. */
+void term_text(struct acts *acts, const struct term *term, bool part, const struct sink *sink);
+/** act_text - an act without its condition, as a statement. */
+void act_text(struct acts *acts, const struct act *act, const struct sink *sink);
 /** st_text - the acts as Structured Text. */
 void st_text(struct acts *acts, const struct sink *sink);
 #endif

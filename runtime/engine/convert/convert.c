@@ -38,13 +38,15 @@ static bool convert_one(struct acts *acts, const struct pou *pou, const struct s
 	settle_acts(acts);
 	if (acts->failed)
 		return false;
+	if (acts->networks)
+		return fbd_text(acts, sink);
 	st_declare(acts, sink);
 	st_text(acts, sink);
 	return true;
 }
 
 /* The heading of a POU, whose first line ends with its language. */
-static bool put_heading(const struct sink *sink, const char *text, size_t len, const char *was)
+static bool put_heading(const struct sink *sink, const char *text, size_t len, const char *was, enum pou_language to)
 {
 	const char *end = memchr(text, '\n', len);
 	const size_t word = strlen(was);
@@ -52,19 +54,19 @@ static bool put_heading(const struct sink *sink, const char *text, size_t len, c
 	if (!end || (size_t)(end - text) < word || memcmp(end - word, was, word) != 0)
 		return false;
 	sink_write(sink, text, (size_t)(end - text) - word);
-	sink_text(sink, pou_language_word(LANGUAGE_ST));
+	sink_text(sink, pou_language_word(to));
 	sink_write(sink, end, len - (size_t)(end - text));
 	return true;
 }
 
 static bool put_pou(struct acts *acts, int number, const char *text, const struct places *places,
-		    const struct sink *sink)
+		    enum pou_language to, const struct sink *sink)
 {
 	const struct pou *pou = &acts->project->pou[number];
 	const struct text_span *whole = &places->pou[number], *body = &places->body[number];
 
 	return put_heading(sink, text + whole->at, body->at - whole->at,
-			   pou_language_word(pou->language)) &&
+			   pou_language_word(pou->language), to) &&
 	       convert_one(acts, pou, sink);
 }
 
@@ -81,7 +83,7 @@ static int next_pou(const struct places *places, const uint8_t *wanted, size_t a
 }
 
 static bool put_all(struct project *project, struct scope *scope, struct arena *arena, const uint8_t *wanted,
-		    const struct places *places, const char *text, size_t len, const struct sink *sink,
+		    enum pou_language to, const struct places *places, const char *text, size_t len, const struct sink *sink,
 		    struct diag_list *diags)
 {
 	struct expr *expr = arena_alloc(arena, sizeof(*expr));
@@ -90,18 +92,18 @@ static bool put_all(struct project *project, struct scope *scope, struct arena *
 
 	for (int i; expr && (i = next_pou(places, wanted, at)) >= 0;) {
 		struct acts acts = { .project = project, .scope = scope, .arena = arena, .diags = diags,
-				     .expr = expr };
+				     .expr = expr, .networks = to == LANGUAGE_FBD };
 
 		sink_write(sink, text + at, places->pou[i].at - at);
-		good &= put_pou(&acts, i, text, places, sink);
+		good &= put_pou(&acts, i, text, places, to, sink);
 		at = places->body[i].at + places->body[i].len;
 	}
 	sink_write(sink, text + at, len - at);
 	return good && !arena->failed;
 }
 
-bool convert_to_st(struct project *project, const uint8_t *wanted, const struct sink *sink,
-		   struct diag_list *diags)
+bool convert_to(struct project *project, const uint8_t *wanted, enum pou_language to, const struct sink *sink,
+		struct diag_list *diags)
 {
 	const size_t size = (size_t)project->pou_count + 1;
 	const int errors = diags->errors;
@@ -119,7 +121,7 @@ bool convert_to_st(struct project *project, const uint8_t *wanted, const struct 
 	if (places.pou && places.body && scope)
 		text = text_outline(project, &len, take, &places);
 	if (text)
-		good = put_all(project, scope, &arena, wanted, &places, text, len, sink, diags);
+		good = put_all(project, scope, &arena, wanted, to, &places, text, len, sink, diags);
 	free(text);
 	arena_free(&arena);
 	if (!good && diags->errors == errors)

@@ -13,16 +13,17 @@
 #include "engine/model/project.h"
 
 /**
- * convert_to_st - the text of @project with ladders as Structured Text
+ * convert_to - the text of @project with POUs in another language
  * @project: without errors; its table of names grows
- * @wanted:  a byte a POU: 1 for those that become Structured Text
+ * @wanted:  a byte a POU: 1 for those that are converted
+ * @to:      LANGUAGE_ST: ladders and networks; LANGUAGE_FBD: ladders
  * @sink:    gets the text, which is not canonical
  * @diags:   gets LD780 to LD787 with their places
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.
  */
-bool convert_to_st(struct project *project, const uint8_t *wanted, const struct sink *sink,
-		   struct diag_list *diags);
+bool convert_to(struct project *project, const uint8_t *wanted, enum pou_language to, const struct sink *sink,
+		struct diag_list *diags);
 
 /** convert_lists - makes the lists that run the bodies of POUs, in @project itself
  * @lists: of each POU; NULL: as it is   @temps: what the translation added to it, @temp_count of it

@@ -85,6 +85,16 @@ static void refuse(struct rungs *r, int element, enum diag_id id, const char *wh
 	diag_add(r->acts->diags, place, "%s", what);
 }
 
+/* @word of an element has no counterpart. */
+static void refuse_word(struct rungs *r, int element, const char *word)
+{
+	char what[64];
+
+	snprintf(what, sizeof(what), "%s" DIAG_AND "%s", word,
+		 pou_language_word(r->acts->networks ? LANGUAGE_FBD : LANGUAGE_ST));
+	refuse(r, element, DIAG_CONVERT_STOP, what);
+}
+
 static bool is_unread(const struct rungs *r, int element)
 {
 	const int out = r->network.element[element].out;
@@ -409,6 +419,7 @@ static const struct term *fetch(struct rungs *r, uint32_t operand, const struct 
 	act->text = acts_intern(acts, "MOVE", 4);
 	act->temp = value;
 	act->when = *there;
+	act->fails = true;
 	put_args(r, call, act);
 	*there = term_temp(acts, good);
 	return term_temp(acts, value);
@@ -765,6 +776,7 @@ static void box_test(struct rungs *r, int element, const struct call *call)
 	act->temp = temp;
 	act->when = unless_true(in);
 	act->value = value;
+	act->fails = true;
 	r->element[element].leaf = term_temp(r->acts, temp);
 	r->element[element].powered = true;
 }
@@ -785,6 +797,7 @@ static const struct term *store_aside(struct rungs *r, uint32_t target, const st
 	act->text = acts_intern(acts, "MOVE", 4);
 	act->target = target;
 	act->when = when;
+	act->fails = true;
 	put_args(r, call, act);
 	return term_temp(acts, stored);
 }
@@ -797,7 +810,7 @@ static void box_call(struct rungs *r, int element, struct call *call, bool gates
 	const struct word_row *row = row_of(r, element);
 	const bool needs = !is_unread(r, element) || call->eno || (gates && !call->out);
 	const struct term *in = power_in(r, at->in);
-	const bool inside = !needs || call->fails; /* IF around it instead of EN */
+	const bool inside = (!needs && !acts->networks) || call->fails; /* IF around it instead of EN */
 	const bool aside = gates && (!call->out || (needs && !stores_all(r, call->out)));
 	struct element *e = &r->element[element];
 	int eno = -1, result = -1;
@@ -822,6 +835,7 @@ static void box_call(struct rungs *r, int element, struct call *call, bool gates
 	act->text = at->word == FN_NOT ? acts_intern(acts, "MOVE", 4) :
 		    acts_intern(acts, row->word, strlen(row->word));
 	act->when = inside && in->kind != TERM_TRUE ? in : NULL;
+	act->fails = call->fails;
 	act->target = aside ? 0 : call->out;
 	act->temp = result;
 	act->writes_globals = word_is_own((enum word)at->word);
@@ -898,6 +912,7 @@ static void compare(struct rungs *r, int element)
 	act->when = unless_true(in);
 	act->value = words.term;
 	act->writes_any = words.own;
+	act->fails = true;
 	e->leaf = term_temp(acts, temp);
 	e->powered = true;
 }
@@ -1031,14 +1046,14 @@ static void expression_call(struct rungs *r, const char *text, size_t len, struc
 	}
 }
 
-/* x := expression, whose success is power: an element behind it reads it. @inside: it stands inside an IF,
+/* x := expression, whose success is power, if an element behind it reads it. @inside: it stands inside an IF,
  * because its arguments may fail and are then not computed without power. */
 static void assign_call(struct rungs *r, int element, uint32_t target, const char *text, size_t len,
 			bool own, bool inside)
 {
 	struct acts *acts = r->acts;
 	const struct term *in = power_in(r, r->network.element[element].in);
-	const int eno = acts_temp(acts, IEC_BOOL, r->number);
+	const int eno = is_unread(r, element) ? -1 : acts_temp(acts, IEC_BOOL, r->number);
 	struct element *e = &r->element[element];
 	struct call *call = call_new(r);
 	struct act *act;
@@ -1047,17 +1062,20 @@ static void assign_call(struct rungs *r, int element, uint32_t target, const cha
 	if (!inside && in->kind != TERM_TRUE)
 		add_arg(r, call, acts_intern(acts, "EN", 2), in, 0);
 	expression_call(r, text, len, call, &name);
-	add_arg(r, call, acts_intern(acts, "ENO", 3), NULL, 0);
-	call->arg[call->count - 1].temp = eno;
-	if (inside)
+	if (eno >= 0) {
+		add_arg(r, call, acts_intern(acts, "ENO", 3), NULL, 0);
+		call->arg[call->count - 1].temp = eno;
+	}
+	if (inside && eno >= 0)
 		store_false(r, eno);
 	act = acts_add(acts, ACT_CALL);
 	act->text = name;
 	act->target = target;
 	act->when = inside ? unless_true(in) : NULL;
 	act->writes_any = own;
+	act->fails = inside;
 	put_args(r, call, act);
-	e->leaf = term_temp(acts, eno);
+	e->leaf = eno >= 0 ? term_temp(acts, eno) : in;
 	e->powered = true;
 }
 
@@ -1096,7 +1114,7 @@ static void assign(struct rungs *r, int element)
 	struct words words;
 	struct act *act;
 	uint32_t target;
-	bool sure, open;
+	bool sure, open, inside;
 	size_t len, n;
 
 	e->leaf = term_true(acts);
@@ -1119,17 +1137,18 @@ static void assign(struct rungs *r, int element)
 		freeze_many(r, true);
 	else
 		freeze(r, target);
-	if (!sure && !is_unread(r, element)) {
-		assign_call(r, element, target, value, len, words.own || open,
-			    words.own || words.inner || open || !stores_simply(r, target));
+	inside = words.own || words.inner || open || !stores_simply(r, target);
+	in = power_in(r, r->network.element[element].in);
+	if (!sure && (!is_unread(r, element) || (acts->networks && !inside && in->kind != TERM_TRUE))) {
+		assign_call(r, element, target, value, len, words.own || open, inside);
 		return;
 	}
-	in = power_in(r, r->network.element[element].in);
 	act = acts_add(acts, ACT_STORE);
 	act->target = target;
 	act->value = words.term;
 	act->when = unless_true(in);
 	act->writes_any = words.own || open;
+	act->fails = !sure;
 	e->leaf = in;
 	e->powered = true;
 }
@@ -1235,6 +1254,19 @@ static struct st_item *box_items(struct rungs *r, const struct boxed *boxed, uin
 	return item;
 }
 
+/* Of a FOR nobody sees the bound that it keeps, of a CASE the selector. */
+static void refuse_blocks(struct rungs *r, int element, const struct boxed *boxed)
+{
+	for (int i = 0; i < boxed->count; i++) {
+		const enum st_kind kind = (enum st_kind)r->acts->pou->st->item[boxed->first + i].kind;
+
+		if (kind == ST_FOR || kind == ST_CASE) {
+			refuse_word(r, element, st_form(kind)->word);
+			return;
+		}
+	}
+}
+
 static void execute(struct rungs *r, int element)
 {
 	struct acts *acts = r->acts;
@@ -1247,6 +1279,8 @@ static void execute(struct rungs *r, int element)
 
 	freeze_many(r, true);
 	in = power_in(r, at->in);
+	if (boxed && acts->networks)
+		refuse_blocks(r, element, boxed);
 	if (boxed)
 		item = box_items(r, boxed, &end);
 	act = acts_add(acts, ACT_LINES);
@@ -1265,18 +1299,24 @@ static void execute(struct rungs *r, int element)
 /* ---- contacts ---- */
 
 /* Start_rises, of an operand; "Rung3_edge" if that is no plain name. */
+static void edge_name(const struct rungs *r, uint32_t operand, bool rising, char *name, size_t size)
+{
+	const char *text = text_of(r, operand);
+
+	if (strpbrk(text, ".%[^#'\" ") || ascii_is("SYS_", text, 4))
+		snprintf(name, size, "Rung%d_edge", r->number + 1);
+	else
+		snprintf(name, size, "%.*s_%s", LIMIT_NAME - 20, text, rising ? "rises" : "falls");
+}
+
 static uint32_t edge_instance(struct rungs *r, uint32_t operand, bool rising)
 {
 	struct acts *acts = r->acts;
-	const char *text = text_of(r, operand);
 	char name[LIMIT_NAME + 32];
 	struct act_edge *edge;
 	uint32_t id;
 
-	if (strpbrk(text, ".%[^#'\" ") || ascii_is("SYS_", text, 4))
-		snprintf(name, sizeof(name), "Rung%d_edge", r->number + 1);
-	else
-		snprintf(name, sizeof(name), "%.*s_%s", LIMIT_NAME - 20, text, rising ? "rises" : "falls");
+	edge_name(r, operand, rising, name, sizeof(name));
 	id = acts_name(acts, name);
 	edge = arena_push(acts->arena, &acts->edge, &acts->edges, sizeof(*edge));
 	if (!edge) {
@@ -1287,17 +1327,33 @@ static uint32_t edge_instance(struct rungs *r, uint32_t operand, bool rising)
 	return id;
 }
 
+/* Of networks: R_EDGE(value) in a wire. */
+static const struct term *edge_value(struct rungs *r, int element, const struct term *value)
+{
+	const bool rising = row_of(r, element)->edge == EDGE_RISING;
+	const struct term *kept = keep(r, term_edge(r->acts, value, rising));
+	char name[LIMIT_NAME + 32];
+
+	edge_name(r, cell_of(r, element)->operand, rising, name, sizeof(name));
+	if (kept->temp >= 0)
+		r->acts->temp[kept->temp].wish = acts_intern(r->acts, name, strlen(name));
+	return kept;
+}
+
 /* Calls the instance of an edge with @value, while @when; gives its Q. */
 static const struct term *edge_call(struct rungs *r, int element, const struct term *value,
 				    const struct term *when)
 {
 	struct acts *acts = r->acts;
-	const uint32_t id = edge_instance(r, cell_of(r, element)->operand,
-					  row_of(r, element)->edge == EDGE_RISING);
-	struct call *call = call_new(r);
+	struct call *call;
 	char name[LIMIT_NAME + 8];
 	struct act *act;
+	uint32_t id;
 
+	if (acts->networks && !when)
+		return edge_value(r, element, value);
+	call = call_new(r);
+	id = edge_instance(r, cell_of(r, element)->operand, row_of(r, element)->edge == EDGE_RISING);
 	add_arg(r, call, acts_intern(acts, "CLK", 3), value, 0);
 	act = acts_add(acts, ACT_CALL);
 	act->text = id;
@@ -1438,7 +1494,7 @@ static void flow(struct rungs *r, int element)
 	struct act *act;
 
 	if (!jump && row->first == OP_STP)
-		refuse(r, element, DIAG_CONVERT_STOP, row->word);
+		refuse_word(r, element, row->word);
 	act = acts_add(r->acts, jump ? ACT_JUMP : ACT_RETURN);
 	act->text = jump ? cell_of(r, element)->operand : 0;
 	act->when = unless_true(in);
@@ -1555,6 +1611,16 @@ static bool is_target(const struct rungs *r, uint32_t label)
 	return false;
 }
 
+static void cell_remarks(struct rungs *r)
+{
+	const struct rung *rung = r->rung;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++)
+		if (rung->cell[i].comment)
+			remark(r, text_of(r, rung->cell[i].comment),
+			       names_len(&r->acts->project->names, rung->cell[i].comment), false);
+}
+
 static void head(struct rungs *r)
 {
 	const struct rung *rung = r->rung;
@@ -1563,16 +1629,17 @@ static void head(struct rungs *r)
 
 	if (rung->off)
 		return;
+	if (r->acts->networks) {
+		cell_remarks(r);
+		return;
+	}
 	if (rung->comment) {
 		remark(r, text_of(r, rung->comment), names_len(&r->acts->project->names, rung->comment), apart);
 		apart = false;
 	}
 	if (rung->title)
 		remark_lines(r, text_of(r, rung->title), apart);
-	for (int i = 0; i < rung->rows * rung->cols; i++)
-		if (rung->cell[i].comment)
-			remark(r, text_of(r, rung->cell[i].comment),
-			       names_len(&r->acts->project->names, rung->cell[i].comment), false);
+	cell_remarks(r);
 	if (!rung->label || !is_target(r, rung->label))
 		return;
 	act = acts_add(r->acts, ACT_LABEL);
@@ -1615,7 +1682,8 @@ static void one_rung(struct rungs *r)
 
 	head(r);
 	if (r->rung->off) {
-		off(r);
+		if (!r->acts->networks)
+			off(r);
 		return;
 	}
 	actor = prepare(r) ? arena_alloc(r->scratch, ((size_t)n->element_count + 1) * sizeof(*actor)) : NULL;

@@ -8,6 +8,7 @@
 #include "engine/convert/acts.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum { LARGEST = 12 }; /* operands of an expression that a person still reads */
 
@@ -80,6 +81,45 @@ static bool reaches(struct acts *acts, int at, int temp, int uses)
 	return false;
 }
 
+bool act_is_latch(struct acts *acts, const struct act *act)
+{
+	const struct meaning *m = act->target ? acts_meaning(acts, act->target) : NULL;
+
+	/* S= and R= have no bit of an element behind an index. */
+	return act->kind == ACT_STORE && act->when && m && !(m->part && m->opens) &&
+	       (act->value->kind == TERM_TRUE ||
+		(act->value->kind == TERM_WORDS && !strcmp(project_text(acts->project, act->value->text), "FALSE")));
+}
+
+/* Is it computed once in each call of the act, in front of all that can fail? */
+static bool takes_edge(struct acts *acts, const struct act *act)
+{
+	const struct meaning *target = acts_meaning(acts, act->target);
+
+	if (act->kind == ACT_JUMP || act->kind == ACT_RETURN)
+		return true;
+	if (act->fails || (act->target && (!target || meaning_is_checked(target))))
+		return false;
+	if (act->kind == ACT_STORE)
+		return !act->when || act_is_latch(acts, act);
+	return act->kind == ACT_CALL && !act->when && !act->target && act->temp < 0 && acts_meaning(acts, act->text);
+}
+
+/* An edge remembers a value each time it is computed: it stays where that is so. */
+static bool edge_goes(struct acts *acts, int at, int temp)
+{
+	for (int i = at + 1; i < acts->count && acts->act[i].rung == acts->act[at].rung; i++) {
+		const struct act *act = &acts->act[i];
+
+		if (uses_in(acts, act, temp))
+			return takes_edge(acts, act);
+		if (act->kind == ACT_JUMP || act->kind == ACT_RETURN || act->kind == ACT_LOOP ||
+		    act->kind == ACT_LOOP_END || act->kind == ACT_LABEL)
+			return false;
+	}
+	return false;
+}
+
 static bool give_way(struct acts *acts, int at)
 {
 	struct act *act = &acts->act[at];
@@ -89,6 +129,8 @@ static bool give_way(struct acts *acts, int at)
 		return false;
 	if (uses > 0 && ((uses > 1 && !is_short(acts, act->value)) ||
 			 term_size(acts, act->value) > LARGEST || !reaches(acts, at, temp, uses)))
+		return false;
+	if (uses > 0 && term_has_edge(acts, act->value) && (uses > 1 || !edge_goes(acts, at, temp)))
 		return false;
 	act->kind = ACT_NOTHING;
 	acts->temp[temp].is = act->value;
@@ -115,7 +157,7 @@ static bool join_test(struct acts *acts, int at)
 	struct act *act = &acts->act[at], *next = next_act(acts, at);
 	struct term *both;
 
-	if (act->kind != ACT_TEST || act->temp < 0 || acts->temp[act->temp].uses != 1 || !next ||
+	if (acts->networks || act->kind != ACT_TEST || act->temp < 0 || acts->temp[act->temp].uses != 1 || !next ||
 	    acts->temp[act->temp].defined != 1 || act->writes_any)
 		return false;
 	if (next->kind == ACT_STORE && next->target && !next->when && is_temp(acts, next->value, act->temp)) {
@@ -175,6 +217,10 @@ static void give_name(struct acts *acts, int temp)
 
 	if (temp < 0 || acts->temp[temp].name)
 		return;
+	if (acts->temp[temp].wish) {
+		acts->temp[temp].name = acts_name(acts, project_text(acts->project, acts->temp[temp].wish));
+		return;
+	}
 	snprintf(name, sizeof(name), "Rung%d", acts->temp[temp].rung + 1);
 	acts->temp[temp].name = acts_name(acts, name);
 }

@@ -60,7 +60,7 @@ static bool is_compound(const struct writer *w, const struct term *term)
 		return *text_of(w, term->text) == '-';
 	case TERM_CALL:
 		return term->parts == 2 && sign_of(text_of(w, term->text));
-	case TERM_TRUE: case TERM_TEMP: case TERM_NOT:
+	case TERM_TRUE: case TERM_TEMP: case TERM_NOT: case TERM_EDGE:
 		break;
 	}
 	return false;
@@ -120,6 +120,11 @@ static void put_term(const struct writer *w, const struct term *term)
 		return;
 	case TERM_CALL:
 		put_call(w, term);
+		return;
+	case TERM_EDGE:
+		put(w, term->rising ? "R_EDGE(" : "F_EDGE(");
+		put_term(w, term->part[0]);
+		put(w, ")");
 		return;
 	case TERM_AND:
 		between = term->lazy ? " AND_THEN " : between;
@@ -310,6 +315,23 @@ static void put_act(const struct writer *w, const struct act *act)
 	case ACT_NOTHING: case ACT_TEST: case ACT_LOOP: case ACT_LOOP_END:
 		break;
 	}
+}
+
+void term_text(struct acts *acts, const struct term *term, bool part, const struct sink *sink)
+{
+	const struct writer w = { .acts = acts, .sink = sink };
+
+	if (part)
+		put_part(&w, term);
+	else
+		put_term(&w, term);
+}
+
+void act_text(struct acts *acts, const struct act *act, const struct sink *sink)
+{
+	const struct writer w = { .acts = acts, .sink = sink };
+
+	put_act(&w, act);
 }
 
 static bool joins(struct acts *acts, const struct act *act, const struct act *next)

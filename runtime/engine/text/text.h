@@ -88,6 +88,15 @@ void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
 /** text_write_st - Structured Text, a statement a line. Scan-safe: no. */
 void text_write_st(const struct project *project, const struct st *st, const struct sink *sink);
+/* What stands above a network or a rung: string ids; 0: none. */
+struct text_heading {
+	uint32_t label, title, comment;
+	bool off;
+};
+/** text_write_heading - the comment, @word, NETWORK or RUNG, OFF, label and title, without a line's end.
+ * Scan-safe: no. */
+void text_write_heading(const struct project *project, const char *word, const struct text_heading *heading,
+			const struct sink *sink);
 /** text_write_network - a network of a body in FBD, its comments too. Scan-safe: no. */
 void text_write_network(const struct project *project, const struct pou *pou, int number, const struct sink *sink);
 /** text_statements - the string id of @count statements as text_write_st() writes them; 0: there are

@@ -8,27 +8,29 @@
 
 #include "engine/model/fbd.h"
 
-static void write_heading(const struct project *project, const struct fbd_network *network,
-			  const struct sink *sink)
+void text_write_heading(const struct project *project, const char *word, const struct text_heading *heading,
+			const struct sink *sink)
 {
-	write_above(sink, project, network->comment);
-	sink_text(sink, network->off ? "NETWORK OFF" : "NETWORK");
-	if (network->label) {
+	write_above(sink, project, heading->comment);
+	sink_text(sink, word);
+	sink_text(sink, heading->off ? " OFF" : "");
+	if (heading->label) {
 		sink_text(sink, " ");
-		write_id(sink, project, network->label);
+		write_id(sink, project, heading->label);
 	}
-	if (network->title) {
+	if (heading->title) {
 		sink_text(sink, " ");
-		write_string(sink, project_text(project, network->title),
-			     names_len(&project->names, network->title));
+		write_string(sink, project_text(project, heading->title),
+			     names_len(&project->names, heading->title));
 	}
 }
 
 void text_write_network(const struct project *project, const struct pou *pou, int number, const struct sink *sink)
 {
 	const struct fbd_network *network = &pou->fbd->network[number];
+	const struct text_heading heading = { network->label, network->title, network->comment, network->off };
 
-	write_heading(project, network, sink);
+	text_write_heading(project, "NETWORK", &heading, sink);
 	for (int i = network->first; i < network->first + network->count; i++) {
 		const struct st_item *item = &pou->st->item[i];
 

@@ -194,14 +194,9 @@ static void write_boxes(const struct sink *sink, const struct project *project,
 void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung)
 {
-	write_above(sink, project, rung->comment);
-	sink_text(sink, rung->off ? "RUNG OFF" : "RUNG");
-	write_behind(sink, project, rung->label);
-	if (rung->title) {
-		sink_text(sink, " ");
-		write_string(sink, project_text(project, rung->title),
-			     names_len(&project->names, rung->title));
-	}
+	const struct text_heading heading = { rung->label, rung->title, rung->comment, rung->off };
+
+	text_write_heading(project, "RUNG", &heading, sink);
 	sink_text(sink, "\n");
 	write_rows(sink, project, rung);
 	write_boxes(sink, project, rung);
