@@ -46,6 +46,9 @@ struct cell {
 	double smooth;
 	int64_t smooth_ns, asked_ns;
 	bool is_smooth, is_asked, bit;
+	bool is_told;              /* of channels_trace(): what it told last   */
+	int told_quality;
+	union iec_value told;
 
 	/* Of its thread. */
 	int64_t next_ns, found_ns;
@@ -76,6 +79,7 @@ struct channels {
 	_Atomic bool ending, active;
 	_Atomic int held;
 	_Atomic int worst;
+	_Atomic int lines;         /* the worst of the lines of chips           */
 };
 
 /** channel_number, channel_typed - a value of any type as a number, and back to the nearest. Scan-safe: yes. */

@@ -229,6 +229,25 @@ void channels_write(struct channels *channels, struct image *image, int64_t now_
 	}
 }
 
+void channels_trace(struct channels *channels, struct image *image, channels_told *told, void *context)
+{
+	for (int i = 0; told && channels && i < channels->count; i++) {
+		struct cell *cell = &channels->cell[i];
+		const int quality = atomic_load_explicit(&cell->quality, memory_order_relaxed);
+		const bool safe = cell->point.output && channels->held && !cell->point.hold;
+		const union iec_value value = safe ? cell->channel.safe : load_value(cell, image);
+
+		if (cell->point.driver == DRIVER_quality ||
+		    (cell->is_told && quality == cell->told_quality &&
+		     (!cell->point.output || memcmp(&value, &cell->told, sizeof(value)) == 0)))
+			continue;
+		cell->is_told = true;
+		cell->told_quality = quality;
+		cell->told = value;
+		told(context, &cell->point, cell->channel.type, value, (enum hal_quality)quality);
+	}
+}
+
 double cell_output(const struct channels *channels, const struct cell *cell)
 {
 	const bool safe = atomic_load_explicit(&channels->held, memory_order_acquire) ||
@@ -342,6 +361,17 @@ static struct cell *cell_of(const struct channels *channels, int point)
 	if (!channels || point < 0 || point >= channels->points || channels->of_point[point] < 0)
 		return NULL;
 	return &channels->cell[channels->of_point[point]];
+}
+
+void channels_tell_lines(struct channels *channels, enum hal_quality worst)
+{
+	if (channels)
+		atomic_store_explicit(&channels->lines, (int)worst, memory_order_relaxed);
+}
+
+enum hal_quality channels_lines(const struct channels *channels)
+{
+	return (enum hal_quality)atomic_load_explicit(&channels->lines, memory_order_relaxed);
 }
 
 enum hal_quality channels_point(const struct channels *channels, int point)

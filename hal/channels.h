@@ -21,6 +21,9 @@
 
 struct channels;
 struct channels_count { uint32_t good, stale, fault; };
+/* For channels_trace(). @value: of @type, the point's in the image. */
+typedef void channels_told(void *context, const struct io_point *point, enum iec_type type, union iec_value value,
+			   enum hal_quality quality);
 
 /* One channel of a device of this machine, for channels_list(). Valid during the call only. */
 struct device_seen {
@@ -47,8 +50,13 @@ bool channels_open(struct channels *channels, struct diag_list *diags);
 void channels_close(struct channels *channels);
 /** channels_read - all inputs into the image. Scan-safe: yes. */
 void channels_read(struct channels *channels, struct image *image, int64_t now_ns);
+/** channels_tell_lines - the worst quality of the lines of chips, for channels_lines(). Scan-safe: yes. */
+void channels_tell_lines(struct channels *channels, enum hal_quality worst);
 /** channels_write - all outputs of the image that have changed or are due. Scan-safe: yes. */
 void channels_write(struct channels *channels, struct image *image, int64_t now_ns);
+/** channels_trace - calls @told (NULL: nothing) for each output whose value, and for each point whose quality is
+ * another one than at the last call. After a scan. Scan-safe: yes, as far as @told is. */
+void channels_trace(struct channels *channels, struct image *image, channels_told *told, void *context);
 /** channels_safe - safe values to all outputs, which hold them until channels_release(). Scan-safe: yes, also
  * in a signal handler. */
 void channels_safe(struct channels *channels);
@@ -74,6 +82,8 @@ void channels_exchange(struct channels *now, struct channels *next);
 enum hal_quality channels_quality(const struct channels *channels);
 /** channels_point - the quality of a point of the map; good if it has no channel. Scan-safe: yes. */
 enum hal_quality channels_point(const struct channels *channels, int point);
+/** channels_lines - what channels_tell_lines() has told. Scan-safe: yes. */
+enum hal_quality channels_lines(const struct channels *channels);
 /** channels_tally - how many have which quality. Scan-safe: yes. */
 struct channels_count channels_tally(const struct channels *channels);
 /**
@@ -127,7 +137,9 @@ static inline bool io_has_channel(const struct io_point *point)
 #define io_has_channel(point)                   false
 #define channels_beside(next, now, map, diags, line) ((void)(next), BESIDE_GOOD)
 #define channels_read(channels, image, now_ns)  ((void)0)
+#define channels_tell_lines(channels, worst)    ((void)0)
 #define channels_write(channels, image, now_ns) ((void)0)
+#define channels_trace(channels, image, told, context) ((void)0)
 #define channels_safe(channels)                 ((void)0)
 #define channels_release(channels)              ((void)0)
 #define channels_quality(channels)              QUALITY_GOOD

@@ -127,6 +127,7 @@ bool ReadPhysicalInputs(struct hal *hal, struct image *image, int64_t now_ns)
 		}
 		good = good && !request_in_fault(request);
 	}
+	channels_tell_lines(hal_channels(hal), hal_quality(hal));
 	channels_read(hal_channels(hal), image, now_ns);
 	return good;
 }

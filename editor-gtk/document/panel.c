@@ -638,7 +638,7 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
 	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
 		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
-	const int button = flags & PANEL_BUTTON ? ARROW_LEAST : 0;
+	const int button = flags & PANEL_LIVE ? width : flags & PANEL_BUTTON ? ARROW_LEAST : 0;
 	const int least = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, name), button);
 	char *broken = two_lines(name);
 	const int low = flags & PANEL_ICON ? ICON_ROOM : MAX(heading_room(list, broken), button);

@@ -40,6 +40,7 @@ enum panel_column_flag {
 	PANEL_LABEL = 32,                   /* of panel_list_column(): not edited */
 	PANEL_BUTTON = 64,                  /* with an arrow or a button beside the text */
 	PANEL_BOLD = 128,                   /* its texts may be bold: they need more room */
+	PANEL_LIVE = 256,                   /* its cells show what no row knows: it keeps its width */
 };
 
 /* Binds the child "view" of a template to the member "list" of @type. */

@@ -102,8 +102,14 @@ static void print_value(struct location at, union iec_value value, char *out, gs
 		live_value_print(at.type, value, out, size);
 }
 
-/* "1 0 0 1 …"; *forced: one of them is. Caller: g_free(). */
-static char *values_of(LadderSim *sim, const LadderPanelRow *row, bool *forced)
+/* What the values of a row are besides. */
+struct shown {
+	bool forced;             /* one of them is                             */
+	enum sim_quality worst;
+};
+
+/* "1 0 0 1 …". Caller: g_free(). */
+static char *values_of(LadderSim *sim, const LadderPanelRow *row, struct shown *shown)
 {
 	GArray *all = addresses_of(row);
 	GString *text = g_string_new(NULL);
@@ -116,7 +122,8 @@ static char *values_of(LadderSim *sim, const LadderPanelRow *row, bool *forced)
 		if (at.type == IEC_NONE)
 			continue;
 		live_value_look_outside(&seen, sim, false, at);
-		*forced = *forced || (seen.known && seen.forced);
+		shown->forced = shown->forced || (seen.known && seen.forced);
+		shown->worst = MAX(shown->worst, seen.quality);
 		if (i > SHOWN)
 			continue;
 		if (seen.known)
@@ -128,28 +135,39 @@ static char *values_of(LadderSim *sim, const LadderPanelRow *row, bool *forced)
 	return g_string_free(text, FALSE);
 }
 
+static void set_class(GtkWidget *cell, const char *class, bool is)
+{
+	if (is)
+		gtk_widget_add_css_class(cell, class);
+	else
+		gtk_widget_remove_css_class(cell, class);
+}
+
 static void show_cell(struct iomap_live *live, GtkWidget *cell)
 {
 	LadderPanelRow *row = row_of(cell);
 	const bool on = live->sim && ladder_sim_is_on(live->sim);
-	bool forced = false;
-	char *text = row && on ? values_of(live->sim, row, &forced) : g_strdup("");
+	struct shown shown = { .worst = SIM_GOOD };
+	char *values = row && on ? values_of(live->sim, row, &shown) : g_strdup("");
+	const char *quality = live_quality_text(shown.worst);
+	char *text = g_strdup_printf("%s%s%s", *values ? quality : "", *values && *quality ? "  " : "", values);
 	char *name;
 
-	if (forced)
-		gtk_widget_add_css_class(cell, "forced");
-	else
-		gtk_widget_remove_css_class(cell, "forced");
+	set_class(cell, "bad-quality", shown.worst != SIM_GOOD);
+	set_class(cell, "forced", shown.forced);
 	if (g_strcmp0(gtk_button_get_label(GTK_BUTTON(cell)), text) != 0 ||
 	    !gtk_widget_get_visible(cell)) {
 		gtk_button_set_label(GTK_BUTTON(cell), text);
-		name = g_strdup_printf("%s, %s: %s%s%s", row ? panel_row_text(row, 0) : "", _("Value"),
-				       text, forced ? ", " : "", forced ? _("forced") : "");
+		quality = live_quality_word(shown.worst);
+		name = g_strdup_printf("%s, %s: %s%s%s%s%s", row ? panel_row_text(row, 0) : "", _("Value"), values,
+				       shown.forced ? ", " : "", shown.forced ? _("forced") : "",
+				       *quality ? ", " : "", quality);
 		gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 		g_free(name);
 	}
 	gtk_widget_set_visible(cell, *text);
 	g_free(text);
+	g_free(values);
 }
 
 static void show_all(struct iomap_live *live)
@@ -345,6 +363,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 {
 	GtkWidget *cell = gtk_button_new_with_label("");
 
+	gtk_label_set_ellipsize(GTK_LABEL(gtk_button_get_child(GTK_BUTTON(cell))), PANGO_ELLIPSIZE_END);
 	(void)factory;
 	gtk_widget_add_css_class(cell, "flat");
 	gtk_widget_add_css_class(cell, "watch-force");
@@ -394,7 +413,7 @@ void iomap_live_add(struct iomap_live *live, struct panel_list *list)
 	g_signal_connect(factory, "setup", G_CALLBACK(setup), live);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), live);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), live);
-	column = panel_list_add(list, _("Value"), IOMAP_VALUE, 0, 90, factory);
+	column = panel_list_add(list, _("Value"), IOMAP_VALUE, PANEL_LIVE, 104, factory);
 	gtk_column_view_column_set_visible(column, FALSE);
 	g_ptr_array_add(live->columns, column);
 }

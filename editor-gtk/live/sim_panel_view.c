@@ -28,7 +28,7 @@ struct _LadderSimRowView {
 	double sent;             /* the value that the slider set last          */
 	int waiting;             /* updates left until the slider gives that up */
 	GtkWidget *heading, *arrow, *title, *where;
-	GtkWidget *line, *unfold, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
+	GtkWidget *line, *unfold, *lamp, *address, *name, *pin, *tag, *badge, *quality, *value, *toggle, *push;
 	GtkWidget *entry;        /* NULL: none yet                              */
 	enum sim_edit editing;
 	GtkWidget *bar, *scale;
@@ -88,9 +88,11 @@ static void speak(LadderSimRowView *view)
 				     row->address ? row->address : "",
 				     row->pin ? ", " : "", row->pin ? row->pin : "");
 	const char *folds = !row->parts ? "" : row->folded ? _("folded") : _("unfolded");
-	char *all = g_strdup_printf("%s%s%s%s%s%s%s", name, *state ? ", " : "", state,
+	const char *quality = live_quality_word(view->value_seen.quality);
+	char *all = g_strdup_printf("%s%s%s%s%s%s%s%s%s", name, *state ? ", " : "", state,
 				    *folds ? ", " : "", folds,
-				    is_forced(view) ? ", " : "", is_forced(view) ? _("forced") : "");
+				    is_forced(view) ? ", " : "", is_forced(view) ? _("forced") : "",
+				    *quality ? ", " : "", quality);
 
 	name_line(view, all);
 	set_name(view->toggle, name);
@@ -179,6 +181,12 @@ static bool look(LadderSimRowView *view, struct live_seen *seen, struct location
 	return live_value_look_outside(seen, view->sim, view->row->plant, at);
 }
 
+static void show_quality(LadderSimRowView *view, enum sim_quality quality)
+{
+	gtk_label_set_text(GTK_LABEL(view->quality), live_quality_text(quality));
+	gtk_widget_set_visible(view->quality, quality != SIM_GOOD);
+}
+
 /* The steps of a chart that are active. */
 static void show_told(LadderSimRowView *view)
 {
@@ -192,6 +200,7 @@ static void show_told(LadderSimRowView *view)
 void ladder_sim_row_view_update(LadderSimRowView *view)
 {
 	const bool known = view->value_seen.known, forced = is_forced(view);
+	const enum sim_quality quality = view->value_seen.quality;
 	bool changed;
 
 	if (!view->row || view->row->kind == SIM_HEADING || !ladder_sim_twin(view->sim))
@@ -201,8 +210,9 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 	changed = look(view, &view->done_seen, view->row->done) || changed;
 	changed = (view->waiting && --view->waiting == 0) || changed;
 	view->telling = true;
-	if (!known || forced != is_forced(view)) {
+	if (!known || forced != is_forced(view) || quality != view->value_seen.quality) {
 		gtk_widget_set_visible(view->badge, is_forced(view));
+		show_quality(view, view->value_seen.quality);
 		speak(view);
 	}
 	if (changed && sim_row_is_bit(view->row))
@@ -742,6 +752,9 @@ static void add_line(LadderSimRowView *view)
 	gtk_label_set_text(GTK_LABEL(view->badge), "F");
 	tip_set(view->badge, _("Forced"));
 	gtk_widget_set_valign(view->badge, GTK_ALIGN_CENTER);
+	view->quality = add_label(view->line, "sim-quality", false);
+	gtk_widget_set_valign(view->quality, GTK_ALIGN_CENTER);
+	gtk_widget_set_visible(view->quality, FALSE);
 	view->value = add_label(view->line, "sim-value", false);
 	gtk_label_set_xalign(GTK_LABEL(view->value), 1);
 	gtk_label_set_ellipsize(GTK_LABEL(view->value), PANGO_ELLIPSIZE_END);

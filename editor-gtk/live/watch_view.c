@@ -259,11 +259,15 @@ static void set_class(GtkWidget *widget, const char *class, bool is)
 
 static void show_value(LadderWatchRow *row)
 {
-	char *text = watch_row_value(row);
+	char *value = watch_row_value(row);
+	const char *quality = live_quality_text(row->seen.quality);
+	char *text = g_strdup_printf("%s%s%s", value, *quality ? "  " : "", quality);
 
+	set_class(row->value, "bad-quality", *quality);
 	gtk_label_set_text(GTK_LABEL(row->value), text);
 	tip_set(row->value, text);
 	g_free(text);
+	g_free(value);
 }
 
 static void show_force(LadderWatchRow *row)

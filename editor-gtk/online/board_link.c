@@ -100,6 +100,8 @@ struct _LadderBoardLink {
 	char board[64], software[32];
 	enum role role;
 	struct board_status status;
+	struct gateways_status gateways; /* of the last status                 */
+	struct values_status values;
 	bool has_status, asks;   /* a request for the status is on its way     */
 	gint64 asked_us;         /* when the last one was asked for            */
 	gint64 every_us;         /* between two of them                        */
@@ -564,6 +566,8 @@ static void status_came(gpointer data, struct board_answer *got)
 		return;
 	status = g_new0(struct board_status, 1);
 	status_take(&got->body, status);
+	gateways_take(&got->body, &link->gateways);
+	values_take(&got->body, &link->values);
 	if (!got->body.failed) {
 		other = link->has_status &&
 			memcmp(link->status.program, status->program, sizeof(status->program)) != 0;
@@ -912,6 +916,16 @@ const char *ladder_board_link_needs(LadderBoardLink *link, enum role role)
 const char *ladder_board_link_why_not(LadderBoardLink *link, enum service service)
 {
 	return ladder_board_link_needs(link, service_row((uint8_t)service)->role);
+}
+
+const struct values_status *ladder_board_link_values(LadderBoardLink *link)
+{
+	return ladder_board_link_status(link) ? &link->values : NULL;
+}
+
+const struct gateways_status *ladder_board_link_gateways(LadderBoardLink *link)
+{
+	return ladder_board_link_status(link) ? &link->gateways : NULL;
 }
 
 const struct board_status *ladder_board_link_status(LadderBoardLink *link)

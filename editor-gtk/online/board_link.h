@@ -21,6 +21,7 @@
 #define EDITOR_BOARD_LINK_H
 
 #include "online/desk.h"
+#include "online/report.h"
 #include "online/status.h"
 
 #include <gio/gio.h>
@@ -65,6 +66,10 @@ const char *ladder_board_link_needs(LadderBoardLink *link, enum role role);
 /** ladder_board_link_status - the last one; NULL: not connected, or none yet. Borrowed until the
  * next `status`. */
 const struct board_status *ladder_board_link_status(LadderBoardLink *link);
+/** ladder_board_link_values - likewise, of the values of its I/O map. */
+const struct values_status *ladder_board_link_values(LadderBoardLink *link);
+/** ladder_board_link_gateways - likewise, of the programs that serve some of them. */
+const struct gateways_status *ladder_board_link_gateways(LadderBoardLink *link);
 /** ladder_board_link_look - asks for the status now; `status` comes soon. */
 void ladder_board_link_look(LadderBoardLink *link);
 

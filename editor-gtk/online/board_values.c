@@ -721,7 +721,8 @@ static void take_values(LadderBoardValues *values, const struct set *set,
 		value = wire_value(in, at.type, &room);
 		if (in->failed)
 			return;
-		sim_mirror_value(values->mirror, at, flags & VALUE_FORCED, value);
+		sim_mirror_value(values->mirror, at, flags & VALUE_FORCED, flags & VALUE_FAULT ? SIM_VALUE_FAULT :
+				 flags & VALUE_STALE ? SIM_STALE : SIM_GOOD, value);
 	}
 	values->filled = true;
 }

@@ -65,11 +65,62 @@ static char *three_times(int64_t mean, int64_t most, int64_t p999)
 
 static char *lines_text(const struct board_status *status)
 {
-	static const char *const quality[] = { N_("good"), N_("a line did not answer: inputs may be old"),
+	static const char *const quality[] = { N_("good"), N_("some do not answer: inputs may be old"),
 					       N_("fault") };
 
 	return g_strdup_printf("%u: %s", status->lines,
 			       status->io < G_N_ELEMENTS(quality) ? _(quality[status->io]) : "?");
+}
+
+/* "2 good, 1 stale, 1 in fault"; NULL: the map has none. Caller frees. */
+static char *values_text(const struct values_status *values)
+{
+	return values->good + values->stale + values->fault == 0 ? NULL :
+	       g_strdup_printf(_("%u good, %u stale, %u in fault"), values->good, values->stale, values->fault);
+}
+
+/* A line for each value that is not good: "%AIW0 ⚠ stale"; NULL: all are. Caller frees. */
+static char *bad_text(const struct values_status *values)
+{
+	GString *text = g_string_new(NULL);
+	char *all;
+
+	for (guint i = 0; i < values->count; i++)
+		g_string_append_printf(text, "%s%s %s", i ? "\n" : "", values->bad[i].address, live_quality_text(
+			values->bad[i].flags & VALUE_FAULT ? SIM_VALUE_FAULT : SIM_STALE));
+	if (values->count && values->count < values->stale + values->fault)
+		g_string_append(text, "\n…");
+	all = values->count ? g_utf8_make_valid(text->str, -1) : NULL;
+	g_string_free(text, TRUE);
+	return all;
+}
+
+static const char *gateway_name(const struct gateway_status *gateway, char *out, gsize size)
+{
+	g_snprintf(out, size, _("Gateway %s"), gateway->driver);
+	return out;
+}
+
+/* "points: 4, 1 bus, 2 units", and a line for each unit. Caller frees. */
+static char *gateway_text(const struct gateway_status *gateway)
+{
+	GString *text = g_string_new(NULL);
+	char *all;
+
+	g_string_append_printf(text, _("points: %u"), gateway->points);
+	g_string_append_printf(text, "%s%s", !gateway->runs || *gateway->report.text ? ", " : "",
+			       gateway->runs ? gateway->report.text : _("the program is not there"));
+	for (guint i = 0; gateway->runs && i < gateway->report.count; i++) {
+		const struct gateway_unit *unit = &gateway->report.unit[i];
+
+		g_string_append_printf(text, "\n%s: ", unit->name);
+		g_string_append_printf(text, _("requests: %llu, errors: %llu, without an answer: %llu"),
+				       (unsigned long long)unit->requests, (unsigned long long)unit->errors,
+				       (unsigned long long)unit->timeouts);
+	}
+	all = g_utf8_make_valid(text->str, -1);
+	g_string_free(text, TRUE);
+	return all;
 }
 
 /* ---- cells ---- */
@@ -152,7 +203,9 @@ static char *began_text(const struct board_status *status)
 
 static void show_facts(struct device *device, const struct board_status *status)
 {
-	char program[65];
+	const struct values_status *values = ladder_board_link_values(device->link);
+	const struct gateways_status *gateways = ladder_board_link_gateways(device->link);
+	char program[65], name[64];
 
 	event_program(status->program, program);
 	device->row = 0;
@@ -184,6 +237,10 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Lines of the I/O map"), lines_text(status));
 	fact(device, _("Calls to lines that failed"),
 	     g_strdup_printf("%" G_GUINT64_FORMAT, status->io_failed));
+	fact(device, _("Values of the I/O map"), values_text(values));
+	fact(device, _("Values that are not good"), bad_text(values));
+	for (guint i = 0; i < gateways->count; i++)
+		fact(device, gateway_name(&gateways->gateway[i], name, sizeof(name)), gateway_text(&gateways->gateway[i]));
 	fact(device, _("Memory in use"), g_strdup_printf("%" G_GUINT64_FORMAT " KB",
 						  (status->memory_bytes + 1023) / 1024));
 	fact(device, _("Processor"), g_strdup_printf("%u.%u %%", status->cpu_permille / 10,

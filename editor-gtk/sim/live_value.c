@@ -75,15 +75,17 @@ static bool look(struct live_seen *seen, LadderSim *sim, bool plant, struct loca
 {
 	const struct image *image = at.type != IEC_NONE ? live_image(sim, plant) : NULL;
 	const bool known = seen->known, forced = seen->forced;
+	const enum sim_quality quality = seen->quality;
 	union iec_value value;
 
+	seen->quality = image && !plant ? ladder_sim_quality(sim, at) : SIM_GOOD;
 	seen->known = image && (plant || ladder_sim_knows(sim, at));
 	seen->forced = live_value_is_forced(sim, plant, at);
 	if (!seen->known)
 		return known || forced;
 	value = outside && !plant ? ladder_sim_outside(sim, at) : image_get(image, at);
 	if (known && live_value_is_equal(at.type, seen->value, value))
-		return forced != seen->forced;
+		return forced != seen->forced || quality != seen->quality;
 	keep_value(seen, at.type, value);
 	return true;
 }
@@ -96,6 +98,24 @@ bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct 
 bool live_value_look_outside(struct live_seen *seen, LadderSim *sim, bool plant, struct location at)
 {
 	return look(seen, sim, plant, at, true);
+}
+
+/* ---- quality ---- */
+
+const char *live_quality_text(enum sim_quality quality)
+{
+	static const char *const text[] = {
+		[SIM_GOOD] = "", [SIM_STALE] = N_("⚠ stale"), [SIM_VALUE_FAULT] = N_("✖ fault"),
+	};
+
+	return *text[quality] ? _(text[quality]) : "";
+}
+
+const char *live_quality_word(enum sim_quality quality)
+{
+	const char *text = live_quality_text(quality), *word = strchr(text, ' ');
+
+	return word ? word + 1 : text;
 }
 
 /* ---- set, force, release ---- */

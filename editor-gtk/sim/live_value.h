@@ -30,6 +30,7 @@ bool live_value_is_equal(enum iec_type type, union iec_value a, union iec_value 
 /* A value as it was last looked at. Zeroed: not looked at yet. */
 struct live_seen {
 	bool known, forced;
+	enum sim_quality quality; /* ladder_sim_quality()                       */
 	union iec_value value;
 	struct iec_text text;    /* the bytes of a STRING                      */
 };
@@ -39,6 +40,11 @@ bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct 
 
 /** live_value_look_outside - the same as others see it: ladder_sim_outside(). */
 bool live_value_look_outside(struct live_seen *seen, LadderSim *sim, bool plant, struct location at);
+
+/** live_quality_text - a sign and a word for a value that is not good: "⚠ stale"; "": it is good. Translated. */
+const char *live_quality_text(enum sim_quality quality);
+/** live_quality_word - "stale", "fault"; "": good. Translated, for who hears it. */
+const char *live_quality_word(enum sim_quality quality);
 
 /* ---- set, force, release: acts between two scans ---- */
 

@@ -238,6 +238,11 @@ bool ladder_sim_knows(LadderSim *sim, struct location at)
 	return ladder_sim_is_on(sim) && sim->source->knows(sim->source, at);
 }
 
+enum sim_quality ladder_sim_quality(LadderSim *sim, struct location at)
+{
+	return ladder_sim_is_on(sim) && !sim->past ? sim->source->quality(sim->source, at) : SIM_GOOD;
+}
+
 bool ladder_sim_has_power(LadderSim *sim, const char *unit)
 {
 	return ladder_sim_is_on(sim) && sim->source->has_power(sim->source, unit);

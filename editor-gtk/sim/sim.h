@@ -215,6 +215,11 @@ bool ladder_sim_may_miss(LadderSim *sim);
 /** ladder_sim_knows - whether the value at @at is that of the scan; false: the board does not send
  * it yet, and is asked to. Then `program-changed` comes with it. */
 bool ladder_sim_knows(LadderSim *sim, struct location at);
+/* How good the value of an input or output is, as the board says. STALE: it has had no new one for the time of
+ * the I/O map; FAULT: its device is gone, answers with errors, or measures what cannot be. */
+enum sim_quality { SIM_GOOD, SIM_STALE, SIM_VALUE_FAULT };
+/** ladder_sim_quality - of the newest scan of a board; good in a simulation and of scans before. */
+enum sim_quality ladder_sim_quality(LadderSim *sim, struct location at);
 /** ladder_sim_has_power - the same of the power of the cells of a program or of an instance. */
 bool ladder_sim_has_power(LadderSim *sim, const char *unit);
 /** ladder_sim_forces - how many variables are forced, those of the plant included. */

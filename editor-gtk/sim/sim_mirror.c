@@ -31,7 +31,7 @@ struct sim_mirror {
 	bool plays;              /* a recording: all is known, and nothing comes  */
 	int forces;              /* as the board counts; -1: not told          */
 	bool other;              /* something became known: places are to be found again */
-	GHashTable *known;       /* words of places                            */
+	GHashTable *known;       /* word of a place → enum sim_quality, + 1      */
 	GHashTable *powered;     /* names of units, of the program             */
 	GArray *wants;           /* words of places, the newest last           */
 	GPtrArray *units;        /* names, likewise                            */
@@ -265,6 +265,19 @@ static bool knows(struct sim_source *source, struct location at)
 	return false;
 }
 
+static enum sim_quality quality(struct sim_source *source, struct location at)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+	gpointer word, found = NULL;
+
+	at = location_whole(at);
+	if (mirror->plays || at.type == IEC_NONE || at.constant)
+		return SIM_GOOD;
+	word = GUINT_TO_POINTER(place_word(program_of(mirror), at));
+	found = g_hash_table_lookup(mirror->known, word);
+	return found ? (enum sim_quality)(GPOINTER_TO_UINT(found) - 1) : SIM_GOOD;
+}
+
 /* ---- cells ---- */
 
 /* The cells of a program, or of the body of an instance; `name` of the program image. */
@@ -465,7 +478,7 @@ static void put_text(struct sim_mirror *mirror, struct location at, const struct
 	memcpy(to->text, from->text, to->length);
 }
 
-void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced,
+void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced, enum sim_quality quality,
 		      union iec_value value)
 {
 	struct image *image = &mirror->twin.resource.image;
@@ -480,8 +493,8 @@ void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced
 		image_force(image, at, value);
 	else
 		image_set(image, at, value);
-	if (g_hash_table_add(mirror->known,
-			     GUINT_TO_POINTER(place_word(program_of(mirror), at))))
+	if (g_hash_table_insert(mirror->known, GUINT_TO_POINTER(place_word(program_of(mirror), at)),
+				GUINT_TO_POINTER((guint)quality + 1)))
 		mirror->other = true;
 }
 
@@ -623,7 +636,7 @@ void sim_mirror_task(struct sim_mirror *mirror, guint task, guint64 runs, guint6
 
 static const struct sim_source as_source = {
 	.free = free_source, .take = take, .act = act, .why_not = why_not, .replay = replay,
-	.span = span, .lock = lock, .unlock = unlock, .knows = knows, .has_power = has_power,
+	.span = span, .lock = lock, .unlock = unlock, .knows = knows, .quality = quality, .has_power = has_power,
 	.past = past,
 };
 

@@ -75,7 +75,7 @@ void sim_mirror_forget_power(struct sim_mirror *mirror, const char *unit);
 /* ---- what was published ---- */
 
 /** sim_mirror_value - the value of a variable; a STRING may be too long for its room. */
-void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced,
+void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced, enum sim_quality quality,
 		      union iec_value value);
 /** sim_mirror_power - two bits a cell, as docs/online.md has them. @bits: of all its cells. */
 void sim_mirror_power(struct sim_mirror *mirror, const char *unit, const guint8 *bits);

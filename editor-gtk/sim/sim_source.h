@@ -76,6 +76,8 @@ struct sim_source {
 	void (*unlock)(struct sim_source *source);
 	/* As ladder_sim_knows(), ladder_sim_has_power(). */
 	bool (*knows)(struct sim_source *source, struct location at);
+	/* As ladder_sim_quality(), of the newest scan. */
+	enum sim_quality (*quality)(struct sim_source *source, struct location at);
 	bool (*has_power)(struct sim_source *source, const char *unit);
 	/* A view needs whole scans, as ladder_sim_fetch(). */
 	void (*past)(struct sim_source *source);

@@ -557,6 +557,12 @@ static void span(struct sim_source *source, guint64 *first, guint64 *last)
 	unlock(source);
 }
 
+static enum sim_quality quality(struct sim_source *source, struct location at)
+{
+	(void)source, (void)at;
+	return SIM_GOOD;
+}
+
 static bool knows(struct sim_source *source, struct location at)
 {
 	(void)source;
@@ -578,7 +584,7 @@ static void past(struct sim_source *source)
 
 static const struct sim_source as_source = {
 	.free = free_source, .take = take, .act = order_act, .why_not = why_not,
-	.replay = replay, .span = span, .lock = lock, .unlock = unlock, .knows = knows,
+	.replay = replay, .span = span, .lock = lock, .unlock = unlock, .knows = knows, .quality = quality,
 	.has_power = has_power, .past = past,
 };
 

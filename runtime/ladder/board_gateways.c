@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_gateways - what the status of a board tells of the programs that serve points of its map.
+ * board_gateways - what the status of a board tells of the values of its map, and of the programs that serve
+ * points of it.
  */
 #include "ladder/foreign.h"
 #include "ladder/remote.h"
@@ -56,32 +57,65 @@ static void json_gateway(const struct sink *out, const struct gateway_status *ga
 	sink_text(out, "]}");
 }
 
-static bool ask(struct remote *remote, struct board_status *status, struct gateways_status *all)
+static void print_values(const struct sink *out, const struct values_status *all)
+{
+	if (!all->good && !all->stale && !all->fault)
+		return;
+	sink_printf(out, "values: %u good, %u stale, %u in fault\n", (unsigned)all->good, (unsigned)all->stale,
+		    (unsigned)all->fault);
+	for (uint16_t i = 0; i < all->count; i++) {
+		sink_text(out, "  ");
+		foreign_text(out, all->bad[i].address);
+		sink_printf(out, ": %s\n", value_quality(all->bad[i].flags));
+	}
+}
+
+static void json_values(const struct sink *out, const struct values_status *all)
+{
+	sink_printf(out, ", \"values\": {\"good\": %u, \"stale\": %u, \"fault\": %u, \"not_good\": {", (unsigned)all->good,
+		    (unsigned)all->stale, (unsigned)all->fault);
+	for (uint16_t i = 0; i < all->count; i++) {
+		sink_text(out, i ? ", " : "");
+		sink_json_text(out, all->bad[i].address);
+		sink_text(out, ": ");
+		sink_json_text(out, value_quality(all->bad[i].flags));
+	}
+	sink_text(out, "}}");
+}
+
+/* What a board of now tells in one answer. */
+struct told {
+	struct board_status status;
+	struct gateways_status gateways;
+	struct values_status values;
+};
+
+static bool ask(struct remote *remote, struct told *told)
 {
 	struct wire_writer request = desk_ask(&remote->desk, SERVICE_STATUS);
 	struct wire_reader in;
 
 	if (desk_call(&remote->desk, &request, &in) != DESK_GOOD)
 		return false;
-	status_take(&in, status);
-	gateways_take(&in, all);
+	status_take(&in, &told->status);
+	gateways_take(&in, &told->gateways);
+	values_take(&in, &told->values);
 	return !in.failed;
 }
 
 void remote_print_gateways(struct remote *remote)
 {
 	const struct sink *out = &remote->call->out;
-	struct board_status *status = calloc(1, sizeof(*status));
-	struct gateways_status *all = calloc(1, sizeof(*all));
+	struct told *told = calloc(1, sizeof(*told));
 
-	if (status && all && ask(remote, status, all)) {
+	if (told && ask(remote, told)) {
+		(remote->json ? json_values : print_values)(out, &told->values);
 		sink_text(out, remote->json ? ", \"gateways\": [" : "");
-		for (uint8_t i = 0; i < all->count; i++) {
+		for (uint8_t i = 0; i < told->gateways.count; i++) {
 			sink_text(out, remote->json && i ? ", " : "");
-			(remote->json ? json_gateway : print_gateway)(out, &all->gateway[i]);
+			(remote->json ? json_gateway : print_gateway)(out, &told->gateways.gateway[i]);
 		}
 		sink_text(out, remote->json ? "]" : "");
 	}
-	free(all);
-	free(status);
+	free(told);
 }

@@ -11,6 +11,7 @@
 #include "engine/trial/value.h"
 #include "online/event.h"
 #include "online/port.h"
+#include "online/report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -397,6 +398,15 @@ static enum status act_symbols(struct remote *remote)
 	return STATUS_GOOD;
 }
 
+/* "" for a value that is good and not forced; else a word or two, each behind @before. */
+static void print_quality(const struct sink *out, uint8_t flags, const char *before)
+{
+	if (flags & VALUE_FORCED)
+		sink_printf(out, "%sforced", before);
+	if (flags & (VALUE_STALE | VALUE_FAULT))
+		sink_printf(out, "%s%s", before, value_quality(flags));
+}
+
 static enum status act_get(struct remote *remote)
 {
 	const struct sink *out = &remote->call->out;
@@ -417,8 +427,8 @@ static enum status act_get(struct remote *remote)
 		sink_text(out, named->name);
 		sink_text(out, "=");
 		print_value(out, named->type, named->value);
-		sink_text(out, named->flags & VALUE_FORCED ? " forced" : "");
-		sink_text(out, named->flags & VALUE_STALE ? " stale\n" : "\n");
+		print_quality(out, named->flags, " ");
+		sink_text(out, "\n");
 	}
 	if (remote->json)
 		sink_text(out, "}\n");
@@ -444,6 +454,8 @@ static void print_row(struct remote *remote, uint64_t scan, int64_t now_ns)
 			sink_text(out, "=");
 		}
 		print_value(out, named->type, named->value);
+		if (!csv)
+			print_quality(out, named->flags, "!");
 	}
 	sink_text(out, "\n");
 	report_flush(remote->call);

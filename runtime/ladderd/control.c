@@ -378,3 +378,25 @@ void control_trace(void *context, const struct io_point *point, bool value)
 	text[len++] = '\n';
 	put(STDERR_FILENO, text, len, false);
 }
+
+#ifndef RUNGBOARD_SMALL
+static void trace_value(void *context, const struct io_point *point, enum iec_type type, union iec_value value,
+			enum hal_quality quality)
+{
+	static const char *const word[] = { [QUALITY_GOOD] = "", [QUALITY_STALE] = " stale", [QUALITY_FAULT] = " fault" };
+	char address[24], number[48], text[96];
+	int len;
+
+	(void)context;
+	iec_addr_print(point->addr, address, sizeof(address));
+	iec_value_print(type, value, number, sizeof(number));
+	len = snprintf(text, sizeof(text), "%s %s%s\n", address, number, word[quality]);
+	put(STDERR_FILENO, text, (size_t)len, false);
+}
+
+void control_trace_values(struct cycle *cycle)
+{
+	if (cycle->hal.trace)
+		channels_trace(hal_channels(&cycle->hal), &cycle->resource.image, trace_value, NULL);
+}
+#endif

@@ -35,4 +35,11 @@ void control_tell_fault(const struct cycle *cycle);
 /** control_trace - prints "%QX0.0 1" to stderr; for struct hal. Scan-safe: yes, also
  * in a signal handler. */
 void control_trace(void *context, const struct io_point *point, bool value);
+/** control_trace_values - of the points with channels: "%AQW0 1200", "%AIW2 0 stale". After a scan;
+ * nothing without --trace-io. Scan-safe: as control_trace(). */
+#ifdef RUNGBOARD_SMALL
+#define control_trace_values(cycle) ((void)0)
+#else
+void control_trace_values(struct cycle *cycle);
+#endif
 #endif

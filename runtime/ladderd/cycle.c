@@ -405,6 +405,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	else if (cycle_on_trial(cycle) && --cycle->trial_left == 0)
 		cycle_pass(cycle);
 	tell_failed(cycle);
+	control_trace_values(cycle);
 }
 
 /* Sleeps until @due_ns and serves requests. */

@@ -16,8 +16,15 @@ static bool serves(enum gateway_id gateway, const struct io_point *point)
 					 point->driver == DRIVER_modbus || point->driver == DRIVER_module;
 }
 
+/* Bits of a point, from the start of its area. */
+static uint32_t first_bit(const struct io_point *point)
+{
+	return 8 * point->addr.byte + (point->addr.bits == 1 ? point->addr.bit : 0);
+}
+
 static void forget(struct gateways *gateways)
 {
+	free(gateways->order);
 	for (int i = 0; i < GATEWAY_COUNT; i++) {
 		free(gateways->outputs[i].point);
 		free(gateways->outputs[i].given);
@@ -43,10 +50,57 @@ static bool find_outputs(struct gateway_outputs *outputs, const struct iomap *ma
 	return true;
 }
 
+static bool is_before(const struct io_point *a, const struct io_point *b)
+{
+	return a->addr.area < b->addr.area || (a->addr.area == b->addr.area && first_bit(a) < first_bit(b));
+}
+
+static void sift(const struct iomap *map, uint32_t *order, uint32_t top, uint32_t count)
+{
+	for (uint32_t child = 2 * top + 1; child < count; child = 2 * top + 1) {
+		const uint32_t here = order[top];
+
+		if (child + 1 < count && is_before(&map->point[order[child]], &map->point[order[child + 1]]))
+			child++;
+		if (!is_before(&map->point[here], &map->point[order[child]]))
+			return;
+		order[top] = order[child];
+		order[child] = here;
+		top = child;
+	}
+}
+
+/* A heap: qsort() cannot be told the map. */
+static bool find_order(struct gateways *gateways, const struct iomap *map)
+{
+	const uint32_t count = (uint32_t)map->count;
+	uint32_t *order = calloc(count + 1, sizeof(*order));
+
+	gateways->order = order;
+	if (!order)
+		return false;
+	for (uint32_t i = 0; i < count; i++)
+		order[i] = i;
+	for (uint32_t i = count / 2; i-- > 0;)
+		sift(map, order, i, count);
+	for (uint32_t left = count; left-- > 1;) {
+		const uint32_t last = order[left];
+
+		order[left] = order[0];
+		order[0] = last;
+		sift(map, order, 0, left);
+	}
+	return true;
+}
+
 void gateways_use(struct gateways *gateways, const struct iomap *map, struct channels *channels,
 		  struct asks *asks)
 {
 	forget(gateways);
+	if (!find_order(gateways, map)) {
+		forget(gateways);
+		return;
+	}
 	for (int i = 0; i < GATEWAY_COUNT; i++)
 		if (!find_outputs(&gateways->outputs[i], map, asks ? asks->count : 0, (enum gateway_id)i)) {
 			forget(gateways);
@@ -186,26 +240,60 @@ static bool find_window(void *context, uint32_t number, struct server_window *ou
 	return true;
 }
 
-/* Bits of a point, from the start of its area. */
-static uint32_t first_bit(const struct io_point *point)
+static uint8_t flags_of(enum hal_quality quality)
 {
-	return 8 * point->addr.byte + (point->addr.bits == 1 ? point->addr.bit : 0);
+	return quality == QUALITY_GOOD ? 0 : quality == QUALITY_STALE ? VALUE_STALE : VALUE_STALE | VALUE_FAULT;
 }
 
-static bool are_good(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines)
+static bool lines_bad(const struct gateways *gateways, bool io_bad)
+{
+	return io_bad && (!gateways->channels || channels_lines(gateways->channels) != QUALITY_GOOD);
+}
+
+static uint8_t point_flags(const struct gateways *gateways, uint32_t point, bool io_bad)
+{
+	return gateways->map->point[point].channel ? flags_of(channels_point(gateways->channels, (int)point)) :
+	       lines_bad(gateways, io_bad) ? VALUE_STALE : 0;
+}
+
+/* Points of a map do not overlap. */
+static uint8_t find_quality(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool io_bad)
+{
+	const struct gateways *gateways = context;
+	const struct iomap *map = gateways->map;
+	uint32_t low = 0, high = map ? (uint32_t)map->count : 0;
+	uint8_t flags = 0;
+
+	while (low < high) {
+		const uint32_t middle = (low + high) / 2;
+		const struct io_point *point = &map->point[gateways->order[middle]];
+
+		if (point->addr.area < area || (point->addr.area == area && first_bit(point) + point->addr.bits <= bit))
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	for (; map && low < (uint32_t)map->count; low++) {
+		const struct io_point *point = &map->point[gateways->order[low]];
+
+		if (point->addr.area != area || first_bit(point) >= bit + count)
+			break;
+		flags |= point_flags(gateways, gateways->order[low], io_bad);
+	}
+	return flags;
+}
+
+static bool find_value(void *context, uint32_t point, struct server_value *out)
 {
 	const struct gateways *gateways = context;
 	const struct iomap *map = gateways->map;
 
-	for (int i = 0; map && i < map->count; i++) {
-		const struct io_point *point = &map->point[i];
-		const uint32_t first = first_bit(point);
-
-		if (point->output || point->addr.area != area || first >= bit + count || bit >= first + point->addr.bits)
-			continue;
-		if (point->channel ? channels_point(gateways->channels, i) != QUALITY_GOOD : !lines)
-			return false;
-	}
+	if (!map || point >= (uint32_t)map->count)
+		return false;
+	*out = (struct server_value){
+		.addr = map->point[point].addr, .counts = map->point[point].channel != NULL,
+		.flags = point_flags(gateways, point, false),
+	};
 	return true;
 }
 
@@ -225,7 +313,8 @@ struct server_io gateways_io(struct gateways *gateways)
 {
 	return (struct server_io){
 		.context = gateways, .points = count_points, .point = find_point, .put = put_value,
-		.output = next_output, .outputs = count_outputs, .again = give_again, .alone = leave_alone, .window = find_window, .good = are_good,
+		.output = next_output, .outputs = count_outputs, .again = give_again, .alone = leave_alone, .window = find_window,
+		.quality = find_quality, .value = find_value,
 		.publishes = is_published,
 	};
 }

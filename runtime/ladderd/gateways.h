@@ -25,6 +25,7 @@ struct gateways {
 	struct asks *asks;     /* of Modbus: the points behind those of the map */
 	uint32_t points[GATEWAY_COUNT];
 	struct gateway_outputs outputs[GATEWAY_COUNT];
+	uint32_t *order;       /* points by area and first bit                */
 };
 
 /** gateways_use - another map runs; all are borrowed. Without memory its gateways have no points. */

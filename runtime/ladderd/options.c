@@ -19,6 +19,8 @@
 #endif
 
 #ifndef RUNGBOARD_SMALL
+#define VALUES_HELP \
+"                   and of the quality of a value, as `%AIW0 77 stale`\n"
 #define LINK_HELP \
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
 "  --serial TTY[,BAUD]  the same over a serial line; 115200 baud if none is given\n" \
@@ -41,6 +43,7 @@
 	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
 	{ "--record",        NUMBER, AT(record_kb), 0, 65536 },
 #elif defined(RUNGBOARD_SERIAL) /* a small board with a serial line alone */
+#define VALUES_HELP
 #define LINK_HELP \
 "  --serial TTY[,BAUD]  let a desk watch and change it (docs/online.md); 115200 baud\n" \
 "                   if none is given\n" \
@@ -52,6 +55,7 @@
 	{ "--serial-role",   TEXT,   AT(serial_role), 0, 0 }, \
 	{ "--slots",         TEXT,   AT(slots),     0, 0 },
 #else
+#define VALUES_HELP
 #define LINK_HELP
 #define LINK_ROWS
 #endif
@@ -78,6 +82,7 @@ LINK_HELP
 "  --scans N        stop after N scans or at a FAULT, and print the status\n"
 "  --check          load everything, open no line, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
+VALUES_HELP
 "  --attended       stop when standard input ends (for programs that start it)\n"
 "  --help, --version\n"
 "\n"

@@ -41,21 +41,21 @@ struct view {
 	uint64_t scan;
 	int64_t now_ns;
 	enum resource_state state;
-	bool io_bad;          /* a line did not answer                         */
+	bool io_bad;          /* something of the I/O map does not answer      */
 	int forces;           /* how many there are                            */
 	uint32_t serial;
 	uint8_t *memory;
 #ifndef RUNGBOARD_SMALL
-	/* Whether a value may be old; NULL: all are, if io_bad says so. In a copy of the link. */
-	bool (*is_old)(const struct view *view, const struct program *program, struct location at);
+	/* STALE and FAULT of enum value_flag; NULL: all are STALE, if io_bad says so. In a copy of the link. */
+	uint8_t (*quality)(const struct view *view, const struct program *program, struct location at);
 	void *context;
 #endif
 };
 #ifdef RUNGBOARD_SMALL
-#define VIEW_IS_OLD(view, program, at) ((view)->io_bad)
+#define VIEW_QUALITY(view, program, at) ((view)->io_bad ? VALUE_STALE : 0)
 #else
-#define VIEW_IS_OLD(view, program, at)                                                              \
-	((view)->is_old ? (view)->is_old(view, program, at) : (view)->io_bad)
+#define VIEW_QUALITY(view, program, at)                                                             \
+	((view)->quality ? (view)->quality(view, program, at) : (view)->io_bad ? VALUE_STALE : 0)
 #endif
 
 enum order_kind {

@@ -231,7 +231,7 @@ static bool put_value(struct published *value, uint16_t index, const struct view
 	const union iec_value now = image_get(image, value->at);
 	const uint64_t bits = bits_of(value->at.type, now);
 	const uint8_t flags = (image_is_forced(image, value->at) ? VALUE_FORCED : 0) |
-			      (VIEW_IS_OLD(view, image->program, value->at) ? VALUE_STALE : 0);
+			      VIEW_QUALITY(view, image->program, value->at);
 
 	if (value->any && value->sent == bits && value->flags == flags)
 		return false;

@@ -72,3 +72,39 @@ void gateways_take(struct wire_reader *in, struct gateways_status *all)
 		all->count += !in->failed && i < GATEWAY_COUNT;
 	}
 }
+
+void values_put(struct wire_writer *out, const struct values_status *all)
+{
+	wire_put_u32(out, all->good);
+	wire_put_u32(out, all->stale);
+	wire_put_u32(out, all->fault);
+	wire_put_u16(out, all->count);
+	for (uint16_t i = 0; i < all->count; i++) {
+		wire_put_string(out, all->bad[i].address);
+		wire_put_u8(out, all->bad[i].flags);
+	}
+}
+
+void values_take(struct wire_reader *in, struct values_status *all)
+{
+	memset(all, 0, sizeof(*all));
+	if (in->failed || !wire_left(in))
+		return; /* a board of before these fields */
+	all->good = wire_u32(in);
+	all->stale = wire_u32(in);
+	all->fault = wire_u32(in);
+	all->count = wire_u16(in);
+	if (all->count > VALUES_TOLD) {
+		all->count = 0;
+		in->failed = true;
+	}
+	for (uint16_t i = 0; i < all->count; i++) {
+		wire_copy_text(in, all->bad[i].address, sizeof(all->bad[i].address));
+		all->bad[i].flags = wire_u8(in);
+	}
+}
+
+const char *value_quality(uint8_t flags)
+{
+	return flags & VALUE_FAULT ? "fault" : flags & VALUE_STALE ? "stale" : "good";
+}

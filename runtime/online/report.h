@@ -35,6 +35,18 @@ struct gateways_status {
 	struct gateway_status gateway[GATEWAY_COUNT + 1]; /* the last one is for reading only */
 };
 
+/* How good the values of the I/O map are, those of lines of a chip apart. */
+#define VALUES_TOLD 64         /* that are not good; others are only counted  */
+struct value_status {
+	char address[24];              /* "%AIW0"                             */
+	uint8_t flags;                 /* STALE and FAULT of enum value_flag   */
+};
+struct values_status {
+	uint32_t good, stale, fault;
+	uint16_t count;
+	struct value_status bad[VALUES_TOLD];
+};
+
 /** report_put - its fields. Scan-safe: yes; so are all functions. */
 void report_put(struct wire_writer *out, const struct gateway_report *report);
 /** report_take - texts are cut and end with NUL. Fails: the reader has failed; also if it has more
@@ -45,4 +57,10 @@ void gateways_put(struct wire_writer *out, const struct gateways_status *all);
 /** gateways_take - behind status_take(). A board that tells nothing of gateways has none; of one that knows more
  * of them those are left out. */
 void gateways_take(struct wire_reader *in, struct gateways_status *all);
+/** values_put - behind gateways_put(). */
+void values_put(struct wire_writer *out, const struct values_status *all);
+/** values_take - behind gateways_take(). A board that tells nothing of values has none. */
+void values_take(struct wire_reader *in, struct values_status *all);
+/** value_quality - "good", "stale" or "fault". @flags: of enum value_flag */
+const char *value_quality(uint8_t flags);
 #endif

@@ -81,6 +81,7 @@ struct server {
 	uint32_t map;          /* rises with each program                     */
 	/* Of gateways. */
 	struct gateways_status gateways; /* what the status tells              */
+	struct values_status values;   /* likewise, of the I/O map            */
 	struct gateway_report report[GATEWAY_COUNT]; /* the last ones          */
 	uint64_t io_session[GATEWAY_COUNT]; /* `opened` of the session that began last */
 	int64_t io_told_ns[GATEWAY_COUNT]; /* when the log told of it last, 0: never */
@@ -146,6 +147,8 @@ enum refusal asked_refuse_role(struct asked *asked, enum role needed);
 bool asked_is_locked(const struct asked *asked);
 /** asked_tell_mode - the detail of REFUSAL_NOT_NOW of server->order. */
 void asked_tell_mode(struct asked *asked);
+/** server_with_quality - a copy of @view whose values have the quality that @session is told. */
+struct view server_with_quality(struct server *server, const struct session *session, const struct view *view);
 /** serve_look - serve_values.c: server->mirror gets the values of @count of server->place. */
 enum refusal serve_look(struct server *server, uint32_t count);
 /** asked_finish - serve_values.c: gives a change to the scan thread, and answers. */
@@ -192,10 +195,15 @@ enum refusal serve_io_report(struct asked *asked);
 enum refusal io_check_publish(struct asked *asked, struct wire_reader in);
 /** io_give - the next frame of outputs for a session. Returns its bytes; 0: nothing has changed. */
 size_t io_give(struct server *server, struct session *session);
-/** io_is_old - of a struct view: a variable that is an input is as good as that input; all others are good. */
-bool io_is_old(const struct view *view, const struct program *program, struct location at);
+/** io_quality - of a struct view: a variable that is an input or output is as good as that point; all others
+ * are good. */
+uint8_t io_quality(const struct view *view, const struct program *program, struct location at);
+/** io_quality_of_input - the same for a gateway: an output is good, whatever its device says. */
+uint8_t io_quality_of_input(const struct view *view, const struct program *program, struct location at);
 /** io_end - a session serves no points any more. */
 void io_end(struct server *server, struct session *session);
 /** io_status - what the status tells of gateways. */
 const struct gateways_status *io_status(struct server *server);
+/** io_values - what the status tells of the values of the I/O map. */
+const struct values_status *io_values(struct server *server);
 #endif

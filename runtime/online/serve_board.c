@@ -53,6 +53,7 @@ enum refusal serve_status(struct asked *asked)
 	asked_begin(asked, 0);
 	status_put(&asked->out, &server->status);
 	gateways_put(&asked->out, io_status(server));
+	values_put(&asked->out, io_values(server));
 	return REFUSAL_NONE;
 }
 

@@ -418,21 +418,55 @@ enum refusal io_check_publish(struct asked *asked, struct wire_reader in)
 	return REFUSAL_NONE;
 }
 
-bool io_is_old(const struct view *view, const struct program *program, struct location at)
+uint8_t io_quality(const struct view *view, const struct program *program, struct location at)
 {
 	const struct server_io *io = ((const struct server *)view->context)->setup.io;
 	const struct areas *areas = &program->areas;
 
 	at = location_whole(at);
 	if (!io)
-		return view->io_bad;
+		return view->io_bad ? VALUE_STALE : 0;
 	if (at.area != AREA_NONE)
-		return !io->good(io->context, at.area, at.where, 1, !view->io_bad);
-	if (at.where >= areas->size)
-		return false;
+		return io->quality(io->context, at.area, at.where, 1, view->io_bad);
+	if (at.constant || at.where >= areas->size)
+		return 0;
 	at.area = areas_find(areas, at.where);
-	return !io->good(io->context, at.area, 8 * (at.where - areas->at[at.area]),
-			 8 * iec_type_row(at.type)->size, !view->io_bad);
+	return io->quality(io->context, at.area, 8 * (at.where - areas->at[at.area]),
+			   8 * iec_type_row(at.type)->size, view->io_bad);
+}
+
+uint8_t io_quality_of_input(const struct view *view, const struct program *program, struct location at)
+{
+	const struct location whole = location_whole(at);
+	const enum iec_area area = whole.area != AREA_NONE || whole.where >= program->areas.size ?
+				   whole.area : areas_find(&program->areas, whole.where);
+
+	return area != AREA_NONE && iec_area_row(area)->access == ACCESS_WRITE ? 0 :
+	       io_quality(view, program, at);
+}
+
+const struct values_status *io_values(struct server *server)
+{
+	const struct server_io *io = server->setup.io;
+	struct values_status *all = &server->values;
+	struct server_value value = { .flags = 0 };
+
+	memset(all, 0, sizeof(*all));
+	for (uint32_t i = 0; io && io->value(io->context, i, &value); i++) {
+		struct value_status *bad = all->count < VALUES_TOLD ? &all->bad[all->count] : NULL;
+
+		if (!value.counts)
+			continue;
+		all->good += !value.flags;
+		all->stale += value.flags == VALUE_STALE;
+		all->fault += value.flags & VALUE_FAULT ? 1 : 0;
+		if (!value.flags || !bad)
+			continue;
+		iec_addr_print(value.addr, bad->address, sizeof(bad->address));
+		bad->flags = value.flags;
+		all->count++;
+	}
+	return all;
 }
 
 const struct gateways_status *io_status(struct server *server)

@@ -113,6 +113,7 @@ enum refusal serve_look(struct server *server, uint32_t count)
 enum refusal serve_read(struct asked *asked)
 {
 	struct server *server = asked->server;
+	struct view look;
 	uint32_t count;
 	enum refusal refusal = take_count(asked, REFS_MOST, &count);
 
@@ -122,6 +123,7 @@ enum refusal serve_read(struct asked *asked)
 		refusal = serve_look(server, count);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
+	look = server_with_quality(server, asked->session, &server->look);
 	asked_begin(asked, 0);
 	wire_put_u8(&asked->out, (uint8_t)server->look.state);
 	wire_put_u64(&asked->out, server->look.scan);
@@ -131,7 +133,7 @@ enum refusal serve_read(struct asked *asked)
 		const struct location at = server->place[i];
 
 		wire_put_u8(&asked->out, (image_is_forced(&server->mirror, at) ? VALUE_FORCED : 0) |
-					 (server->look.io_bad ? VALUE_STALE : 0));
+					 VIEW_QUALITY(&look, server->setup.program, at));
 		wire_put_u8(&asked->out, (uint8_t)at.type);
 		wire_put_value(&asked->out, at.type, image_get(&server->mirror, at));
 	}

@@ -463,10 +463,19 @@ static void tell_changed(const struct server *server, struct session *session)
 	session->changed = false;
 }
 
+struct view server_with_quality(struct server *server, const struct session *session, const struct view *view)
+{
+	struct view with = *view;
+
+	with.quality = session->role == ROLE_IO ? io_quality_of_input : io_quality;
+	with.context = server;
+	return with;
+}
+
 static void publish_next(struct server *server, struct session *session, int64_t now_ns)
 {
 	const struct view *view;
-	struct view of_gateway;
+	struct view with_quality;
 	struct wire_writer out;
 
 	if (session->changed && session->greeted && !session->over && !session->out_len) {
@@ -487,14 +496,9 @@ static void publish_next(struct server *server, struct session *session, int64_t
 	if (view->forces != server->mirror.force_count)
 		server_learn_forces(server);
 	server->mirror.memory = view->memory;
-	if (session->role == ROLE_IO) {
-		of_gateway = *view;
-		of_gateway.is_old = io_is_old;
-		of_gateway.context = server;
-		view = &of_gateway;
-	}
+	with_quality = server_with_quality(server, session, view);
 	out = wire_write(session->out, sizeof(session->out));
-	session->out_len = publish_write(&session->publications, view, &server->mirror, now_ns,
+	session->out_len = publish_write(&session->publications, &with_quality, &server->mirror, now_ns,
 					 &out);
 }
 

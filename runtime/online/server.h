@@ -117,6 +117,12 @@ struct server_output {
 	enum iec_type raw;
 	union iec_value value;
 };
+/* How good the value of a point is. */
+struct server_value {
+	struct iec_addr addr;
+	bool counts;                   /* it has a quality of its own: it is no line */
+	uint8_t flags;                 /* STALE and FAULT of enum value_flag   */
+};
 /* A WINDOW of the map: so many bits or words from an address on. */
 struct server_window {
 	struct iec_addr addr;
@@ -143,8 +149,11 @@ struct server_io {
 	/** The gateway has gone. */
 	void (*alone)(void *context, enum gateway_id gateway);
 	bool (*window)(void *context, uint32_t number, struct server_window *out);
-	/** Whether all inputs among @count bits of @area from @bit on are good. @lines: those that are lines are. */
-	bool (*good)(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines);
+	/** STALE and FAULT of enum value_flag: of the worst point among @count bits of @area from @bit on.
+	 * @io_bad: something of the map does not answer. */
+	uint8_t (*quality)(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool io_bad);
+	/** Point @point of the map. Fails: false: there are no more points. */
+	bool (*value)(void *context, uint32_t point, struct server_value *out);
 	/** Whether a PUBLISH line names the variable. */
 	bool (*publishes)(void *context, const char *name, size_t len);
 };

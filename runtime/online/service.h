@@ -101,6 +101,7 @@ void wire_put_name(struct wire_writer *out, const char *name);
 union iec_value wire_value(struct wire_reader *in, enum iec_type type, struct iec_text *room);
 void wire_put_value(struct wire_writer *out, enum iec_type type, union iec_value value);
 
-/* Quality of a value on the board; 0: good. STALE: a line did not answer in that scan. */
-enum value_flag { VALUE_FORCED = 1, VALUE_STALE = 2 };
+/* Quality of a value on the board; 0: good. STALE: it may be old. FAULT, only with STALE: its device is gone,
+ * answers with errors, or measures what cannot be. */
+enum value_flag { VALUE_FORCED = 1, VALUE_STALE = 2, VALUE_FAULT = 4 };
 #endif

@@ -214,11 +214,19 @@ static bool find_window(void *context, uint32_t number, struct server_window *ou
 	return number < 8;
 }
 
-static bool are_good(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines)
+static uint8_t any_quality(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool io_bad)
+{
+	(void)context, (void)count;
+	fuzz_expect(area > AREA_NONE && area < AREA_COUNT, "an area");
+	return io_bad ? VALUE_STALE : bit % 3 == 2 ? VALUE_STALE | VALUE_FAULT : 0;
+}
+
+static bool find_value(void *context, uint32_t point, struct server_value *out)
 {
 	(void)context;
-	fuzz_expect(area > AREA_NONE && area < AREA_COUNT, "an area");
-	return (bit + count) & 1 || lines;
+	*out = (struct server_value){ .addr = { .area = AREA_I, .bits = 8, .byte = point }, .counts = true,
+				      .flags = point % 2 ? VALUE_STALE : 0 };
+	return point < 200;
 }
 
 static bool is_published(void *context, const char *name, size_t len)
@@ -314,7 +322,7 @@ static void rig_open(struct rig *rig)
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_clock clock = { read_clock, set_clock };
 	const struct server_io io = {
-		rig, count_points, find_point, put_point, next_output, count_outputs, give_again, be_alone, find_window, are_good, is_published,
+		rig, count_points, find_point, put_point, next_output, count_outputs, give_again, be_alone, find_window, any_quality, find_value, is_published,
 	};
 	static const struct server_conf conf = { get_setting, change_setting };
 	static const char *_Atomic board_name = "b";

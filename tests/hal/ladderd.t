@@ -639,6 +639,18 @@ EOT
 	like(get('err'), qr/^%QX0\.0 1$/m, 'the other rungs go on');
 }
 
+# ---- a trace has values of words, and says which are not good ----
+{
+	my $file = put('words.rung', "RUNGBOARD 1\nVAR\n  Level AT %AIW0 : INT;\n  Twice AT %AQW0 : INT;\n  Share AT %QD8 : REAL;\n" .
+		"  Count : INT;\nEND_VAR\nPROGRAM Main ST\n  Count := Count + 1;\n  IF Count < 4 THEN\n    Twice := Level * 2 + Count;\n" .
+		"  END_IF;\n  Share := 0.5;\nEND_PROGRAM\n");
+	my $io = put('words.io', "BOARD \"b\"\nBUS m modbus-tcp host=127.0.0.1:9\n%AIW0 modbus bus=m unit=1 input-register=0 substitute=70\n" .
+		"%AQW0 sim\n%QD8 modbus bus=m unit=1 holding-register=4 as=REAL safe=0\n");
+	is(run($ladderd, $file, '--io', $io, '--scans', '20', '--trace-io'), 0, 'a map with words runs');
+	is(join(' ', get('err') =~ /^(%.*)$/mg), '%AIW0 70 stale %AQW0 141 %QD8 0.5 stale %AQW0 142 %AQW0 143',
+		'each change of an output and of a quality, once');
+}
+
 # ---- lines that fail, scans that hang, on every gpio driver ----
 for my $version (qw(v1 v2 uapi)) {
 	my $fake = "$build/tests/hal/ladderd_$version";

@@ -299,6 +299,9 @@ class Client:
             found['gateways'][driver] = {
                 'runs': it.number('B') == 1, 'points': it.number('I'), 'user': it.text(), 'text': it.text(),
                 'units': {it.text(): tuple(it.number('Q') for _ in range(3)) for _ in range(it.number('H'))}}
+        if it.rest():  # a small board has none
+            found['values'] = tuple(it.number('I') for _ in range(3))
+            found['not good'] = {it.text(): it.number('B') for _ in range(it.number('H'))}
         assert not it.rest()
         return found
 

@@ -260,6 +260,48 @@ def test_status_tells_what_a_gateway_says():
         until(lambda: not desk.status()['gateways']['modbus']['runs'])
 
 
+STALE, FAULT = 2, 6  # of a value: "quality" in docs/online.md
+
+
+def test_each_value_has_its_own_quality():
+    names = 'Level', 'Full', 'Speed', 'Other', 'Valve', 'Set', 'Local', 'Twice', '%IW0', '%IX10.0', '%IB10', '%MW0'
+    with plant() as board:
+        gateway, desk = as_gateway(board.socket, 'modbus'), board.client()
+
+        def quality():
+            desk.read(*names)
+            return {name: it for name, it in zip(names, desk.quality) if it}
+
+        until(lambda: quality() == {it: STALE for it in ['Level', 'Full', 'Speed', 'Valve', 'Set', '%IW0', '%IX10.0', '%IB10']})
+        status = desk.status()
+        assert status['values'] == (0, 5, 0), status
+        assert status['not good'] == {it: STALE for it in ['%IW0', '%IX10.0', '%IW2', '%QX0.0', '%QW2']}
+        # A device says something, something else fails.
+        gateway.io_put((VALVE, BOOL, True), (SET, INT, 0))
+        for _ in range(3):
+            gateway.io_put((FULL, BOOL, None))
+        until(lambda: quality() == {'Level': STALE, 'Full': FAULT, 'Speed': STALE, '%IW0': STALE, '%IX10.0': FAULT, '%IB10': FAULT})
+        assert desk.status()['values'] == (2, 2, 1)
+        # Whoever watches is told of another quality, though the value is the same.
+        watcher = board.client()
+        _request, types = watcher.publish(['Level', 'Full', 'Local'])
+        assert client.take_values(watcher.next_told()[1], types)[4] == {0: (STALE, 77), 1: (FAULT, 0), 2: (0, 0)}
+        gateway.io_put((FULL, BOOL, False))
+        assert client.take_values(watcher.next_told()[1], types)[4] == {1: (0, 0)}
+        for _ in range(3):
+            gateway.io_put((FULL, BOOL, None))
+        until(lambda: 'Full' in quality())
+        desk.force({'Level': (INT, 3)})
+        assert board.command('get', 'Level', 'Full', 'Local') == (0, 'Level=3 forced stale\nFull=0 fault\nLocal=0\n', '')
+        status, out, err = board.command('watch', 'Level', 'Full', 'Local', '--count', '1')
+        assert status == 0 and out.endswith(' Level=3!forced!stale Full=0!fault Local=0\n'), (out, err)
+        status, out, err = board.command('status')
+        assert status == 0 and '\nvalues: 2 good, 2 stale, 1 in fault\n  %IW0: stale\n  %IX10.0: fault\n  %IW2: stale\n' in out, (out, err)
+        status, out, err = board.command('status', '--json')
+        assert ('"values": {"good": 2, "stale": 2, "fault": 1, "not_good": '
+                '{"%IW0": "stale", "%IX10.0": "fault", "%IW2": "stale"}}' in out), (out, err)
+
+
 def test_another_map_is_told():
     with plant('--slots', '.') as board:
         gateway, desk = as_gateway(board.socket, 'modbus'), board.client()

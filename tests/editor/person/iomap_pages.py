@@ -194,4 +194,5 @@ def small(screen):
 
 small.size = '1024x700x24'
 pages.quick = 'editor-gtk/iomap'
-main([pages, lines, values, small])
+if __name__ == '__main__':
+    main([pages, lines, values, small])

@@ -42,7 +42,7 @@ class Board:
         self.folder = os.path.join(screen.home, name)
         os.makedirs(self.folder + '/slots')
         self.arguments = ['board.rung', '--io', 'board.io'] if program else ['', '--io', '']
-        for file, text in (('board.rung', program or ''), ('board.io', board), ('group', 'ladder-%s:x:%d:\n' % (role, os.getgid()))):
+        for file, text in (('board.rung', program or ''), ('board.io', board), ('group', ''.join('ladder-%s:x:%d:\n' % (it, os.getgid()) for it in role.split()))):
             with open(os.path.join(self.folder, file), 'w') as out:
                 out.write(text)
         self.where = 'unix:%s/link' % self.folder

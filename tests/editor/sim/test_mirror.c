@@ -94,7 +94,7 @@ static void publish(guint most)
 	for (guint i = 0; i < places->len; i++) {
 		const struct location at = g_array_index(places, struct location, i);
 
-		sim_mirror_value(mirror, at, image_is_forced(image, at), image_get(image, at));
+		sim_mirror_value(mirror, at, image_is_forced(image, at), SIM_GOOD, image_get(image, at));
 	}
 	g_array_unref(places);
 }
@@ -298,6 +298,14 @@ static void asks_for_what_is_seen(void)
 	CHECK(live_value_look(&seen, sim, false, place("Table[3]")) && seen.known);
 	CHECK_AS(!ladder_sim_knows(sim, place("Go")), "what is not published any more is unknown");
 	live_map_free(map);
+	/* Another quality of the same value. */
+	CHECK(seen.quality == SIM_GOOD && !*live_quality_text(seen.quality));
+	sim_mirror_value(mirror, place("Table[3]"), false, SIM_STALE, seen.value);
+	moment();
+	turn(0);
+	CHECK(live_value_look(&seen, sim, false, place("Table[3]")) && seen.quality == SIM_STALE);
+	CHECK(strcmp(live_quality_text(seen.quality), "⚠ stale") == 0 && strcmp(live_quality_word(SIM_VALUE_FAULT), "fault") == 0);
+	CHECK_AS(!live_value_look(&seen, sim, false, place("Table[3]")), "it is the same as before");
 }
 
 static int main_pou(void)

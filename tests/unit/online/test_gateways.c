@@ -153,10 +153,20 @@ static bool window(void *context, uint32_t number, struct server_window *out)
 	return true;
 }
 
-static bool good(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool lines)
+static uint32_t values; /* of the map */
+
+static uint8_t quality(void *context, enum iec_area area, uint32_t bit, uint32_t count, bool io_bad)
 {
 	(void)context, (void)area, (void)bit, (void)count;
-	return lines;
+	return io_bad ? VALUE_STALE : 0;
+}
+
+static bool find_value(void *context, uint32_t point, struct server_value *out)
+{
+	*out = (struct server_value){ .addr = { .area = AREA_AI, .bits = 16, .byte = 2 * point }, .counts = point != 1,
+				      .flags = point % 3 == 0 ? 0 : point % 3 == 1 ? VALUE_STALE : VALUE_STALE | VALUE_FAULT };
+	(void)context;
+	return point < values;
 }
 
 static bool publishes(void *context, const char *name, size_t len)
@@ -174,7 +184,7 @@ static const struct stored *running(void *context)
 	return &stored;
 }
 
-static struct server_io io = { NULL, points, find_point, put, next_output, count_outputs, again, alone, window, good, publishes };
+static struct server_io io = { NULL, points, find_point, put, next_output, count_outputs, again, alone, window, quality, find_value, publishes };
 static const struct server_store store = { .running = running };
 static const struct server_log events = { .add = log_add, .next = log_next };
 static const char *_Atomic board_name = "bench";
@@ -533,6 +543,7 @@ static void test_report(struct bench *bench)
 	static struct gateway_report report, bad;
 	static struct board_status status;
 	static struct gateways_status all;
+	static struct values_status good;
 	const int session = greet(bench, ROLE_IO, true, false);
 	const uint32_t map = begin(bench, session, "peer", REFUSAL_NONE);
 
@@ -545,7 +556,8 @@ static void test_report(struct bench *bench)
 	CHECK(ask(bench, session, SERVICE_STATUS) == REFUSAL_NONE);
 	status_take(&bench->frame.body, &status);
 	gateways_take(&bench->frame.body, &all);
-	CHECK(wire_done(&bench->frame.body) && all.count == 2);
+	values_take(&bench->frame.body, &good);
+	CHECK(wire_done(&bench->frame.body) && all.count == 2 && !good.good && !good.count);
 	CHECK(strcmp(all.gateway[0].driver, "modbus") == 0 && !all.gateway[0].runs && all.gateway[0].points == 3);
 	CHECK(strcmp(all.gateway[1].driver, "peer") == 0 && all.gateway[1].runs && all.gateway[1].points == 1 &&
 	      strcmp(all.gateway[1].user, "user") == 0);
@@ -562,6 +574,28 @@ static void test_report(struct bench *bench)
 	server_close(bench->server, session);
 }
 
+/* Of 301 points all but one count: of three one is stale and one in fault. */
+static void test_values(struct bench *bench)
+{
+	static struct board_status status;
+	static struct gateways_status all;
+	static struct values_status told;
+	const int session = greet(bench, ROLE_VIEW, false, false);
+
+	values = 301;
+	fields(bench);
+	CHECK(ask(bench, session, SERVICE_STATUS) == REFUSAL_NONE);
+	values = 0;
+	status_take(&bench->frame.body, &status);
+	gateways_take(&bench->frame.body, &all);
+	values_take(&bench->frame.body, &told);
+	CHECK(wire_done(&bench->frame.body) && told.good == 101 && told.stale == 99 && told.fault == 100);
+	CHECK(told.count == VALUES_TOLD && strcmp(told.bad[0].address, "%AIW4") == 0 && strcmp(told.bad[1].address, "%AIW8") == 0);
+	CHECK(strcmp(value_quality(told.bad[0].flags), "fault") == 0 && strcmp(value_quality(told.bad[1].flags), "stale") == 0 &&
+	      strcmp(value_quality(0), "good") == 0);
+	server_close(bench->server, session);
+}
+
 int main(void)
 {
 	static struct bench bench;
@@ -575,6 +609,7 @@ int main(void)
 		test_windows(&bench);
 		test_published(&bench);
 		test_report(&bench);
+		test_values(&bench);
 	}
 	bench_close(&bench);
 	return tap_done();

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""online_field - the inputs and outputs of a connected board: live values, and how good they are, wherever a person looks.
+
+The board is a ladderd of this machine. Its gateway is the client made from docs/online.md.
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, main, until  # noqa: E402
+from iomap_pages import open_map  # noqa: E402
+from online import Board, connect, says  # noqa: E402
+import client  # noqa: E402  of tests/online, whose folder online.py adds
+
+PROGRAM = '''RUNGBOARD 1
+PROJECT "Plant"
+
+VAR
+  Level AT %IW0    : INT;
+  Full  AT %IX10.0 : BOOL;
+  Speed AT %IW2    : INT;
+  Valve AT %QX0.0  : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Full | COIL Valve |
+RUNG
+  | [ Level > Speed ] | COIL %QX1.0 |
+END_PROGRAM
+'''
+MAP = '''BOARD "plant"
+BUS m    modbus-tcp host=127.0.0.1:9
+BUS yard peer interface=lo
+%IW0     modbus bus=m unit=1 input-register=0 stale=600s substitute=77
+%IX10.0  modbus bus=m unit=1 discrete-input=0 stale=600s
+%IW20..26 modbus bus=m unit=2 input-register=8 stale=600s
+%IW2     peer   from=far name=Speed stale=400ms
+%QX0.0   modbus bus=m unit=1 coil=0 safe=0
+%QX1.0   sim safe=0
+'''
+LEVEL, FULL, VALVE = 0, 1, 7
+
+
+def fact(editor, name, text):
+    """A line of the page with the state of the board."""
+    until(lambda: [node for node in editor.all(name, 'label') if text in node.text()], '%s: %s' % (name, text))
+
+
+def quality(screen):
+    """the panel, the table and the state of the board mark a value that is stale or in fault"""
+    board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng io')
+    for name, text in ('plant.rung', PROGRAM), ('plant.io', MAP):
+        with open(os.path.join(screen.home, name), 'w') as out:
+            out.write(text)
+    gateway = client.as_gateway(board.folder + '/link', 'modbus')
+    gateway.io_put((LEVEL, client.INT, 1200), (FULL, client.BOOL, True), (VALVE, client.BOOL, True))
+    editor = Editor(screen, os.path.join(screen.home, 'plant.rung'))
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'plant · RUN')
+    editor.find('Speed, %IW2, stale')
+    assert not editor.all('Level, %IW0, stale') and not editor.all('Full, %IX10.0, stale')
+    for _ in range(3):
+        gateway.io_put((FULL, client.BOOL, None))
+    editor.find('Full, %IX10.0, on, fault')
+    editor.shot('field-panel')
+    open_map(editor)
+    editor.tab('Modbus and modules (4)')
+    editor.find('%IW0, Value: 1200', 'push button')
+    editor.find('%IX10.0, Value: 1, fault', 'push button')
+    editor.find('%IW20..26, Value: 0 0 0 0, stale', 'push button')
+    editor.shot('field-table')
+    gateway.io_put((FULL, client.BOOL, False), (LEVEL, client.INT, 1300))
+    editor.find('%IW0, Value: 1300', 'push button')
+    until(lambda: not editor.all('%IX10.0, Value: 0, fault'), 'the input to be good')
+    editor.find('%IX10.0, Value: 0', 'push button')
+    editor.tab('Other boards (1)')
+    editor.find('%IW2, Value: 0, stale', 'push button')
+    editor.command('State of the board')
+    fact(editor, 'Values of the I/O map', '3 good, 5 stale, 0 in fault')
+    fact(editor, 'Values that are not good', '%IW2 ⚠ stale')
+    fact(editor, 'Gateway modbus', 'points: 7')
+    editor.shot('field-state')
+    gateway.close()
+    fact(editor, 'Values of the I/O map', '0 good, 8 stale, 0 in fault')
+    fact(editor, 'Gateway modbus', 'points: 7, the program is not there')
+    board.stop()
+
+
+if __name__ == "__main__":
+    main([quality])
