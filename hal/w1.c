@@ -83,15 +83,16 @@ static bool see_sensor(void *context, const char *name)
 	struct trouble why;
 	char text[SYSFS_TEXT];
 	double number;
+	bool answers;
 
 	if (!strchr(name, '-') || !w1_find(list->search, &point, &device, &why))
 		return true;
-	seen.has_value = sysfs_read(device.path, text, sizeof(text)) == 0 &&
-			 w1_parse(&device, text, &number);
+	answers = sysfs_read(device.path, text, sizeof(text)) == 0;
+	seen.has_value = answers && w1_parse(&device, text, &number);
 	if (seen.has_value)
 		seen.value = number * device.scale;
 	else
-		seen.problem = text;
+		seen.problem = answers ? "no valid measurement" : "it does not answer";
 	list->visit(list->context, &seen);
 	return true;
 }

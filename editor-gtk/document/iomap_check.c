@@ -47,6 +47,7 @@ void io_machine_look(struct io_machine *out, const char *dev)
 	diag_init(&out->diags);
 	out->line = NULL;
 	out->count = 0;
+	out->elsewhere = false;
 	hal_list(dev, add_line, out, &out->diags);
 }
 
@@ -181,6 +182,42 @@ static void check_twice(struct io_check *check, int index)
 	}
 }
 
+static bool has_chip(const struct io_found *line, const char *chip)
+{
+	const char *name = strncmp(chip, "/dev/", 5) == 0 ? chip + 5 : chip;
+
+	return strcmp(line->chip, name) == 0 || strcmp(line->label, chip) == 0;
+}
+
+/* The line of a point among those of a board, which cannot be asked as this machine can. */
+static int find_elsewhere(const struct io_machine *machine, const struct io_point *point, enum diag_id *why)
+{
+	*why = point->line ? DIAG_IO_NO_LINE : DIAG_IO_NO_CHIP;
+	for (int i = 0; i < machine->count; i++) {
+		const struct io_found *line = &machine->line[i];
+
+		if (point->line ? strcmp(line->name, point->line) == 0 :
+		    has_chip(line, point->chip) && line->offset == point->offset)
+			return i;
+	}
+	return -1;
+}
+
+static void place_elsewhere(struct io_check *check, int index, const struct io_machine *machine)
+{
+	struct io_placed *placed = &check->placed[index];
+	enum diag_id why;
+
+	if (placed->point->driver != DRIVER_gpio)
+		return;
+	placed->found = find_elsewhere(machine, placed->point, &why);
+	if (placed->found >= 0)
+		check_twice(check, index);
+	else
+		diag_add(&check->here, io_place(&check->map, placed->point, why), "%s",
+			 placed->point->line ? placed->point->line : placed->point->chip);
+}
+
 static void place(struct io_check *check, int index, const struct io_machine *machine,
 		  const char *dev)
 {
@@ -189,6 +226,10 @@ static void place(struct io_check *check, int index, const struct io_machine *ma
 	struct trouble why;
 	struct line_at at;
 
+	if (machine && machine->elsewhere) {
+		place_elsewhere(check, index, machine);
+		return;
+	}
 	if (!driver->open && !driver->by_channel)
 		diag_add(&check->here, io_place(&check->map, placed->point,
 						DIAG_IO_NO_DRIVER), "%s", driver->word);

@@ -10,7 +10,7 @@
 
 #include "hal/drivers.h"
 
-/* A line of this machine. */
+/* A line of this machine, or of a connected board. */
 struct io_found {
 	const char *chip, *label, *name, *owner; /* name, owner: may be ""     */
 	uint32_t offset;
@@ -21,6 +21,7 @@ struct io_machine {
 	struct arena arena;
 	struct io_found *line;
 	int count;
+	bool elsewhere;         /* these lines are those of a connected board   */
 	struct diag_list diags; /* chips that could not be opened              */
 };
 

@@ -132,14 +132,22 @@ char *iomap_field(const struct io_text *io, int row, enum io_field field)
 	return out;
 }
 
-/* What is wrong with the row, else its line on this machine. */
+/* Caller: g_free(). */
+static char *said_of_row(const struct io_machine *machine, const struct diag *diag)
+{
+	if (machine->elsewhere && (diag->id == DIAG_IO_NO_LINE || diag->id == DIAG_IO_NO_CHIP))
+		return g_strdup_printf(_("\"%s\": the connected board has no such line"), diag->arg);
+	return diag_said_whole(diag);
+}
+
+/* What is wrong with the row, else its line on this machine or on the board. */
 static char *state_of(const struct io_machine *machine, const struct io_placed *placed,
 		      const struct diag *diag)
 {
 	const struct io_found *found;
 
 	if (diag)
-		return diag_said_whole(diag);
+		return said_of_row(machine, diag);
 	if (placed && placed->point->driver == DRIVER_sim)
 		return g_strdup(_("simulated"));
 	if (!placed || placed->found < 0)
@@ -148,11 +156,11 @@ static char *state_of(const struct io_machine *machine, const struct io_placed *
 	return g_strdup_printf("%s %u", found->chip, (unsigned)found->offset);
 }
 
-static void fill_note(LadderPanelRow *row, const struct diag *diag, bool warns)
+static void fill_note(LadderPanelRow *row, const struct io_machine *machine, const struct diag *diag, bool warns)
 {
 	if (!diag)
 		return;
-	row->note = diag_said_whole(diag);
+	row->note = said_of_row(machine, diag);
 	row->tone = warns ? PANEL_WARNING : PANEL_ERROR;
 }
 
@@ -218,7 +226,7 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 	row->table = (int)page;
 	row->index = number;
 	row->number = number;
-	fill_note(row, diag, warns);
+	fill_note(row, machine, diag, warns);
 	row->spoken = spoken(row, page);
 	return row;
 }
@@ -518,8 +526,8 @@ static void offer_names(const struct io_uses *uses, GPtrArray *choices)
 }
 
 /* Devices of the driver of the row, each once; or the channels of its device. */
-static void offer_devices(const struct io_devices *devices, const struct io_text *io, int row, bool channels,
-			  GPtrArray *choices)
+static void offer_devices(const struct io_devices *devices, bool elsewhere, const struct io_text *io, int row,
+			  bool channels, GPtrArray *choices)
 {
 	char *of = row < 0 ? g_strdup("") : iomap_field(io, row, IO_DEVICE);
 	const char *last = NULL;
@@ -535,7 +543,7 @@ static void offer_devices(const struct io_devices *devices, const struct io_text
 		last = device->device;
 	}
 	if (!choices->len)
-		offer(choices, "", _("this machine has none"));
+		offer(choices, "", elsewhere ? _("the connected board has none") : _("this machine has none"));
 	g_free(of);
 }
 
@@ -550,8 +558,8 @@ GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *ma
 	case IO_ADDRESS: offer_addresses(uses, io, row, choices); break;
 	case IO_LINE: offer_lines(machine, choices); break;
 	case IO_DRIVER: offer_drivers(io, row, choices); break;
-	case IO_DEVICE: offer_devices(devices, io, row, false, choices); break;
-	case IO_CHANNEL: offer_devices(devices, io, row, true, choices); break;
+	case IO_DEVICE: offer_devices(devices, machine->elsewhere, io, row, false, choices); break;
+	case IO_CHANNEL: offer_devices(devices, machine->elsewhere, io, row, true, choices); break;
 	case IO_BUS: offer_buses(io, row, choices); break;
 	case IO_TYPE: offer_modules(io, choices); break;
 	case IO_AS: offer_types(io, row, false, choices); break;

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/online/board_devices.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +31,8 @@ struct _LadderIomapView {
 	struct page page[IOMAP_PAGES];
 	enum iomap_page now;    /* the visible page                            */
 	struct iomap_live live;
+	LadderBoardLink *link;  /* NULL: none yet                              */
+	bool connected;         /* lines and devices are those of the board, or will be */
 	struct panel_watch *watch;
 	struct io_machine machine;
 	struct io_devices devices;
@@ -479,7 +482,7 @@ static void looked(GObject *source, GAsyncResult *result, gpointer data)
 	struct io_devices *devices = g_task_propagate_pointer(G_TASK(result), NULL);
 
 	(void)source;
-	if (view && devices) {
+	if (view && devices && !view->connected) {
 		io_devices_free(&view->devices);
 		view->devices = *devices;
 		g_free(devices);
@@ -504,16 +507,62 @@ static void look_for_devices(LadderIomapView *view)
 	g_object_unref(task);
 }
 
+static void devices_came(gpointer owner, struct board_devices *came)
+{
+	LadderIomapView *view = owner;
+
+	if (view->connected && view->watch) {
+		io_machine_free(&view->machine);
+		io_devices_free(&view->devices);
+		view->machine = came->machine;
+		view->devices = came->devices;
+		g_free(came);
+		tell(view, NULL);
+	} else {
+		board_devices_free(came);
+	}
+}
+
+static void look(LadderIomapView *view)
+{
+	if (view->connected) {
+		board_devices_ask(view->link, G_OBJECT(view), devices_came);
+		return;
+	}
+	io_machine_free(&view->machine);
+	io_machine_look(&view->machine, NULL);
+	look_for_devices(view);
+	tell(view, NULL);
+}
+
 static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
 
 	(void)action;
 	(void)unused;
-	io_machine_free(&view->machine);
-	io_machine_look(&view->machine, NULL);
-	look_for_devices(view);
-	tell(view, NULL);
+	look(view);
+}
+
+/* The board is there, or has gone. */
+static void link_changed(LadderIomapView *view)
+{
+	const bool connected = ladder_board_link_state(view->link) == LINK_CONNECTED &&
+			       ladder_board_link_may(view->link, SERVICE_DEVICES);
+
+	if (!view->watch || connected == view->connected)
+		return; /* or the view is disposed */
+	view->connected = connected;
+	look(view);
+}
+
+void ladder_iomap_view_connect(LadderIomapView *view, LadderBoardLink *link)
+{
+	if (view->link)
+		return;
+	view->link = g_object_ref(link);
+	g_signal_connect_object(link, "state-changed", G_CALLBACK(link_changed), view, G_CONNECT_SWAPPED);
+	link_changed(view);
 }
 
 /* ---- messages ---- */
@@ -559,6 +608,9 @@ static void find_said(LadderIomapView *view, const struct io_check *check,
 		view->said = iomap_first_doubt(check);
 	if (!view->said && view->machine.diags.count)
 		view->said = diag_said_whole(&view->machine.diags.diag[0]);
+	else if (!view->said && view->machine.elsewhere)
+		view->said = g_strdup_printf(_("Lines and devices to choose from are those of “%s”."),
+					     ladder_board_link_board(view->link));
 	else if (!view->said && !view->machine.count)
 		view->said = g_strdup(_("This machine has no GPIO lines. Check on the "
 					"board whether the map fits it."));
@@ -742,6 +794,9 @@ static void ladder_iomap_view_dispose(GObject *object)
 	for (int i = 0; i < IOMAP_PAGES; i++)
 		panel_list_clear(&view->page[i].list);
 	iomap_live_clear(&view->live);
+	if (view->link)
+		g_signal_handlers_disconnect_by_data(view->link, view);
+	g_clear_object(&view->link);
 	G_OBJECT_CLASS(ladder_iomap_view_parent_class)->dispose(object);
 }
 
@@ -971,7 +1026,7 @@ static void turn(LadderIomapView *view)
 			view->now = (enum iomap_page)i;
 	}
 	show_kinds(view);
-	if (view->now == IOMAP_ANALOG && !view->looked)
+	if (view->now == IOMAP_ANALOG && !view->looked && !view->connected)
 		look_for_devices(view);
 	tell(view, NULL);
 }

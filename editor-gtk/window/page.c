@@ -129,6 +129,8 @@ void page_follow(struct core *core, AdwTabPage *page)
 	if (table_of(page))
 		ladder_iomap_view_follow(table_of(page), core->sim);
 	if (table_of(page))
+		ladder_iomap_view_connect(table_of(page), core->link);
+	if (table_of(page))
 		core_connect(core, table_of(page), "turned", G_CALLBACK(changed), core,
 			     G_CONNECT_SWAPPED);
 	if (buffer)

@@ -817,7 +817,7 @@ static const struct action {
 	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
 	{ "compare", true, remote_compare }, { "alarms", true, remote_alarms },
-	{ "time", true, remote_time },
+	{ "time", true, remote_time },     { "devices", false, remote_devices },
 };
 
 bool remote_again(struct remote *remote)

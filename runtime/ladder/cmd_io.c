@@ -91,8 +91,9 @@ static bool is_wrong(const struct diag_list *diags,
 	return false;
 }
 
+/* @value: NULL: none has one. */
 static void print_points(const struct call *call, const struct iomap *map,
-			 const struct diag_list *diags)
+			 const struct diag_list *diags, char (*value)[DEVICE_VALUE])
 {
 	const struct sink *out = &call->out;
 	char address[24], line[80];
@@ -102,15 +103,16 @@ static void print_points(const struct call *call, const struct iomap *map,
 
 		iec_addr_print(point->addr, address, sizeof(address));
 		io_line_print(point, line, sizeof(line));
-		sink_printf(out, "%-10s %-6s %-28s %-6s %s\n", address,
+		sink_printf(out, "%-10s %-6s %-28s %-6s %s", address,
 			    driver_row(point->driver)->word, line,
 			    point->output ? "output" : "input",
 			    is_wrong(diags, point) ? "wrong" : "good");
+		sink_printf(out, "%s%s\n", value && *value[i] ? "   " : "", value ? value[i] : "");
 	}
 }
 
 static void json_points(const struct call *call, const struct iomap *map,
-			const struct diag_list *diags)
+			const struct diag_list *diags, char (*value)[DEVICE_VALUE])
 {
 	const struct sink *out = &call->out;
 	char text[80];
@@ -128,6 +130,8 @@ static void json_points(const struct call *call, const struct iomap *map,
 		report_json_field("driver", driver_row(point->driver)->word, out);
 		io_line_print(point, text, sizeof(text));
 		report_json_field("line", text, out);
+		if (value && *value[i])
+			report_json_field("value", value[i], out);
 		sink_printf(out, ", \"output\": %s, \"good\": %s}",
 			    point->output ? "true" : "false",
 			    is_wrong(diags, point) ? "false" : "true");
@@ -141,17 +145,20 @@ static enum status check_map(struct call *call, const struct iomap *map,
 			     struct diag_list *diags)
 {
 	struct arena scratch;
+	char (*value)[DEVICE_VALUE];
 	bool good;
 
 	arena_init(&scratch);
 	good = hal_supported(map, diags) && hal_check(map, &scratch, diags);
 	arena_free(&scratch);
+	value = devices_values(map);
 	if (call_flag(call, "--json")) {
-		json_points(call, map, diags);
+		json_points(call, map, diags, value);
 	} else {
 		report_diags(diags);
-		print_points(call, map, diags);
+		print_points(call, map, diags, value);
 	}
+	free(value);
 	return good ? STATUS_GOOD : STATUS_NO;
 }
 
@@ -198,7 +205,7 @@ static enum status with_map(struct call *call, struct diag_list *diags)
 		status = picture ? show_map(call, &map, &arena, diags) :
 				   check_map(call, &map, diags);
 	else if (call_flag(call, "--json"))
-		json_points(call, &map, diags);
+		json_points(call, &map, diags, NULL);
 	else
 		report_diags(diags);
 	arena_free(&arena);

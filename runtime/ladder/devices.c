@@ -10,6 +10,7 @@
 #include "hal/drivers.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct list {
@@ -58,6 +59,60 @@ int devices_print(const struct sink *out)
 
 	channels_list(NULL, print_one, &list);
 	return list.count;
+}
+
+/* ---- of a map ---- */
+
+struct map_values {
+	const struct iomap *map;
+	char (*text)[DEVICE_VALUE];
+};
+
+static bool is_named(const char *name, const struct device_seen *seen)
+{
+	return name && (strcmp(name, seen->device) == 0 || (*seen->label && strcmp(name, seen->label) == 0));
+}
+
+static bool is_of(const struct io_point *point, const struct device_seen *seen)
+{
+	char number[12];
+
+	if (point->driver != seen->driver || point->output != seen->output || !is_named(point->channel->device, seen))
+		return false;
+	snprintf(number, sizeof(number), "%u", (unsigned)point->channel->number);
+	return !*seen->channel || strcmp(point->channel->name ? point->channel->name : number, seen->channel) == 0;
+}
+
+static void take_value(void *context, const struct device_seen *seen)
+{
+	const struct map_values *values = context;
+
+	for (int i = 0; i < values->map->count; i++) {
+		char *text = values->text[i];
+
+		if (!values->map->point[i].channel || !is_of(&values->map->point[i], seen))
+			continue;
+		if (seen->has_value)
+			snprintf(text, DEVICE_VALUE, "%.9g%s%s", seen->value, seen->unit == UNIT_NONE ? "" : " ",
+				 unit_word(seen->unit));
+		else
+			snprintf(text, DEVICE_VALUE, "%.47s", seen->problem);
+	}
+}
+
+char (*devices_values(const struct iomap *map))[DEVICE_VALUE]
+{
+	struct map_values values = { map, NULL };
+	bool any = false;
+
+	for (int i = 0; i < map->count; i++)
+		any = any || (map->point[i].channel && map->point[i].channel->device &&
+			      map->point[i].driver != DRIVER_peer);
+	if (any)
+		values.text = calloc((size_t)map->count, sizeof(*values.text));
+	if (values.text)
+		channels_list(map->sys, take_value, &values);
+	return values.text;
 }
 
 static void json_one(void *context, const struct device_seen *seen)

@@ -126,6 +126,8 @@ enum status remote_restore(struct remote *remote);
 enum status remote_record(struct remote *remote);
 enum status remote_alarms(struct remote *remote);
 enum status remote_time(struct remote *remote);
+/** remote_devices - board_devices.c */
+enum status remote_devices(struct remote *remote);
 /** remote_print_alarms - a line of `status`, or a field: how many alarms are active; none, or null,
  * if the board keeps no list. */
 void remote_print_alarms(struct remote *remote);

@@ -12,6 +12,7 @@
 #include "ladderd/control.h"
 #include "ladderd/download.h"
 #include "ladderd/gateways.h"
+#include "ladderd/machine.h"
 #include "ladderd/ends.h"
 #include "ladderd/alarm_store.h"
 #include "ladderd/clock.h"
@@ -90,6 +91,8 @@ struct link {
 	_Atomic(struct asks *) asks;   /* of the program and the map that run  */
 	struct asks *asks_before;      /* the scan thread may still look at it */
 	struct server_io io;
+	struct machine *machine;
+	struct server_machine devices;
 	const struct iomap *first_map; /* of the program that ladderd began with */
 	struct channels *first_channels;
 	struct server_log log;
@@ -1209,6 +1212,7 @@ void link_free(struct link *link)
 		return;
 	server_free(link->server);
 	gateways_free(&link->gateways);
+	machine_free(link->machine);
 	journal_close(link->journal);
 	alarm_store_close(&link->alarm_store, &link->alarms.list);
 	free(link->alarms.before);
@@ -1294,7 +1298,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,
-		.io = &link->io,
+		.io = &link->io, .machine = &link->devices,
 	};
 
 	link->views = calloc(3, size);
@@ -1331,6 +1335,8 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->first_channels = hal_channels(&cycle->hal);
 	use_map(link, cycle->resource.image.program, link->first_map, link->first_channels);
 	link->io = gateways_io(&link->gateways);
+	link->machine = machine_new(cycle->hal.map->dev, cycle->hal.map->sys);
+	link->devices = machine_io(link->machine);
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);
 	link->alarms.clock_ns = clock_wall;
@@ -1339,7 +1345,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->server = server_new(&setup);
 	link->download = download_new(link->with.slots, cycle, link->with.map_text,
 				      link->with.map_len);
-	return link->server && link->download && link->journal;
+	return link->server && link->machine && link->download && link->journal;
 }
 
 static struct link *open_socket(struct link *link, const struct options *options)

@@ -4,7 +4,7 @@
  *
  * server.c has sessions and requests. The services are in serve_board.c (who is there, mode,
  * settings, password), serve_values.c (reading, watching, writing, forcing), serve_download.c
- * (programs), serve_files.c (retained values, log, record), serve_alarms.c and serve_io.c (gateways). Only these
+ * (programs), serve_files.c (retained values, log, record), serve_alarms.c, serve_io.c (gateways) and serve_machine.c. Only these
  * files include this one.
  */
 #ifndef ONLINE_SERVE_H
@@ -187,6 +187,8 @@ enum refusal serve_io_put(struct asked *asked);
 enum refusal serve_io_outputs(struct asked *asked);
 enum refusal serve_io_window(struct asked *asked);
 enum refusal serve_io_report(struct asked *asked);
+
+enum refusal serve_devices(struct asked *asked);
 
 /* ---- serve_io.c, for the others ---- */
 

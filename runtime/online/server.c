@@ -316,6 +316,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_io_window(asked);
 	case SERVICE_IO_REPORT:
 		return serve_io_report(asked);
+	case SERVICE_DEVICES:
+		return serve_devices(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }

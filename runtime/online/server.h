@@ -15,6 +15,7 @@
 #include "online/board_time.h"
 #include "online/event.h"
 #include "online/exchange.h"
+#include "online/machine.h"
 #include "online/publish.h"
 #include "online/report.h"
 #include "online/retained.h"
@@ -158,6 +159,15 @@ struct server_io {
 	bool (*publishes)(void *context, const char *name, size_t len);
 };
 
+/* The lines and devices of the board; by the link thread. */
+struct server_machine {
+	void *context;
+	/** Whether the list is ready. If there is none yet, or @anew, one is begun; it is ready later. */
+	bool (*look)(void *context, bool anew);
+	/** Fails: false: there are no more rows. */
+	bool (*row)(void *context, uint32_t number, struct machine_row *out);
+};
+
 struct server_setup {
 	struct exchange *exchange;
 	const struct program *program;
@@ -170,6 +180,7 @@ struct server_setup {
 	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
 	const struct server_io *io; /* NULL: no gateways                       */
+	const struct server_machine *machine; /* NULL: it tells no devices     */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */
 	bool (*wait)(void *context);

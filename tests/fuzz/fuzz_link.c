@@ -35,6 +35,7 @@ struct rig {
 	int64_t now_ns;
 	uint64_t given[8];     /* of outputs                                  */
 	struct server_io io;
+	struct server_machine machine;
 };
 
 static struct resource *its_resource(void *context)
@@ -312,6 +313,22 @@ static const struct program *its_program(void)
 	return ladder_program(ladder);
 }
 
+static bool looks(void *context, bool anew)
+{
+	(void)context;
+	return !anew;
+}
+
+static bool find_machine(void *context, uint32_t number, struct machine_row *out)
+{
+	(void)context;
+	memset(out, 0, sizeof(*out));
+	memcpy(out->driver, "gpio", 5);
+	memset(out->device, 'x', sizeof(out->device) - 1);
+	out->offset = number;
+	return number < 300;
+}
+
 static void rig_open(struct rig *rig)
 {
 	static const struct server_log log = { log_nothing, no_event };
@@ -327,12 +344,14 @@ static void rig_open(struct rig *rig)
 	static const struct server_conf conf = { get_setting, change_setting };
 	static const char *_Atomic board_name = "b";
 	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = &board_name, .wait = serve_now, .amend = amend,
-				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock, .io = &rig->io };
+				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock, .io = &rig->io,
+				      .machine = &rig->machine };
 
 	size_t size;
 
 	memset(rig, 0, sizeof(*rig));
 	rig->io = io;
+	rig->machine = (struct server_machine){ rig, looks, find_machine };
 	rig->alarms.clock_ns = no_clock;
 	alarm_list_raise(&rig->alarms.list, ALARM_IO, true, 1);
 	setup.program = its_program();
@@ -666,6 +685,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_IO_WINDOW:
 	case SERVICE_IO_REPORT:
 		put_io(out, service);
+		break;
+	case SERVICE_DEVICES:
+		wire_put_u8(out, 0);
+		wire_put_u32(out, 3);
 		break;
 	}
 }

@@ -6,6 +6,7 @@
 use strict;
 use warnings;
 use Cwd qw(abs_path);
+use File::Path qw(make_path);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
@@ -135,6 +136,27 @@ for my $kind (qw(v1 v2 uapi)) {
 	($status, $out, $err) = io('panel.io', '--program', 'bad.rung');
 	is("$status$out", '1', "$kind: a bad program");
 	like($err, qr/LD301/, "$kind: its error");
+
+	# ---- a map with values of devices ----
+	{
+		local $ENV{FAKE_SYS} = "$dir/sys";
+		unlink 'taken';
+		make_path("$dir/sys/$_") for 'bus/w1/devices/28-1', 'bus/w1/devices/28-2', 'class/hwmon/hwmon0';
+		put('sys/bus/w1/devices/28-1/temperature', "21437\n");
+		put('sys/bus/w1/devices/28-2/temperature', "85000\n");
+		put('sys/class/hwmon/hwmon0/name', "cpu_thermal\n");
+		put('sys/class/hwmon/hwmon0/temp1_input', "48312\n");
+		put('analog.io', "BOARD \"b\"\nBUS m modbus-tcp host=127.0.0.1\n%AIW0 w1 sensor=28-1\n%AIW2 hwmon device=cpu_thermal channel=temp1\n" .
+			"%AIW4 w1 sensor=28-2\n%AIW6 hwmon device=hwmon0 channel=temp1\n" .
+			"%AIW8 modbus bus=m unit=1 input-register=0\n%IX0.0 gpio line=IN0\n");
+		($status, $out, $err) = io('analog.io');
+		is($status, 0, "$kind: a map with devices") or diag $err;
+		like($out, qr/^%AIW0 +w1 .* good   21\.437 \x{c2}\x{b0}C\n%AIW2 +hwmon .* good   48\.312 \x{c2}\x{b0}C\n%AIW4 +w1 .* good   no valid measurement\n%AIW6 +hwmon .* good   48\.312 /m,
+		     "$kind: each line of a device with its value, or why there is none");
+		like($out, qr/^%AIW8 +modbus .* good\n%IX0\.0 +gpio .* good\n/m, "$kind: others without");
+		($status, $out) = io('--json', 'analog.io');
+		is(decode_json($out)->{points}[0]{value}, "21.437 \x{b0}C", "$kind: the value in JSON");
+	}
 
 	# ---- live ----
 	SKIP: {

@@ -3,11 +3,14 @@
  * io_fake - `ladder` with fake chips, for `ladder io`. The environment controls the chips:
  *
  *   FAKE_DEV     folder in place of /dev
+ *   FAKE_SYS     folder in place of /sys, for a map
  *   FAKE_TAKEN   while a file of this name exists, ladderd uses three lines
  *   FAKE_LEVELS  file in place of the kernel's list of levels
  *   FAKE_DENIED  the second chip cannot be opened
  */
 #include "tests/hal/fake.h"
+
+#include "hal/iomap.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -41,6 +44,20 @@ FILE *__wrap_fopen(const char *path, const char *mode)
 FILE *__wrap_fopen64(const char *path, const char *mode)
 {
 	return __wrap_fopen(path, mode);
+}
+
+bool __real_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
+		       size_t len, struct diag_list *diags);
+bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
+		       size_t len, struct diag_list *diags);
+
+bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
+		       size_t len, struct diag_list *diags)
+{
+	const bool good = __real_iomap_read(map, arena, file, text, len, diags);
+
+	map->sys = getenv("FAKE_SYS");
+	return good;
 }
 
 static void set_up(void)

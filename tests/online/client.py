@@ -13,7 +13,7 @@ import tty
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN, PASSWORD) = range(1, 22)
 ALARMS, ACK, CLOCK = 32, 33, 35
 RECORD, SUMS, PIECES = 22, 23, 24
-IO_BEGIN, IO_MAP, IO_PUT, IO_OUTPUTS, IO_WINDOW, IO_REPORT = range(36, 42)
+IO_BEGIN, IO_MAP, IO_PUT, IO_OUTPUTS, IO_WINDOW, IO_REPORT, DEVICES = range(36, 43)
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -304,6 +304,19 @@ class Client:
             found['not good'] = {it.text(): it.number('B') for _ in range(it.number('H'))}
         assert not it.rest()
         return found
+
+    def devices(self, anew=True):
+        """[(driver, device, label, channel, about, unit, offset, flags, value)], once the board has looked."""
+        found, first = [], 0
+        while True:
+            it = self.call(DEVICES, struct.pack('<BI', anew, first))
+            ready, first, anew = it.number('B'), it.number('I'), False
+            for _ in range(it.number('H')):
+                found.append((*(it.text() for _ in range(6)), it.number('I'), it.number('B'), it.number('d')))
+            assert not it.rest()
+            if ready and not first:
+                return found
+            time.sleep(0 if ready else 0.02)
 
     def symbols(self):
         found, first = {}, 0

@@ -410,6 +410,62 @@ def test_gateways_that_are_killed_delay_no_scan():
 
 test_gateways_that_are_killed_delay_no_scan.as_is = True
 
+link.PROGRAMS += ('tests/hal/ladderd_v2',)
+
+
+class MachineBoard(Board):
+    """A board with files in place of the kernel's: a chip, a sensor, a converter."""
+    ladderd = '/tests/hal/ladderd_v2'
+
+    def start(self, wait=True):
+        self.write('gpiochip0', '')
+        for name, text in [('bus/w1/devices/28-1/temperature', '21437\n'), ('class/hwmon/hwmon0/name', 'cpu_thermal\n'),
+                           ('class/hwmon/hwmon0/temp1_input', '48312\n'), ('class/pwm/pwmchip0/npwm', '1\n')]:
+            os.makedirs(os.path.dirname(f'{self.folder}/sys/{name}'), exist_ok=True)
+            self.write('sys/' + name, text)
+        os.environ.update(FAKE_DEV=self.folder, FAKE_SYS=self.folder + '/sys')
+        super().start(wait)
+
+
+def test_a_desk_is_told_what_lines_and_devices_the_board_has():
+    with MachineBoard(PLANT, board=MAP.replace('%QX0.1 sim', '%QX0.1 gpio line=OUT0')) as board:
+        desk = board.client()
+        found = desk.devices()
+        assert ('gpio', 'gpiochip0', 'panel', 'IN0', '', '', 0, 0, 0.0) in found and len(found) == 7, found
+        line = next(it for it in found if it[3] == 'OUT0')
+        assert line[4] == 'ladderd' and line[7] == 3, line
+        assert ('w1', '28-1', '', '', '', '\u00b0C', 0, 4, 21.437) in found, found
+        assert any(it[:2] == ('hwmon', 'cpu_thermal') and it[3] == 'temp1' and it[8] == 48.312 for it in found), found
+        assert any(it[0] == 'pwm' and it[7] & 1 for it in found), found
+        # What is there is looked at again when somebody asks for that.
+        board.write('sys/bus/w1/devices/28-1/temperature', '30000\n')
+        assert any(it[8] == 21.437 for it in desk.devices(False)) and any(it[8] == 30.0 for it in desk.devices())
+        # A sensor that does not answer delays no other request.
+        os.unlink(board.folder + '/sys/bus/w1/devices/28-1/temperature')
+        os.mkfifo(board.folder + '/sys/bus/w1/devices/28-1/temperature')
+        os.chmod(board.folder + '/sys/bus/w1/devices/28-1/temperature', 0o666)
+        it = desk.call(client.DEVICES, struct.pack('<BI', 1, 0))
+        assert (it.number('B'), it.number('I'), it.number('H')) == (0, 0, 0)
+        scans = desk.status()['scans']
+        until(lambda: desk.status()['scans'] > scans + 20)
+        assert desk.call(client.DEVICES, struct.pack('<BI', 0, 0)).number('B') == 0
+        with open(board.folder + '/sys/bus/w1/devices/28-1/temperature', 'w') as sensor:
+            sensor.write('12000\n')
+        assert any(it[8] == 12.0 for it in desk.devices(False))
+        os.unlink(board.folder + '/sys/bus/w1/devices/28-1/temperature')
+        status, out, err = board.command('devices')
+        assert status == 0 and '\ngpio   panel 0                  IN0          input  -\n' in out, (out, err)
+        assert '\ngpio   panel 2                  OUT0         output used by ladderd\n' in out, out
+        status, out, err = board.command('devices', '--json')
+        assert status == 0 and '{"driver": "gpio", "device": "gpiochip0", "label": "panel", "channel": "OUT0", "offset": 2' in out, (out, err)
+        refused(1, lambda: desk.call(client.DEVICES, b'\0'))
+
+
+def test_the_end_waits_for_a_sensor_at_most_as_long_as_it_takes():
+    with MachineBoard(PLANT, board=MAP) as board:
+        board.client().call(client.DEVICES, struct.pack('<BI', 1, 0))
+        assert board.stop() == 0
+
 
 if __name__ == '__main__':
     sys.exit(link.main(globals()))

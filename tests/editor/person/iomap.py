@@ -499,4 +499,5 @@ def in_chinese(screen):
 
 in_chinese.size = '1024x700x24'
 table.quick = 'editor-gtk/iomap'
-main([table, undone, choices, given_up, added, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])
+if __name__ == '__main__':
+    main([table, undone, choices, given_up, added, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])

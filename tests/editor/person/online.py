@@ -37,8 +37,9 @@ MAP = 'BOARD "garage"\n%IX0.0 sim\n%QX0.0 sim\n'
 class Board:
     """A ladderd with --link in a folder of its own. The screen ends it if a test fails."""
 
-    def __init__(self, screen, name, program=SEAL, role='eng', board=MAP, options=()):
+    def __init__(self, screen, name, program=SEAL, role='eng', board=MAP, options=(), daemon='ladderd', env=None):
         self.screen, self.options = screen, options
+        self.ladderd, self.env = os.path.join(os.path.abspath(BUILD), daemon), {**os.environ, **(env or {})}
         self.folder = os.path.join(screen.home, name)
         os.makedirs(self.folder + '/slots')
         self.arguments = ['board.rung', '--io', 'board.io'] if program else ['', '--io', '']
@@ -55,9 +56,9 @@ class Board:
 
     def start(self):
         self.daemon = subprocess.Popen(
-            [os.path.join(os.path.abspath(BUILD), 'ladderd'), *self.arguments, '--link', 'link', '--groups', 'group',
+            [self.ladderd, *self.arguments, '--link', 'link', '--groups', 'group',
              '--slots', 'slots', *self.options], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL)
+            stderr=subprocess.DEVNULL, env=self.env)
         self.screen.running.append(self.daemon)
         until(self.listens, 'the board')
 

@@ -9,6 +9,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, main, until  # noqa: E402
+from iomap import row_says  # noqa: E402
 from iomap_pages import open_map  # noqa: E402
 from online import Board, connect, says  # noqa: E402
 import client  # noqa: E402  of tests/online, whose folder online.py adds
@@ -89,5 +90,54 @@ def quality(screen):
     board.stop()
 
 
+THERE = MAP.replace('%QX1.0   sim', '%QX1.0   gpio line=OUT0')
+HERE = '''BOARD "plant"
+%IX10.0 gpio line=IN0 pull-up
+%IX10.1 gpio line=NOWHERE
+%QX0.0  gpio chip=panel offset=3 safe=0
+%QX1.0  gpio line=OUT0 safe=0
+%IW0    w1   sensor=28-2
+%IW2    sim
+'''
+
+
+def there(screen):
+    """lines and devices of the connected board are offered and named; without it those of this machine again"""
+    sys_, dev = os.path.join(screen.home, 'sys'), os.path.join(screen.home, 'dev')
+    for name, text in [(dev + '/gpiochip0', ''), (sys_ + '/bus/w1/devices/28-1/temperature', '21437\n')]:
+        os.makedirs(os.path.dirname(name))
+        with open(name, 'w') as out:
+            out.write(text)
+    board = Board(screen, 'plant', program=PROGRAM, board=THERE, role='eng', daemon='tests/hal/ladderd_v2',
+                  env={'FAKE_DEV': dev, 'FAKE_SYS': sys_})
+    for name, text in ('plant.rung', PROGRAM), ('plant.io', HERE):
+        with open(os.path.join(screen.home, name), 'w') as out:
+            out.write(text)
+    editor = Editor(screen, os.path.join(screen.home, 'plant.rung'))
+    editor.to_sheet()
+    open_map(editor)
+    editor.find('This machine has no GPIO lines.')
+    connect(editor, board.where)
+    says(editor, 'plant · RUN')
+    for name, text in [('%IX10.0', 'gpiochip0 0'), ('%IX10.1', '"NOWHERE": the connected board has no such line'),
+                       ('%QX0.0', 'gpiochip0 3'), ('%QX1.0', 'gpiochip0 2')]:
+        row_says(editor, name + ', gpio', text)
+    editor.click(editor.find('%IX10.1, I/O line', 'text'))
+    editor.keys('alt+Down')
+    editor.find('IN1 gpiochip0 (panel) 1, free', 'list item')
+    editor.shot('field-lines')
+    editor.keys('Escape')
+    editor.tab('Analog (2)')
+    editor.click(editor.find('%IW0, Device', 'text'))
+    editor.keys('alt+Down')
+    editor.find('28-1', 'list item')
+    editor.shot('field-devices')
+    editor.keys('Down', 'Return')
+    until(lambda: editor.find('%IW0, Device', 'text').text() == '28-1', 'the sensor of the board')
+    editor.click(editor.find('Disconnect', 'push button'))
+    editor.find('This machine has no GPIO lines.')
+    board.stop()
+
+
 if __name__ == "__main__":
-    main([quality])
+    main([quality, there])
