@@ -164,16 +164,25 @@ sub run_block {
 	my $in = $b->{in} //= {};
 	my $out = $b->{out} //= {%{$fresh{$b->{block}}}};
 	my ($on, $pt) = ($in->{IN} // 0, $in->{PT} // 0);
+	$pt = 0 if $pt < 0;
 	if ($b->{block} eq 'TON') {
 		$b->{since} = $now if $on && !$b->{was};
 		$out->{ET} = !$on ? 0 : $now - $b->{since} < $pt ? $now - $b->{since} : $pt;
 		$out->{Q} = $on && $now - $b->{since} >= $pt ? 1 : 0;
-	} elsif ($b->{block} eq 'TOF') {
+	} elsif ($b->{block} eq 'TOF') { # when its time is over, only IN begins another, whatever PT becomes
+		@$out{qw(Q ET)} = (1, 0) if $on;
 		$b->{since} = $now if !$on && $b->{was};
-		my $counts = !$on && defined $b->{since} && ($b->{on_once});
-		$out->{ET} = $on || !$b->{on_once} ? 0 : $now - $b->{since} < $pt ? $now - $b->{since} : $pt;
-		$b->{on_once} ||= $on;
-		$out->{Q} = $on || ($counts && $now - $b->{since} < $pt) ? 1 : 0;
+		if (!$on && $out->{Q}) {
+			my $spent = $now - $b->{since};
+			@$out{qw(Q ET)} = $spent < $pt ? (1, $spent) : (0, $pt);
+		}
+	} elsif ($b->{block} eq 'TP') {
+		@$b{qw(waits since)} = (1, $now) if my $begins = $on && !$b->{waits};
+		if ($begins || $out->{Q}) {
+			my $spent = $now - $b->{since};
+			@$out{qw(Q ET)} = $spent < $pt ? (1, $spent) : (0, $pt);
+		}
+		($b->{waits}, $out->{ET}) = (0, 0) if !$on && !$out->{Q};
 	} elsif ($b->{block} eq 'CTU') {
 		my $cu = $in->{CU} // 0;
 		$out->{CV}++ if $cu && !$b->{was} && !($in->{R} // 0) && $out->{CV} < 32767;

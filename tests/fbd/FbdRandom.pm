@@ -14,9 +14,9 @@ my %variables = (BOOL => [map { "B$_" } 1 .. 5], INT => [map { "N$_" } 1 .. 5], 
 my @types = qw(BOOL BOOL BOOL INT INT INT DINT REAL WORD TIME STRING);
 my ($wires, $outputs, $before, $instances, $memory, $inside);
 
-my %blocks = (TON => [qw(IN PT)], TOF => [qw(IN PT)], CTU => [qw(CU R PV)], SR => [qw(S1 R)], RS => [qw(S R1)],
+my %blocks = (TON => [qw(IN PT)], TOF => [qw(IN PT)], TP => [qw(IN PT)], CTU => [qw(CU R PV)], SR => [qw(S1 R)], RS => [qw(S R1)],
 	      R_TRIG => ['CLK'], Mix => [qw(A G)]);
-my %gives = (TON => {Q => 'BOOL', ET => 'TIME'}, TOF => {Q => 'BOOL'}, CTU => {Q => 'BOOL', CV => 'INT'}, SR => {Q1 => 'BOOL'},
+my %gives = (TON => {Q => 'BOOL', ET => 'TIME'}, TOF => {Q => 'BOOL', ET => 'TIME'}, TP => {Q => 'BOOL', ET => 'TIME'}, CTU => {Q => 'BOOL', CV => 'INT'}, SR => {Q1 => 'BOOL'},
 	     RS => {Q1 => 'BOOL'}, R_TRIG => {Q => 'BOOL'}, Mix => {O => 'INT', P => 'BOOL'});
 
 sub constant {
@@ -147,12 +147,11 @@ sub network {
 		} elsif ($inside) {
 			my $i = one(sort keys %$instances);
 			my $block = $instances->{$i};
-			my %time = (Ton1 => 'T#35ms', Ton2 => 'T#10ms', Tof1 => 'T#25ms');
 			my @pins = grep { $_ eq 'PT' || below(5) } @{$blocks{$block}};
 			my $wire = '';
 			$text .= "  $i(" . join(', ', (below(5) ? () : 'EN := ' . expression('BOOL', 1)),
 				map { my $t = $_ eq 'PT' ? 'TIME' : /^(?:PV|A)$/ ? 'INT' : 'BOOL';
-				      "$_ := " . ($t eq 'TIME' ? $time{$i} : expression($t, 2)) } @pins) . ")\n";
+				      "$_ := " . ($t eq 'TIME' && !below(3) ? one('T#10ms', 'T#25ms', 'T#35ms') : expression($t, 2)) } @pins) . ")\n";
 			push @$outputs, map { "$i.$_" } keys %{$gives{$block}};
 			@$outputs = sort @$outputs;
 		}
@@ -210,7 +209,7 @@ sub program {
 	my ($seed, $networks) = @_;
 	$state = ($seed * 7919 + 17) % 2147483648;
 	below(2) for 1 .. 5;
-	$instances = {Ton1 => 'TON', Ton2 => 'TON', Tof1 => 'TOF', Ctu1 => 'CTU', Sr1 => 'SR', Rs1 => 'RS', Trig1 => 'R_TRIG', Mix1 => 'Mix', Mix2 => 'Mix'};
+	$instances = {Ton1 => 'TON', Ton2 => 'TON', Tof1 => 'TOF', Tp1 => 'TP', Ctu1 => 'CTU', Sr1 => 'SR', Rs1 => 'RS', Trig1 => 'R_TRIG', Mix1 => 'Mix', Mix2 => 'Mix'};
 	($memory, $inside) = (1, 1);
 	my $text = "RUNGBOARD 1\n\n${own}PROGRAM Main FBD\n" . declarations();
 	my @labels = map { below(3) ? '' : "Go$_" } 1 .. $networks;

@@ -29,22 +29,6 @@ static bool fits_text(const struct slot *slot, struct value value)
 	return value.type != IEC_STRING || value.len <= slot->value->room;
 }
 
-/* pointer ?= other: NULL, if they are for different types. */
-static void try_pointer(struct frame_of *f, const struct stmt *stmt)
-{
-	struct chain_state chain = { .on = true };
-	struct slot *pointer = tree_slot(f, stmt->place, &chain), *other;
-	const bool refers = stmt->value->kind == TREE_REF;
-	enum iec_type type;
-
-	other = !refers ? tree_slot(f, stmt->value, &chain) : stmt->value->left ? tree_first(f, stmt->value->left) : NULL;
-	type = !other ? IEC_NONE : refers ? other->value->type : other->shape->value->type;
-	if (pointer->shape->value->type != type)
-		pointer->led = NULL;
-	else
-		pointer->led = refers ? tree_slot(f, stmt->value->left, &chain) : other->led;
-}
-
 /* A pointer gets a place, which may be nowhere. */
 static void refer(struct frame_of *f, const struct stmt *stmt)
 {
@@ -57,6 +41,24 @@ static void refer(struct frame_of *f, const struct stmt *stmt)
 		return;
 	pointer->led = target_slot(f, stmt->value->left, index);
 	pointer->value->i = 1;
+}
+
+/* pointer ?= other: NULL, if they are for different types. */
+static void try_pointer(struct frame_of *f, const struct stmt *stmt)
+{
+	struct chain_state chain = { .on = true };
+	struct slot *pointer = tree_slot(f, stmt->place, &chain), *other;
+	const bool refers = stmt->value->kind == TREE_REF;
+	enum iec_type type;
+
+	other = !refers ? tree_slot(f, stmt->value, &chain) : stmt->value->left ? tree_first(f, stmt->value->left) : NULL;
+	type = !other ? IEC_NONE : refers ? other->value->type : other->shape->value->type;
+	if (pointer->shape->value->type != type)
+		pointer->led = NULL;
+	else if (refers)
+		refer(f, stmt);
+	else
+		pointer->led = other->led;
 }
 
 /* The value is computed, then the target is found; the last operation stores, a wrapped result too. A
