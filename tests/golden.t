@@ -206,6 +206,7 @@ my %in_library = (LD135 => 'unit/trial/test_scenario.c');
 sub missing_codes {
 	my $shown = join '', map { my $dir = $_; map { slurp("$dir/expected.$_") // '' }
 		qw(diag test st lists networks ladder classic numeric) } cases();
+	$shown .= slurp("$tests/bad/st.cases"); # of IEC text: bad_st.t
 	slurp("$tests/$in_library{$_}") =~ /"$_:\d/ and $shown .= " $_: " for keys %in_library;
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;

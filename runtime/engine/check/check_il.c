@@ -2,6 +2,7 @@
  *
  * check_il - walks an instruction list with the type of its current result.
  */
+#include "engine/check/generic.h"
 #include "engine/check/check_il.h"
 #include "engine/base/name.h"
 #include "engine/check/constant.h"
@@ -717,6 +718,7 @@ static bool il_check_pin(struct il_check *c, const struct word_row *row,
 	const char *name = pin_text(c, arg);
 	int index = word_pin_find(row, name, strlen(name));
 	const struct meaning *m = find(c, arg);
+	enum diag_id why;
 
 	if (!m)
 		return false;
@@ -728,6 +730,9 @@ static bool il_check_pin(struct il_check *c, const struct word_row *row,
 	if ((row->pin[index].dir == PIN_OUT) != (arg->kind == IL_ARG_OUT))
 		return il_report(&c->fn, arg, arg->kind == IL_ARG_OUT ? DIAG_INPUT_READ :
 				 DIAG_PIN_DIRECTION, name);
+	why = generic_fault(scope_project(c->fn.scope), row, index, m);
+	if (why != DIAG_COUNT)
+		return il_report(&c->fn, arg, why, why == DIAG_ANY_BOUNDS_OF ? row->word : il_operand_text(c, arg));
 	return check_value(c, arg, m, &row->pin[index]);
 }
 
@@ -755,7 +760,7 @@ static bool il_check_in_outs(struct il_check *c, int at, const struct word_row *
 static bool il_check_cal(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->fn.il->line[at];
-	const struct pou *routine = scope_pou(c->fn.scope, c->fn.pou, line->operand);
+	const struct pou *routine = scope_pou(c->fn.scope, c->fn.pou, line->operand), *block;
 	const struct meaning *m;
 	bool good = true;
 
@@ -766,6 +771,9 @@ static bool il_check_cal(struct il_check *c, int at)
 		return false;
 	if (m->kind != MEANING_INSTANCE)
 		return il_report(&c->fn, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
+	block = shape_pou(scope_project(c->fn.scope), (enum word)m->word);
+	if (block && pou_has_any_bounds(block))
+		return il_report(&c->fn, line, DIAG_ANY_BOUNDS_BLOCK, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&
 		       il_need_bool(c, line, c->now, "");

@@ -611,6 +611,8 @@ static void check_action(struct names_check *c, const struct pou *pou)
 	if (pou_owner(c->project, pou) < 0) {
 		snprintf(owner, sizeof(owner), "%.*s", own == name ? 60 : (int)(own - name) - 1, name);
 		report_line(c, DIAG_UNKNOWN_NAME, pou, pou->line, owner);
+	} else if (pou_has_any_bounds(&c->project->pou[pou_owner(c->project, pou)])) {
+		report_line(c, DIAG_ANY_BOUNDS_ACTION, pou, pou->line, name);
 	} else if (is_reserved(c, own, names_fold(&c->project->names, id))) {
 		report_line(c, DIAG_RESERVED_NAME, pou, pou->line, own);
 	}

@@ -471,7 +471,8 @@ static void check_instance(struct operand_check *c, struct operand_spot at,
 
 	if (!m)
 		return;
-	if (m->kind != MEANING_INSTANCE || m->word != (enum word)cell->word)
+	if (m->kind != MEANING_INSTANCE ||
+	    generic_plain(c->project, (enum word)m->word) != (enum word)cell->word)
 		refuse_instance(c, at, cell, m);
 	else if (meaning_is_indexed(m)) /* the cells of a box have one instance */
 		operand_refuse(c, DIAG_INDEX_PLAIN, at, cell->operand, m);

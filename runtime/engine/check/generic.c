@@ -100,13 +100,32 @@ static bool serves(struct scope *scope, const struct pou *caller, struct expr *e
 	return true;
 }
 
-/* Index of the generic function that @word is; -1: it is none. */
-static int generic_of(const struct project *project, enum word word)
+enum diag_id generic_fault(const struct project *project, const struct word_row *row, int pin, const struct meaning *m)
+{
+	const struct pou *pou = row->kind == WORD_FB && row->owner >= 0 ? &project->pou[row->owner] : NULL;
+	struct bounds bounds = { .var = pin };
+
+	if (!pou || !pou->copy_of || pin >= pou->vars.count || !project->pou[pou->copy_of - 1].vars.var[pin].any_bounds)
+		return DIAG_COUNT;
+	if (!bounds_of(m, &bounds) || bounds.dims != (pou->vars.var[pin].dims > 1 ? pou->vars.var[pin].dims : 1))
+		return DIAG_ANY_BOUNDS_OF;
+	return has_bounds(&pou->vars.var[pin], &bounds) || m->type != row->pin[pin].type ? DIAG_COUNT : DIAG_ANY_BOUNDS_FIXED;
+}
+
+/* Index of the generic function or block that @word is; -1: it is none. */
+static int generic_of(const struct project *project, enum word word, enum word_kind kind)
 {
 	const struct word_row *row = words_own(&project->words, word);
 
-	return row && row->kind == WORD_FN && row->owner >= 0 && pou_has_any_bounds(&project->pou[row->owner]) ?
+	return row && row->kind == kind && row->owner >= 0 && pou_has_any_bounds(&project->pou[row->owner]) ?
 	       row->owner : -1;
+}
+
+enum word generic_plain(const struct project *project, enum word word)
+{
+	const struct pou *pou = shape_pou(project, word);
+
+	return pou && pou->copy_of ? project->pou[pou->copy_of - 1].word : word;
 }
 
 /* ---- calls of lists and boxes ---- */
@@ -158,7 +177,7 @@ bool generic_lines(struct scope *scope, const struct pou *pou, struct il *il, st
 	struct project *project = scope_project(scope);
 
 	for (int i = 0; i < il->count; i++) {
-		const int of = il->line[i].kind == IL_CALL ? generic_of(project, (enum word)il->line[i].word) : -1;
+		const int of = il->line[i].kind == IL_CALL ? generic_of(project, (enum word)il->line[i].word, WORD_FN) : -1;
 		struct bounds *bounds;
 		enum word word = WORD_COUNT;
 		int count;
@@ -181,7 +200,7 @@ enum word generic_word(struct scope *scope, const struct pou *pou, struct expr *
 		       const struct expr_node *call, enum word word)
 {
 	struct project *project = scope_project(scope);
-	const int of = generic_of(project, word);
+	const int of = generic_of(project, word, WORD_FN);
 	struct expr_args args = { .wrong = -1, .text = "" };
 
 	if (of < 0 || expr_match(expr, call, words_row(&project->words, word), &args) != DIAG_COUNT)
@@ -310,7 +329,7 @@ static void note_call(struct generic *g, int caller, const struct expr_node *cal
 {
 	struct project *project = g->project;
 	const enum word word = expr_function(&project->words, call);
-	const int of = generic_of(project, word);
+	const int of = generic_of(project, word, WORD_FN);
 	struct expr_args args = { .wrong = -1, .text = "" };
 	struct bounds *bounds;
 	int count;
@@ -325,10 +344,34 @@ static void note_call(struct generic *g, int caller, const struct expr_node *cal
 		g->failed |= !add_copy(project, of, bounds, count);
 }
 
+/* The block whose ARRAY[*] the first call of the instance @m gives their bounds; -1: it has some, or needs none. */
+static int block_of(const struct generic *g, const struct meaning *m)
+{
+	return m && m->kind == MEANING_INSTANCE && m->var && !m->through && m->var->type == IEC_NONE &&
+	       m->var->fb == (enum word)m->word ? generic_of(g->project, (enum word)m->word, WORD_FB) : -1;
+}
+
+/* The instance @m gets the copy of block @of with these bounds. */
+static void bind(struct generic *g, const struct meaning *m, int of, const struct bounds *bounds, int count)
+{
+	const struct var_table *table = m->pou ? &g->project->pou[m->pou - g->project->pou].vars : &g->project->globals;
+	enum word word = copy_with(g->project, of, bounds, count);
+
+	if (word == WORD_COUNT && add_copy(g->project, of, bounds, count))
+		word = g->project->pou[g->project->pou_count - 1].word;
+	g->failed |= word == WORD_COUNT;
+	if (word != WORD_COUNT)
+		table->var[m->index].fb = word;
+}
+
 static void note_lines(struct generic *g, int caller, const struct il *il)
 {
 	for (int i = 0; i < il->count && !g->failed; i++) {
-		const int of = il->line[i].kind == IL_CALL ? generic_of(g->project, (enum word)il->line[i].word) : -1;
+		const bool cal = il->line[i].kind == IL_OP && il->line[i].op == OP_CAL;
+		enum diag_id why;
+		const struct meaning *m = cal ? scope_find(g->scope, &g->project->pou[caller], il->line[i].operand, &why) : NULL;
+		const int of = cal ? block_of(g, m) : il->line[i].kind != IL_CALL ? -1 :
+			       generic_of(g->project, (enum word)il->line[i].word, WORD_FN);
 		struct bounds *bounds;
 		int count;
 
@@ -337,7 +380,9 @@ static void note_lines(struct generic *g, int caller, const struct il *il)
 		bounds = arena_alloc(&g->project->arena, (size_t)g->project->pou[of].vars.count * sizeof(*bounds));
 		g->failed |= !bounds;
 		count = bounds ? bounds_of_lines(g->scope, &g->project->pou[caller], il, i, of, bounds) : -1;
-		if (count >= 0 && copy_with(g->project, of, bounds, count) == WORD_COUNT)
+		if (count >= 0 && cal)
+			bind(g, m, of, bounds, count);
+		else if (count >= 0 && copy_with(g->project, of, bounds, count) == WORD_COUNT)
 			g->failed |= !add_copy(g->project, of, bounds, count);
 	}
 }
@@ -351,7 +396,9 @@ static void note_box(struct generic *g, int caller, const struct cell *cell)
 	struct il il = { .line = line, .count = 1 };
 	struct arg arg;
 
-	if (generic_of(g->project, (enum word)cell->word) < 0)
+	if (generic_of(g->project, (enum word)cell->word, WORD_FB) >= 0)
+		line[0] = (struct il_line){ .kind = IL_OP, .op = OP_CAL, .operand = cell->operand };
+	else if (generic_of(g->project, (enum word)cell->word, WORD_FN) < 0)
 		return;
 	while (il.count <= LIMIT_ARGS && args_next(&next, &arg))
 		if (!arg.output)
@@ -382,6 +429,48 @@ static void note_rung(struct generic *g, int caller, const struct rung *rung)
 	}
 }
 
+/* `Sorter(Row := Parts, Up := TRUE)` */
+static void note_instance(struct generic *g, int caller, const struct st_item *item)
+{
+	const struct pou *pou = &g->project->pou[caller];
+	const struct word_row *row;
+	const struct meaning *m;
+	struct bounds *bounds;
+	struct st_part part;
+	struct st_walk walk;
+	enum diag_id why;
+	int of, count = 0, pin = -1, wanted = 0;
+
+	st_begin(&walk, &g->project->names, item);
+	if (!st_next(&walk, &part, g->expr, g->ignored, (struct diag){ .id = DIAG_COUNT }) || part.role != ST_CALLED)
+		return;
+	m = scope_find(g->scope, pou, scope_first_of(g->scope, pou, g->expr, &g->expr->node[g->expr->root]), &why);
+	of = block_of(g, m);
+	if (of < 0)
+		return;
+	row = words_row(&g->project->words, (enum word)m->word);
+	bounds = arena_alloc(&g->project->arena, (size_t)row->pin_count * sizeof(*bounds));
+	g->failed |= !bounds;
+	while (bounds && st_next(&walk, &part, g->expr, g->ignored, (struct diag){ .id = DIAG_COUNT }) &&
+	       part.role != ST_NO_PART) {
+		const struct word_pin *by_place = part.role != ST_OPEN && !part.pin.len ? pin_next(row, &pin) : NULL;
+		const int at = part.pin.len ? word_pin_find(row, part.pin.text, part.pin.len) :
+					      by_place ? (int)(by_place - row->pin) : -1;
+		const struct var_table *vars = &g->project->pou[of].vars;
+
+		if (part.role != ST_INPUT || at < 0 || at >= vars->count || !vars->var[at].any_bounds)
+			continue;
+		if (count == row->pin_count || !bounds_at(g->scope, pou, g->expr, g->expr->root, &bounds[count]) ||
+		    bounds[count].dims != (vars->var[at].dims > 1 ? vars->var[at].dims : 1))
+			return;
+		bounds[count++].var = at;
+	}
+	for (int i = 0; i < g->project->pou[of].vars.count; i++)
+		wanted += g->project->pou[of].vars.var[i].any_bounds;
+	if (bounds && count == wanted)
+		bind(g, m, of, bounds, count);
+}
+
 static void note_statement(struct generic *g, int caller, const struct st_item *item)
 {
 	struct st_part part;
@@ -400,6 +489,8 @@ static void note_statement(struct generic *g, int caller, const struct st_item *
 				note_call(g, caller, &g->expr->node[i]);
 		return;
 	}
+	if (item->kind == ST_CALL)
+		note_instance(g, caller, item);
 	while (st_next(&walk, &part, g->expr, g->ignored, (struct diag){ .id = DIAG_COUNT }) &&
 	       part.role != ST_NO_PART)
 		for (int i = 0; part.role != ST_OPEN && i < g->expr->count && !g->failed; i++)
@@ -462,6 +553,25 @@ static bool add_uncalled(struct project *project, int count)
 	return true;
 }
 
+/* Instances in @table that nobody calls have the first copy of their block, which add_uncalled() made. */
+static void bind_uncalled(const struct project *project, const struct var_table *table)
+{
+	for (int i = 0; i < table->count; i++) {
+		const int of = table->var[i].type == IEC_NONE ? generic_of(project, table->var[i].fb, WORD_FB) : -1;
+
+		if (of >= 0)
+			table->var[i].fb = copy_with(project, of, NULL, 0);
+	}
+}
+
+static void bind_all_uncalled(const struct project *project)
+{
+	bind_uncalled(project, &project->globals);
+	for (int i = 0; i < project->pou_count; i++)
+		if (!pou_has_any_bounds(&project->pou[i]))
+			bind_uncalled(project, &project->pou[i].vars);
+}
+
 bool generic_add(struct project *project, struct arena *arena, struct diag_list *diags)
 {
 	struct generic g = { .project = project };
@@ -481,7 +591,10 @@ bool generic_add(struct project *project, struct arena *arena, struct diag_list 
 			return true;
 		if (g.from == end) { /* what only uncalled functions call has copies, too */
 			last = true;
-			g.failed = !add_uncalled(project, count) || !shape_make(project, diags);
+			g.failed = !add_uncalled(project, count);
+			if (!g.failed)
+				bind_all_uncalled(project);
+			g.failed |= !shape_make(project, diags);
 			continue;
 		}
 		g.scope = scope_new(project, arena);
@@ -494,8 +607,19 @@ bool generic_add(struct project *project, struct arena *arena, struct diag_list 
 	return false;
 }
 
+/* Instances have the type again that they are declared with. */
+static void unbind(const struct project *project, const struct var_table *table)
+{
+	for (int i = 0; i < table->count; i++)
+		if (table->var[i].type == IEC_NONE)
+			table->var[i].fb = generic_plain(project, table->var[i].fb);
+}
+
 void generic_end(struct project *project, int pous)
 {
+	unbind(project, &project->globals);
+	for (int i = 0; i < pous; i++)
+		unbind(project, &project->pou[i].vars);
 	for (int i = pous; i < project->pou_count; i++) {
 		struct word_row *row = project->pou[i].copy_of ? words_own(&project->words, project->pou[i].word) : NULL;
 

@@ -118,7 +118,7 @@ bool pou_has_frame(const struct pou *pou)
 
 bool pou_has_any_bounds(const struct pou *pou)
 {
-	for (int i = 0; pou->kind == POU_FUNCTION && i < pou->vars.count; i++)
+	for (int i = 0; pou_has_frame(pou) && i < pou->vars.count; i++)
 		if (pou->vars.var[i].any_bounds)
 			return true;
 	return false;

@@ -249,7 +249,7 @@ bool project_has(const struct project *project, struct iec_addr addr);
 /** pou_has_frame - whether it is a FUNCTION or FUNCTION_BLOCK: called with parameters,
  * its variables in a frame or instance. */
 bool pou_has_frame(const struct pou *pou);
-/** pou_has_any_bounds - a function with ARRAY[*]: check/generic.h. Scan-safe: yes. */
+/** pou_has_any_bounds - a function or a block with ARRAY[*]: check/generic.h. Scan-safe: yes. */
 bool pou_has_any_bounds(const struct pou *pou);
 /** pou_boxed - the statements of the EXECUTE box at a cell, 0-based; NULL: there are none. */
 const struct boxed *pou_boxed(const struct pou *pou, int rung, int row, int col);

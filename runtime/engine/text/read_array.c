@@ -68,7 +68,10 @@ static bool fail_bounds(struct reader *r, int64_t low, int64_t high)
 /* `*`: the bounds are those of the argument. */
 static bool read_any_bounds(struct reader *r, struct var *var, struct dimensions *out)
 {
-	if (!r->pou || r->pou->kind != POU_FUNCTION || r->members || !(r->var_flags & (VAR_INPUT | VAR_IN_OUT)) ||
+	const uint16_t places = !r->pou || r->members ? 0 : r->pou->kind == POU_FUNCTION ? VAR_INPUT | VAR_IN_OUT :
+				r->pou->kind == POU_BLOCK ? VAR_IN_OUT : 0;
+
+	if (!(r->var_flags & places) ||
 	    (out->count > 0 && !var->any_bounds))
 		return reader_fail_token(r, DIAG_ANY_BOUNDS);
 	var->any_bounds = true;
