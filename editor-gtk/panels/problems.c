@@ -179,11 +179,8 @@ static int compare(gconstpointer left, gconstpointer right)
 	return (a->number > b->number) - (a->number < b->number);
 }
 
-/* Also while hidden, because the tab shows the count. */
-static void refresh(LadderProblems *problems)
+static void fill(LadderProblems *problems, LadderDocument *document, const struct diag_list *diags)
 {
-	LadderDocument *document = problems->document;
-	const struct diag_list *diags = document ? ladder_document_diags(document) : NULL;
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct place_sheet sheet = { 0 };
 
@@ -197,6 +194,14 @@ static void refresh(LadderProblems *problems)
 					 rows->len ? "list" : "none");
 	set_title(problems);
 	g_ptr_array_unref(rows);
+}
+
+/* Also while hidden, because the tab shows the count. */
+static void refresh(LadderProblems *problems)
+{
+	LadderDocument *document = problems->document;
+
+	fill(problems, document, document ? ladder_document_diags(document) : NULL);
 }
 
 /* ---- the widget ---- */
@@ -280,6 +285,12 @@ void ladder_problems_set_document(LadderProblems *problems, LadderDocument *docu
 	if (document)
 		g_signal_connect_swapped(document, "checked", G_CALLBACK(refresh), problems);
 	refresh(problems);
+}
+
+void ladder_problems_show(LadderProblems *problems, LadderDocument *document, const struct diag_list *diags)
+{
+	gtk_column_view_set_single_click_activate(GTK_COLUMN_VIEW(problems->list.view), TRUE);
+	fill(problems, document, diags);
 }
 
 static void dispose(GObject *object)

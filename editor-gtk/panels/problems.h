@@ -19,6 +19,8 @@ G_DECLARE_FINAL_TYPE(LadderProblems, ladder_problems, LADDER, PROBLEMS, GtkWidge
 
 GtkWidget *ladder_problems_new(void);
 void ladder_problems_set_document(LadderProblems *problems, LadderDocument *document);
+/** ladder_problems_show - shows these instead, whose places are those of @document. A click goes to one. */
+void ladder_problems_show(LadderProblems *problems, LadderDocument *document, const struct diag_list *diags);
 /** ladder_problems_title - "Problems 3", for the tab. Borrowed until it changes. */
 const char *ladder_problems_title(LadderProblems *problems);
 /** ladder_problems_count - of all, or of errors only. */

@@ -38,9 +38,32 @@ static GtkWidget *seen_page(struct front *front)
 
 static GtkWidget *seen(struct front *front)
 {
-	GtkWidget *page = seen_page(front);
+	GtkWidget *page = seen_page(front), *content = page ? page_inside(page) : NULL;
 
+	if (!LADDER_IS_SHOWN_PAGE(content))
+		return content;
+	page = ladder_shown_page_child(LADDER_SHOWN_PAGE(content));
 	return page ? page_inside(page) : NULL;
+}
+
+/* Does the visible sheet belong to another document than that of the window? */
+static bool is_other(struct front *front)
+{
+	GtkWidget *content = page_content(front_tab(front));
+
+	return front_is_older(front) || LADDER_IS_SHOWN_PAGE(content);
+}
+
+int front_pou(struct front *front)
+{
+	const struct project *project = ladder_document_project(front->core->document);
+	AdwTabPage *tab = front_is_older(front) ? NULL : front_tab(front);
+	GtkWidget *content = page_content(tab);
+	const char *name = tab ? page_name(tab) : NULL;
+
+	if (LADDER_IS_SHOWN_PAGE(content))
+		return ladder_shown_page_pou(LADDER_SHOWN_PAGE(content));
+	return project && name && name[0] != ' ' ? project_find_pou(project, name, strlen(name)) : -1;
 }
 
 /* The text below a ladder, if it has the focus, or had it last; NULL: the sheet. */
@@ -87,17 +110,17 @@ LadderCanvas *front_seen_canvas(struct front *front)
 
 LadderGridView *front_sheet(struct front *front)
 {
-	return front_is_older(front) ? NULL : front_seen_sheet(front);
+	return is_other(front) ? NULL : front_seen_sheet(front);
 }
 
 LadderSfcView *front_chart(struct front *front)
 {
-	return front_is_older(front) ? NULL : front_seen_chart(front);
+	return is_other(front) ? NULL : front_seen_chart(front);
 }
 
 LadderFbdView *front_networks(struct front *front)
 {
-	return front_is_older(front) ? NULL : front_seen_networks(front);
+	return is_other(front) ? NULL : front_seen_networks(front);
 }
 
 LadderGridView *front_rungs(struct front *front)
@@ -140,7 +163,8 @@ bool front_enter_program(struct front *front)
 	else if (text_below(content))
 		gtk_widget_grab_focus(GTK_WIDGET(text_below(content)));
 	else
-		return false;
+		return front_tab(front) && LADDER_IS_SHOWN_PAGE(page_content(front_tab(front))) &&
+		       ladder_shown_page_enter(LADDER_SHOWN_PAGE(page_content(front_tab(front))));
 	return true;
 }
 

@@ -33,6 +33,8 @@ bool front_is_older(const struct front *front);
 bool front_older_by(struct front *front, int by);
 /** front_tab - the page in front; NULL: none. Borrowed, as all below. */
 AdwTabPage *front_tab(struct front *front);
+/** front_pou - the POU of the page in front, also of one that shows it in another language; -1: none. */
+int front_pou(struct front *front);
 /** front_seen_sheet, front_seen_chart - the visible one, also of a program before an edit.
  * On the page of a chart, the rungs below it are the sheet while they have the focus.
  * NULL: none. */
@@ -42,7 +44,8 @@ LadderSfcView *front_seen_chart(struct front *front);
 LadderFbdView *front_seen_networks(struct front *front);
 /** front_seen_canvas - the visible sheet, chart or networks; NULL: none. */
 LadderCanvas *front_seen_canvas(struct front *front);
-/** front_sheet, front_chart, front_networks - the same, of the document of the window only. */
+/** front_sheet, front_chart, front_networks - the same, of the document of the window only: of no older
+ * program, and in no other language. */
 LadderGridView *front_sheet(struct front *front);
 LadderSfcView *front_chart(struct front *front);
 LadderFbdView *front_networks(struct front *front);

@@ -14,6 +14,7 @@
 #include "editor-gtk/window/core.h"
 #include "editor-gtk/window/rung_page.h"
 #include "editor-gtk/window/sfc_page.h"
+#include "editor-gtk/window/shown_page.h"
 
 /** page_new - a sheet, a chart or a list for POU @pou of @document, in a scrolled window if
  * it needs one. Its messages and cursor moves go to the window. */

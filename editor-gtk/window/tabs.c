@@ -209,6 +209,24 @@ void tabs_show(struct tabs *tabs, int pou)
 	select_page(tabs, page);
 }
 
+/* One page shows POUs in other languages; the blank makes its name different from that of any POU. */
+void tabs_show_as(struct tabs *tabs, int pou, enum pou_language to)
+{
+	AdwTabPage *page = find_page(tabs, " as");
+	LadderShownPage *shown;
+	char *title;
+
+	if (!page)
+		page = add_page(tabs, ladder_shown_page_new(tabs->core, page_new), " as", "");
+	shown = LADDER_SHOWN_PAGE(page_content(page));
+	ladder_shown_page_set(shown, pou, to);
+	title = ladder_shown_page_title(shown);
+	adw_tab_page_set_title(page, title);
+	g_free(title);
+	select_page(tabs, page);
+	front_enter(tabs->core->front);
+}
+
 /* Made when it is shown first: there may be thousands of symbols. */
 static GtkWidget *symbols_in(AdwBin *place, struct tabs *tabs)
 {
@@ -733,6 +751,8 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 		return true; /* it does not depend on the project */
 	if (strcmp(name, " compare") == 0 || strcmp(name, " preview") == 0)
 		return true; /* they stay, and say that the project cannot be read */
+	if (LADDER_IS_SHOWN_PAGE(widget))
+		return !ladder_shown_page_is_over(LADDER_SHOWN_PAGE(widget));
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));

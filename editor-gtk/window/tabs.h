@@ -21,6 +21,8 @@ void tabs_init(struct tabs *tabs, struct core *core);
 void tabs_open_anew(struct tabs *tabs);
 /** tabs_show - brings the page of a POU to the front; opens it if need be. */
 void tabs_show(struct tabs *tabs, int pou);
+/** tabs_show_as - the page that shows POU @pou in language @to. */
+void tabs_show_as(struct tabs *tabs, int pou, enum pou_language to);
 /** tabs_show_task - the page of the tasks, with this one selected; NULL: none. */
 void tabs_show_task(struct tabs *tabs, const char *task);
 /** tabs_new_task - makes a task in that page. */

@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/window/window.h"
 
+#include "editor-gtk/document/pou_convert.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
@@ -262,6 +263,53 @@ static void do_show_as(LadderWindow *window)
 	if (settings_get())
 		g_settings_set_enum(settings_get(), "show",
 				    (int)ladder_grid_view_show(sheet));
+}
+
+/* A refusal is shown in place of the text that cannot be made. */
+static void convert(LadderWindow *window, int pou, enum pou_language to)
+{
+	LadderDocument *document = window->core.document;
+	struct diag_list *why = g_new0(struct diag_list, 1);
+	const int was = pou;
+	char *name = g_strdup(project_text(ladder_document_project(document),
+					   ladder_document_project(document)->pou[pou].name)), *text;
+
+	if (pou_convert(document, pou, to, why)) {
+		pou = project_find_pou(ladder_document_project(document), name, strlen(name));
+		tabs_show(&window->tabs, pou < 0 ? was : pou); /* the first ladder of a chart has its place */
+		text = g_strdup_printf(_("“%s” is in %s now"), name, pou_language_word(to));
+		messages_tell(&window->messages, text);
+		g_free(text);
+	} else {
+		tabs_show_as(&window->tabs, pou, to);
+	}
+	g_free(name);
+	g_free(why);
+}
+
+static bool do_language(LadderWindow *window, enum verb verb)
+{
+	const int pou = front_pou(&window->front);
+	const struct project *project = ladder_document_project(window->core.document);
+	enum pou_language to;
+	bool converts;
+	char *text;
+
+	if (!shown_page_verb(verb, &to, &converts))
+		return false;
+	if (pou < 0)
+		return true;
+	if (project->pou[pou].language == to) {
+		text = g_strdup_printf(_("“%s” is in %s already"), project_text(project, project->pou[pou].name),
+				       pou_language_word(to));
+		messages_tell(&window->messages, text);
+		g_free(text);
+	} else if (converts) {
+		convert(window, pou, to);
+	} else {
+		tabs_show_as(&window->tabs, pou, to);
+	}
+	return true;
 }
 
 static void show_addresses(LadderWindow *window)
@@ -522,7 +570,7 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 		    !do_find(window, verb) && !online_bar_do(&window->online_bar, verb) &&
 		    !sim_bar_do(&window->sim_bar, verb) &&
 		    !stand_bar_do(&window->stand_bar, verb) &&
-		    !scenarios_do(&window->scenarios, verb))
+		    !scenarios_do(&window->scenarios, verb) && !do_language(window, verb))
 			do_view(window, verb);
 	}
 }
@@ -871,6 +919,7 @@ static void tell_front(LadderWindow *window)
 
 	core_with(core, WITH_PROJECT, ladder_document_project(core->document) != NULL);
 	core_with(core, WITH_PAGE, front_tab(front) != NULL);
+	core_with(core, WITH_POU, front_pou(front) >= 0);
 	core_with(core, WITH_CANVAS, canvas != NULL);
 	core_with(core, WITH_RUNGS, sheet);
 	core_with(core, WITH_CHART, canvas && !sheet && !networks);

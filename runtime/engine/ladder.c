@@ -881,6 +881,11 @@ char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
 
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags)
 {
+	return ladder_export_chart(ladder, -1, len, diags);
+}
+
+char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct diag_list *diags)
+{
 	struct project *project = ladder_project(ladder);
 	struct sink_memory memory;
 	struct sink sink;
@@ -889,7 +894,7 @@ char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list 
 		return NULL;
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	if (sfc_ladder(project, &sink, diags) && !memory.failed) {
+	if (sfc_ladder(project, pou, &sink, diags) && !memory.failed) {
 		*len = memory.len;
 		return memory.text;
 	}

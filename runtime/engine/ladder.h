@@ -228,6 +228,8 @@ char *ladder_write_source(struct ladder *ladder, int number, size_t *len);
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
+/** ladder_export_chart - the same with the chart of POU @pou alone; -1: all. Owns and fails likewise. */
+char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct diag_list *diags);
 /**
  * ladder_export_as - the project with POUs in another language (convert/convert.h)
  * @wanted: a byte a POU: 1 for one that is converted

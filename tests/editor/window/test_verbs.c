@@ -58,6 +58,9 @@ static const struct { enum verb verb; const char *states; } works[] = {
 	{ VERB_online_upload, "o" }, { VERB_sim_recording, "nulicsfr" }, { VERB_sim_why, "sfor" },
 	{ VERB_sim_plant, "nulicsf" }, { VERB_sim_no_plant, "nulicsf" }, { VERB_sim_release, "" },
 	{ VERB_record, "nlicsf" }, { VERB_expect, "sfor" }, { VERB_run_scenarios, READ },
+	{ VERB_convert_fbd, "licsor" }, { VERB_convert_ld, "licsor" }, { VERB_convert_il, "licsor" },
+	{ VERB_convert_st, "licsor" }, { VERB_show_fbd, "licsor" }, { VERB_show_ld, "licsor" },
+	{ VERB_show_il, "licsor" }, { VERB_show_st, "licsor" },
 	{ VERB_address_map, READ }, { VERB_show_as, "lsfor" }, { VERB_zoom_in, "lcsfor" },
 	{ VERB_zoom_out, "lcsfor" }, { VERB_zoom_reset, "lcsfor" }, { VERB_right, "sfor" },
 };
@@ -341,7 +344,7 @@ static void check_pages(void)
 
 int main(void)
 {
-	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_CANVAS | WITH_RUNGS | WITH_PARTS | WITH_FREE |
+	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_POU | WITH_CANVAS | WITH_RUNGS | WITH_PARTS | WITH_FREE |
 				WITH_ENTRY | WITH_LINES | WITH_ZOOM;
 
 	check_facts('o', "a board runs", ladder | WITH_SIM | WITH_STOP | WITH_LINK | WITH_ANSWER | WITH_MAY_STOP |

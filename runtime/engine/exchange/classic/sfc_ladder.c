@@ -401,7 +401,7 @@ static bool write_project_text(struct lad *e, const struct sink *sink)
 		e->pou = &project->pou[i];
 		e->sfc = e->pou->sfc;
 		e->called_count = 0;
-		if (!e->sfc)
+		if (!e->sfc || (e->only >= 0 && e->only != i))
 			continue;
 		if (!begin(e))
 			e->good = false;
@@ -426,7 +426,7 @@ static bool export_all(struct lad *e, const struct sink *sink)
 	return good;
 }
 
-bool sfc_ladder(struct project *project, const struct sink *sink,
+bool sfc_ladder(struct project *project, int only, const struct sink *sink,
 		struct diag_list *diags)
 {
 	const struct diag place = { .id = DIAG_NO_MEMORY, .file = project->file };
@@ -438,7 +438,7 @@ bool sfc_ladder(struct project *project, const struct sink *sink,
 	arena_init(&arena);
 	e = arena_alloc(&arena, sizeof(*e));
 	if (e) {
-		*e = (struct lad){ .project = project, .diags = diags, .good = true,
+		*e = (struct lad){ .project = project, .only = only, .diags = diags, .good = true,
 				   .arena = &arena, .last = { .area = AREA_M, .bits = 1,
 				   .bit = 7, .byte = FIRST_BYTE - 1 } };
 	}

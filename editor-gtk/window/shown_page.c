@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * shown_page - a POU in another language; see shown_page.h.
+ */
+#include "editor-gtk/window/shown_page.h"
+
+#include "editor-gtk/document/pou_convert.h"
+#include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/problems.h"
+#include "editor-gtk/text/text_view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct _LadderShownPage {
+	GtkBox parent;
+	struct core *core;
+	LadderDocument *document;    /* of the window                              */
+	LadderDocument *made;        /* in the other language; NULL: refused       */
+	GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou);
+	char *name;                  /* of the POU                                 */
+	enum pou_language to;
+	GArray *pous;                /* of @made: those that come from the POU     */
+	GtkLabel *label;
+	GtkDropDown *parts;          /* of @pous, if there are several             */
+	GtkButton *convert;
+	GtkWidget *child;            /* the page of one of them, or the reasons    */
+	bool filling;
+	bool shown;                  /* @version is the one that is shown          */
+	guint64 version;             /* of @document                               */
+};
+
+G_DEFINE_FINAL_TYPE(LadderShownPage, ladder_shown_page, GTK_TYPE_BOX)
+
+/* Nothing can be converted to a chart. */
+static const struct { enum verb show, convert; } verbs[] = {
+	[LANGUAGE_LD] = { VERB_show_ld, VERB_convert_ld }, [LANGUAGE_IL] = { VERB_show_il, VERB_convert_il },
+	[LANGUAGE_SFC] = { VERB_COUNT, VERB_COUNT }, [LANGUAGE_ST] = { VERB_show_st, VERB_convert_st },
+	[LANGUAGE_FBD] = { VERB_show_fbd, VERB_convert_fbd },
+};
+
+bool shown_page_verb(enum verb verb, enum pou_language *to, bool *converts)
+{
+	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++) {
+		*to = (enum pou_language)i;
+		*converts = verb == verbs[i].convert;
+		if (verb == verbs[i].show || *converts)
+			return true;
+	}
+	return false;
+}
+
+int ladder_shown_page_pou(LadderShownPage *page)
+{
+	const struct project *project = ladder_document_project(page->document);
+
+	return project && page->name ? project_find_pou(project, page->name, strlen(page->name)) : -1;
+}
+
+bool ladder_shown_page_is_over(LadderShownPage *page)
+{
+	const int pou = ladder_shown_page_pou(page);
+
+	return pou < 0 || ladder_document_project(page->document)->pou[pou].language == page->to;
+}
+
+GtkWidget *ladder_shown_page_child(LadderShownPage *page)
+{
+	return page->made ? page->child : NULL;
+}
+
+char *ladder_shown_page_title(LadderShownPage *page)
+{
+	return g_strdup_printf(_("%s as %s"), page->name, pou_language_word(page->to));
+}
+
+bool ladder_shown_page_enter(LadderShownPage *page)
+{
+	return page->child && !page->made && gtk_widget_child_focus(page->child, GTK_DIR_TAB_FORWARD);
+}
+
+static void drop_child(LadderShownPage *page)
+{
+	if (page->child)
+		gtk_box_remove(GTK_BOX(page), page->child);
+	page->child = NULL;
+}
+
+/* Of a text that was just put into its view, the end has the cursor. */
+static void go_to_start(GtkWidget *child)
+{
+	GtkTextBuffer *text = LADDER_IS_TEXT_VIEW(child) ?
+		GTK_TEXT_BUFFER(ladder_text_view_buffer(LADDER_TEXT_VIEW(child))) : NULL;
+	GtkTextIter start;
+
+	if (!text)
+		return;
+	gtk_text_buffer_get_start_iter(text, &start);
+	gtk_text_buffer_place_cursor(text, &start);
+}
+
+static void put_child(LadderShownPage *page, GtkWidget *child)
+{
+	const bool focus = page->child && gtk_widget_get_focus_child(GTK_WIDGET(page)) == page->child;
+
+	drop_child(page);
+	page->child = child;
+	gtk_widget_set_vexpand(child, TRUE);
+	gtk_box_append(GTK_BOX(page), child);
+	go_to_start(child);
+	spoken_parts(child);
+	slow_bar_choose_all(child);
+	if (focus)
+		gtk_widget_child_focus(child, GTK_DIR_TAB_FORWARD);
+	g_signal_emit_by_name(page->core->window, "place-changed");
+}
+
+static void show_part(LadderShownPage *page)
+{
+	const guint part = gtk_drop_down_get_selected(page->parts);
+
+	if (!page->filling && page->made && part < page->pous->len)
+		put_child(page, page->make(page->core, page->made, g_array_index(page->pous, int, part)));
+}
+
+static void fill_parts(LadderShownPage *page)
+{
+	const struct project *before = ladder_document_project(page->document);
+	const struct project *after = ladder_document_project(page->made);
+	const guint was = gtk_drop_down_get_selected(page->parts);
+	GPtrArray *names = g_ptr_array_new();
+
+	g_array_set_size(page->pous, 0);
+	for (int i = 0; i < after->pou_count; i++) {
+		if (!pou_is_made(before, page->name, after, i))
+			continue;
+		g_array_append_val(page->pous, i);
+		g_ptr_array_add(names, (gpointer)project_text(after, after->pou[i].name));
+	}
+	page->filling = true;
+	drop_fill(page->parts, names);
+	gtk_drop_down_set_selected(page->parts, was < names->len ? was : 0);
+	page->filling = false;
+	gtk_widget_set_visible(GTK_WIDGET(page->parts), names->len > 1);
+	g_ptr_array_unref(names);
+	show_part(page);
+}
+
+static void show_reasons(LadderShownPage *page, const struct diag_list *why)
+{
+	GtkWidget *problems = ladder_problems_new();
+
+	gtk_widget_set_visible(GTK_WIDGET(page->parts), FALSE);
+	ladder_problems_show(LADDER_PROBLEMS(problems), page->document, why);
+	put_child(page, problems);
+}
+
+static void say(LadderShownPage *page)
+{
+	const char *text = page->made ? _("“%s” as %s, read-only") : _("“%s” cannot be shown as %s");
+	char *said = g_strdup_printf(text, page->name, pou_language_word(page->to));
+
+	gtk_label_set_text(page->label, said);
+	gtk_button_set_label(page->convert, _(verb_row(verbs[page->to].convert)->label));
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(page->convert), verb_row(verbs[page->to].convert)->action);
+	gtk_widget_set_visible(GTK_WIDGET(page->convert), page->made != NULL);
+	g_free(said);
+}
+
+static void show_now(LadderShownPage *page)
+{
+	const int pou = ladder_shown_page_pou(page);
+	struct diag_list *why;
+	char *text;
+
+	if (ladder_shown_page_is_over(page))
+		return;
+	page->shown = true;
+	page->version = ladder_document_version(page->document);
+	why = g_new0(struct diag_list, 1);
+	text = pou_converted(page->document, pou, page->to, why);
+	g_clear_object(&page->made);
+	if (text) {
+		page->made = ladder_document_new();
+		ladder_document_open_text(page->made, ladder_document_path(page->document), text, strlen(text),
+					  true);
+		ladder_document_fix(page->made);
+	}
+	say(page);
+	if (page->made)
+		fill_parts(page);
+	else
+		show_reasons(page, why);
+	free(text);
+	g_free(why);
+}
+
+/* Converting builds the project: only what is visible is made anew. */
+static void changed(LadderShownPage *page)
+{
+	if (page->shown && page->version == ladder_document_version(page->document))
+		return;
+	page->shown = false;
+	if (gtk_widget_get_mapped(GTK_WIDGET(page)))
+		show_now(page);
+}
+
+static void seen(LadderShownPage *page)
+{
+	if (!page->shown)
+		show_now(page);
+}
+
+void ladder_shown_page_set(LadderShownPage *page, int pou, enum pou_language to)
+{
+	const struct project *project = ladder_document_project(page->document);
+
+	g_free(page->name);
+	page->name = g_strdup(project_text(project, project->pou[pou].name));
+	page->to = to;
+	show_now(page);
+}
+
+static void ladder_shown_page_dispose(GObject *object)
+{
+	LadderShownPage *page = LADDER_SHOWN_PAGE(object);
+
+	if (page->document)
+		g_signal_handlers_disconnect_by_data(page->document, page);
+	g_clear_object(&page->document);
+	g_clear_object(&page->made);
+	g_clear_pointer(&page->name, g_free);
+	g_clear_pointer(&page->pous, g_array_unref);
+	G_OBJECT_CLASS(ladder_shown_page_parent_class)->dispose(object);
+}
+
+static void ladder_shown_page_class_init(LadderShownPageClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_shown_page_dispose;
+}
+
+static void ladder_shown_page_init(LadderShownPage *page)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+
+	gtk_orientable_set_orientation(GTK_ORIENTABLE(page), GTK_ORIENTATION_VERTICAL);
+	page->pous = g_array_new(FALSE, FALSE, sizeof(int));
+	page->label = GTK_LABEL(gtk_label_new(NULL));
+	page->parts = GTK_DROP_DOWN(gtk_drop_down_new(NULL, NULL));
+	page->convert = GTK_BUTTON(gtk_button_new_with_label(""));
+	gtk_label_set_xalign(page->label, 0);
+	gtk_label_set_wrap(page->label, TRUE);
+	gtk_widget_set_hexpand(GTK_WIDGET(page->label), TRUE);
+	spoken_name(page->parts, _("Program or block"));
+	gtk_widget_set_valign(GTK_WIDGET(page->convert), GTK_ALIGN_CENTER);
+	gtk_widget_set_valign(GTK_WIDGET(page->parts), GTK_ALIGN_CENTER);
+	gtk_widget_set_visible(GTK_WIDGET(page->parts), FALSE);
+	gtk_widget_add_css_class(bar, "stand-bar");
+	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->label));
+	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->parts));
+	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->convert));
+	gtk_box_append(GTK_BOX(page), bar);
+	g_signal_connect_swapped(page->parts, "notify::selected", G_CALLBACK(show_part), page);
+	g_signal_connect(page, "map", G_CALLBACK(seen), NULL);
+}
+
+GtkWidget *ladder_shown_page_new(struct core *core,
+				 GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou))
+{
+	LadderShownPage *page = g_object_new(LADDER_TYPE_SHOWN_PAGE, NULL);
+
+	page->core = core;
+	page->make = make;
+	page->document = g_object_ref(core->document);
+	g_signal_connect_swapped(core->document, "checked", G_CALLBACK(changed), page);
+	return GTK_WIDGET(page);
+}

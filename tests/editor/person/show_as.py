@@ -1,0 +1,168 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""A ladder is shown as a list and as Structured Text, with values, and converted; a refusal leads to its cell."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import A11Y, Chinese, Editor, check, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Horn  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "The motor seals itself in"
+  | NO Start  | NC Stop | COIL Motor |
+  | NO Motor ^|
+RUNG
+  | P Start | S Horn |
+END_PROGRAM
+'''
+CHART = '''RUNGBOARD 1
+
+VAR
+  Go   AT %IX0.0 : BOOL;
+  Lamp AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Way SFC
+  INITIAL_STEP Start:
+  END_STEP
+  STEP Run:
+    Lamp(N);
+  END_STEP
+  TRANSITION FROM Start TO Run := Go; END_TRANSITION
+  TRANSITION FROM Run TO Start := NOT Go; END_TRANSITION
+END_PROGRAM
+'''
+REFUSED = PROGRAM.replace('| P Start | S Horn |', '| NO Stop | STOP |')
+
+
+def shows(editor, *parts):
+    """Waits for a text with all these parts in the page in front."""
+    def look():
+        texts = [node.text() for node in editor.all(role='text')]
+        return next((text for text in texts if all(part in text for part in parts)), None)
+    return until(look, 'the text with %s' % ', '.join(parts))
+
+
+def described(text):
+    """What a screen reader adds: the values of the line of the cursor."""
+    return str(text.editor.bus.call_blocking(text.editor.name, text.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                             (A11Y + 'Accessible', 'Description')))
+
+
+def says(editor, text):
+    return until(lambda: editor.all(text), text)
+
+
+def shown(screen):
+    """by the keyboard alone: as other languages, with values; the page follows edits, and is over with its POU"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+2')
+    says(editor, '“Main” is in LD already')
+    editor.keys('ctrl+4')
+    says(editor, '“Main” as ST, read-only')
+    shows(editor, 'PROGRAM Main ST', 'Motor := (Start OR Motor) AND NOT Stop;')
+    editor.focus_on(role='text')
+    editor.type('Q1Q')  # it is read-only
+    assert 'Q1Q' not in shows(editor, 'PROGRAM Main ST')
+    editor.keys('ctrl+3')
+    says(editor, '“Main” as IL, read-only')
+    shows(editor, 'PROGRAM Main IL', 'ANDN  Stop')
+    editor.shot('show-il')
+    editor.keys('ctrl+Page_Up', 'ctrl+Page_Up')
+    editor.to_sheet()
+    editor.keys('slash')
+    until(lambda: editor.all('• new.rung'), 'the edit')
+    editor.keys('ctrl+4')
+    shows(editor, 'PROGRAM Main ST', 'Motor := (NOT Start OR Motor) AND NOT Stop;')
+    editor.keys('ctrl+z')  # shows what it changes
+    editor.to_sheet()
+    editor.keys('ctrl+4')
+    shows(editor, 'Motor := (Start OR Motor) AND NOT Stop;')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    text = editor.focus_on(role='text')
+    editor.keys('ctrl+Home', *['Down'] * 5)
+    until(lambda: 'value FALSE · FALSE · FALSE' in described(text), 'the values')
+    editor.shot('show-st-live')
+    editor.finish()
+
+
+def converted(screen):
+    """by the pointer: converted in one step, and undone; what cannot be converted leads to its cell"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.command('Convert to Structured Text')
+    says(editor, '“Main” is in ST now')
+    text = editor.save(path)
+    assert 'PROGRAM Main ST\n' in text and 'Motor := (Start OR Motor) AND NOT Stop;' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    says(editor, 'Undone: Convert to ST')
+    assert editor.save(path) == PROGRAM
+    editor.command('Show as instruction list')
+    says(editor, '“Main” as IL, read-only')
+    editor.find('Convert to instruction list', 'push button').press()
+    says(editor, '“Main” is in IL now')
+    until(lambda: not editor.all('Main as IL'), 'the page to be closed')
+    assert 'PROGRAM Main IL\n' in editor.save(path)
+    editor.finish()
+
+
+def refused(screen):
+    """what cannot be converted is told with its place, and a click leads there"""
+    path = new_file(screen, REFUSED)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.command('Convert to Structured Text')
+    says(editor, '“Main” cannot be shown as ST')
+    reason = until(lambda: editor.all('"STOP" has no counterpart in Structured Text'), 'the reason')[0]
+    until(lambda: editor.all('Main, rung 2'), 'its place')
+    editor.shot('show-refused')
+    editor.click(reason)
+    editor.to_sheet()
+    until(lambda: editor.all('Rung 2'), 'the rung')
+    editor.shot('show-there')
+    editor.finish()
+
+
+def chinese(screen):
+    """a small window, in Chinese"""
+    editor = Chinese(screen, new_file(screen, REFUSED))
+    editor.to_sheet()
+    editor.keys('ctrl+3')
+    says(editor, '“Main”显示为 IL，只读')
+    editor.shot('show-chinese')
+    editor.keys('ctrl+4')
+    says(editor, '“Main”无法显示为 ST')
+    editor.shot('show-chinese-refused')
+    editor.finish()
+
+
+chinese.size = '1024x700x24'
+
+
+def dark(screen):
+    """networks as a ladder or as text, in the dark"""
+    editor = Editor(screen, new_file(screen, CHART), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    until(lambda: editor.all('Start'), 'the chart')
+    editor.command('Show as ladder')
+    says(editor, '“Way” as LD, read-only')
+    until(lambda: editor.all('Way_Steps'), 'the ladders')
+    editor.shot('show-dark')
+    editor.finish()
+
+
+if __name__ == '__main__':
+    main([shown, converted, refused, chinese, dark])
