@@ -755,7 +755,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/watchdog.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 TESTS_T  += tests/modbus/field.py
 
@@ -763,6 +763,15 @@ tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/te
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
+TSAN     := $(BUILD)/tsan
+TSAN_RUN := $(addprefix tests/online/,link.py gateways.py peers.py stress.py sick_disk.py quiet_scan.py watchdog.py) tests/modbus/field.py
+tsan: ## ladderd and its gateways with the sanitizer of threads, in build/tsan/, and the tests of the link; it fails if a race is reported
+	$(MAKE) BUILD=$(TSAN) CFLAGS='-O1 -g -fsanitize=thread' LDFLAGS=-fsanitize=thread tsan-run
+tsan-run: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/ladder-modbus $(BUILD)/ladder-peer $(BUILD)/ladder-guard $(BUILD)/tests/online/ladder-attach $(BUILD)/tests/bin/ladder_random $(SICK_DISK) $(HAL_TEST)/ladderd_uapi
+	@races=$$(mktemp -d) && chmod 777 $$races; status=0; \
+	  BUILD=$(BUILD) LADDER=$(BUILD)/ladder TSAN_OPTIONS="log_path=$$races/race:exitcode=0" prove -e '' $(TSAN_RUN) || status=1; \
+	  cat $$races/* 2>/dev/null && status=1; rm -r $$races; exit $$status
+.PHONY: tsan tsan-run
 asan-editor: ## the editor and its tests with sanitizers: in process, and as a person; ten minutes
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' asan-editor-run
 asan-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all

@@ -321,7 +321,7 @@ static bool wait_for_scan(void *context)
 
 	while (!exchange_is_done(&link->exchange)) {
 		/* After the last scan nobody does an order. */
-		if (now_ns - began_ns > PATIENCE_NS || atomic_load(&link->stop))
+		if (now_ns - began_ns > PATIENCE_NS || atomic_load(&link->stop) || monitor_hangs())
 			return false;
 		if (now_ns - nudged_ns > NUDGE_NS && atomic_load(&link->dozes)) {
 			pthread_kill(link->scans, SIGURG);
@@ -377,6 +377,12 @@ static void amend_status(void *context, struct board_status *status)
 	status->began = link->began;
 	status->began_how = link->began_how;
 	status->began_ends = link->began_ends;
+}
+
+static bool scan_hangs(void *context)
+{
+	(void)context;
+	return monitor_hangs();
 }
 
 /* ---- the log ---- */
@@ -1295,7 +1301,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const size_t size = image_memory_size(program);
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = &cycle->board,
-		.wait = wait_for_scan, .amend = amend_status, .context = link,
+		.wait = wait_for_scan, .hangs = scan_hangs, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,
 		.io = &link->io, .machine = &link->devices,

@@ -225,6 +225,14 @@ void monitor_end(struct monitor *monitor)
 	count_scan(monitor);
 }
 
+bool monitor_hangs(void)
+{
+	struct guard_page *page = guarded_page();
+	const uint32_t scan = atomic_load(&page->scan);
+
+	return (scan & 1) != 0 && atomic_load(&page->safe) == scan;
+}
+
 /* ---- safe points ---- */
 
 static volatile int *volatile asked;

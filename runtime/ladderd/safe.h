@@ -63,6 +63,9 @@ void monitor_stop(struct monitor *monitor);
  * system call. */
 void monitor_begin(struct monitor *monitor, int64_t now_ns);
 void monitor_end(struct monitor *monitor);
+/** monitor_hangs - the outputs are safe since a scan is over its limit, and that scan has not ended yet.
+ * In any thread. Scan-safe: yes. */
+bool monitor_hangs(void);
 
 /**
  * safe_ask - makes a POSIX timer, whose signal sets *@ask to 1: then the scan looks at the clock

@@ -71,7 +71,8 @@ struct server {
 	struct retained retained;
 	/* Given to the scan thread with an order, so not touched until it is done. */
 	struct order order;
-	struct board_status status;
+	struct board_status status;    /* the scan thread fills it in           */
+	struct board_status known;     /* the last one; of no version: none     */
 	struct image held;     /* only its forces                             */
 	struct watch look_watch;
 	struct standby_view standby;

@@ -37,21 +37,40 @@ enum refusal serve_hello(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-enum refusal serve_status(struct asked *asked)
+static enum refusal learn_status(struct server *server)
 {
-	struct server *server = asked->server;
 	enum refusal refusal;
 
 	if (!server_can_order(server))
 		return REFUSAL_BUSY;
 	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status };
 	refusal = server_give(server);
-	if (refusal != REFUSAL_NONE)
+	if (refusal == REFUSAL_NONE)
+		server->known = server->status;
+	return refusal;
+}
+
+/* A scan that hangs tells nothing: the board says what it said last, and that. */
+static bool is_hung(struct server *server)
+{
+	if (!server->setup.hangs || !server->setup.hangs(server->setup.context) || !*server->known.version)
+		return false;
+	server->known.mode = STATE_FAULT;
+	snprintf(server->known.fault, sizeof(server->known.fault), "watchdog: a scan hangs and does not end");
+	return true;
+}
+
+enum refusal serve_status(struct asked *asked)
+{
+	struct server *server = asked->server;
+	const enum refusal refusal = learn_status(server);
+
+	if (refusal != REFUSAL_NONE && !(refusal == REFUSAL_BUSY && is_hung(server)))
 		return refusal;
-	server->setup.amend(server->setup.context, &server->status);
-	server->status.sessions = (uint32_t)server_sessions(server);
+	server->setup.amend(server->setup.context, &server->known);
+	server->known.sessions = (uint32_t)server_sessions(server);
 	asked_begin(asked, 0);
-	status_put(&asked->out, &server->status);
+	status_put(&asked->out, &server->known);
 	gateways_put(&asked->out, io_status(server));
 	values_put(&asked->out, io_values(server));
 	return REFUSAL_NONE;

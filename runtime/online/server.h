@@ -184,6 +184,8 @@ struct server_setup {
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */
 	bool (*wait)(void *context);
+	/** The scan that runs is over its limit and does not end; the outputs are safe. NULL: never known. */
+	bool (*hangs)(void *context);
 	/** Fills in what is not the scan's: time, processor, memory. */
 	void (*amend)(void *context, struct board_status *status);
 	void *context;
