@@ -213,6 +213,8 @@ static void run_plan(const char *name)
 			     text);
 		else if ((text = behind(&plan, "dated")) != NULL)
 			skip("goes by the date", "%s: %s", plan.name, text);
+		else if ((text = behind(&plan, "days")) != NULL)
+			skip("takes days", "%s: %s", plan.name, text);
 	}
 	fclose(plan.from);
 }
