@@ -407,7 +407,7 @@ static void print_changes(const char *path, const struct classic_report *report)
 {
 	for (int i = 0; i < report->count; i++) {
 		const struct report_line *line = &report->line[i];
-		const char *kind = line->kind == REPORT_LOST ? "lost" : "changed";
+		const char *kind = line->kind == REPORT_LOST ? "lost" : line->kind == REPORT_TAKEN ? "kept" : "changed";
 
 		if (line->line)
 			fprintf(stderr, "%s:%d: %s: %s\n", path, line->line, kind, line->text);

@@ -78,6 +78,18 @@ char *text_outline(const struct project *project, size_t *len,
 		   void (*take)(void *context, const struct text_span *span),
 		   void *context);
 
+/**
+ * text_write_head, text_write_part, text_write_tail - the text of a rung file in pieces, one behind the
+ * other: what stands above the parts, each part by its number, what stands below
+ * @head: what text_write_head() returned, for the first part; 0: for the others. For the tail, if there
+ *        is no part
+ *
+ * Scan-safe: no.
+ */
+uint32_t text_write_head(const struct project *project, const struct sink *sink);
+void text_write_part(const struct project *project, int number, uint32_t head, const struct sink *sink);
+void text_write_tail(const struct project *project, uint32_t head, const struct sink *sink);
+
 /** text_write_pou_access - every VAR_ACCESS … END_VAR of @pou. Scan-safe: no. */
 void text_write_pou_access(const struct project *project, const struct pou *pou, const struct sink *sink);
 /** text_write_vars - every VAR … END_VAR of @table. Scan-safe: no. */

@@ -684,6 +684,25 @@ static void write_last(const struct sink *sink, const struct project *project, u
 	write_above(sink, project, tail);
 }
 
+uint32_t text_write_head(const struct project *project, const struct sink *sink)
+{
+	return write_first_lines(sink, project);
+}
+
+void text_write_part(const struct project *project, int number, uint32_t head, const struct sink *sink)
+{
+	sink_text(sink, "\n");
+	write_above(sink, project, head);
+	write_part(sink, project, &project->part[number], false);
+}
+
+void text_write_tail(const struct project *project, uint32_t head, const struct sink *sink)
+{
+	write_last(sink, project, head, project->tail);
+	for (int i = 1; i < project->source_count; i++)
+		write_last(sink, project, 0, project->source[i].tail);
+}
+
 /* @number: of one file, in its own form; -1: of all. A view is of rung files only. */
 static void write_project(const struct sink *sink, const struct project *project, int number)
 {

@@ -204,6 +204,9 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 	take_repeated(project);
 	c->types = xml_look(types, "dataTypes");
 	plc_find_pous(c, xml_child(types, "pous"));
+	plc_find_own(c, project);
+	if (plc_own_project(c, project))
+		return;
 	plc_find_renames(c, project);
 	put_header(c, project);
 	if (xml_child(types, "dataTypes"))
@@ -225,6 +228,10 @@ static void report_counts(struct plcopen *c)
 	plc_report(c, REPORT_TAKEN, nowhere,
 		   report_said(c->report, REPORTED("%d POUs, %d variables")), c->count.pous,
 		   c->count.variables);
+	if (c->count.own)
+		plc_report(c, REPORT_TAKEN, nowhere,
+			   report_said(c->report, REPORTED("%d POUs as they were exported, by the text beside their drawing")),
+			   c->count.own);
 	if (c->count.rungs)
 		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d rungs")),
 			   c->count.rungs);

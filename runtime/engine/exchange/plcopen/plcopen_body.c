@@ -235,6 +235,10 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	enum plcopen_language language;
 
 	c->pou_name = pou->name;
+	if (plc_own_pou(c, pou)) {
+		c->pou_name = NULL;
+		return;
+	}
 	c->rungs = 0;
 	c->made.count = 0;
 	c->made.name = NULL;
@@ -286,6 +290,9 @@ void plc_find_pous(struct plcopen *c, struct xml_node *pous)
 
 void plc_pous(struct plcopen *c)
 {
-	for (int i = 0; i < c->pous; i++)
+	for (int i = 0; i < c->pous; i++) {
 		put_pou(c, &c->pou[i]);
+		plc_own_behind(c, &c->pou[i]);
+	}
+	plc_own_others(c);
 }

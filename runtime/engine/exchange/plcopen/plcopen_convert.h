@@ -35,12 +35,13 @@ struct plcopen {
 	const char *pou_name;   /* for the report; NULL: outside of POUs        */
 	int rungs;              /* written in this POU                         */
 	const struct xml_node *types; /* of the project; NULL: none              */
+	struct xml_node *own;   /* the text of an export, beside the XML; NULL: none */
 	struct plcopen_pou *pou;
 	int pous;
 	struct { struct plc_rename { const char *from, *to; } *one; int count; } rename;
 	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
 	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
-	struct { int types, pous, variables, rungs, networks, steps; } count;
+	struct { int types, pous, variables, rungs, networks, steps, own; } count;
 };
 
 /* Text that waits until what stands above it is written. */
@@ -108,6 +109,18 @@ const struct xml_node *plc_find_variable(const struct plcopen_pou *pou, const ch
  * with this type. */
 const char *plc_make(struct plcopen *c, struct plcopen_pou *pou, const char *stem,
 		     const char *type);
+
+/* ---- plcopen_own.c ---- */
+/** plc_find_own - the text of an export, as c->own. */
+void plc_find_own(struct plcopen *c, struct xml_node *project);
+/** plc_own_project - writes all of it; false: the XML says something else, or there is none. */
+bool plc_own_project(struct plcopen *c, struct xml_node *project);
+/** plc_own_pou - the same of a POU. */
+bool plc_own_pou(struct plcopen *c, const struct plcopen_pou *pou);
+/** plc_own_behind - the actions that stand behind @pou. */
+void plc_own_behind(struct plcopen *c, const struct plcopen_pou *pou);
+/** plc_own_others - what the XML does not have: subroutines. */
+void plc_own_others(struct plcopen *c);
 
 /* ---- plcopen_config.c ---- */
 void plc_configurations(struct plcopen *c, struct xml_node *instances);

@@ -12,6 +12,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,8 +23,9 @@ enum piece_kind { PIECE_CELL, PIECE_SERIES, PIECE_PARALLEL };
 struct piece {
 	enum piece_kind kind;
 	const char *text;       /* of a cell                                     */
-	struct piece *first, *last, *next;
+	struct piece *first, *next;
 	int width, height;
+	int y;                  /* of its highest element in the drawing         */
 };
 
 /* Between two nets. */
@@ -119,7 +121,7 @@ static struct piece *cell(struct sketch *s, const char *text)
 	struct piece *piece = arena_alloc(s->c->arena, sizeof(*piece));
 
 	if (piece)
-		*piece = (struct piece){ .text = text, .width = 1, .height = 1 };
+		*piece = (struct piece){ .text = text, .width = 1, .height = 1, .y = INT_MAX };
 	else
 		s->odd = true;
 	return piece;
@@ -129,17 +131,23 @@ static struct piece *cell(struct sketch *s, const char *text)
 static struct piece *cell_of(struct sketch *s, const struct plc_element *e, const char *text)
 {
 	const char *comment = plc_flat(s->c, e->comment);
+	struct piece *piece = cell(s, *comment ? plc_print(s->c, "%s (* %s *)", text, comment) : text);
 
-	return cell(s, *comment ? plc_print(s->c, "%s (* %s *)", text, comment) : text);
+	if (piece)
+		piece->y = e->y;
+	return piece;
 }
 
+/* Parallel parts stand as they do in the drawing. */
 static void append(struct piece *whole, struct piece *part)
 {
-	if (whole->last)
-		whole->last->next = part;
-	else
-		whole->first = part;
-	whole->last = part;
+	struct piece **at = &whole->first;
+
+	while (*at && (whole->kind == PIECE_SERIES || (*at)->y <= part->y))
+		at = &(*at)->next;
+	part->next = *at;
+	*at = part;
+	whole->y = part->y < whole->y ? part->y : whole->y;
 	if (whole->kind == PIECE_SERIES) {
 		whole->width += part->width;
 		whole->height = part->height > whole->height ? part->height : whole->height;
@@ -160,7 +168,7 @@ static struct piece *combine(struct sketch *s, enum piece_kind kind, struct piec
 		whole = cell(s, NULL);
 		if (!whole)
 			return NULL;
-		*whole = (struct piece){ .kind = kind };
+		*whole = (struct piece){ .kind = kind, .y = INT_MAX };
 		append(whole, a);
 	}
 	if (b->kind != kind) {
@@ -668,19 +676,29 @@ static bool step_reads(struct sketch *s, const struct plc_element *e, const char
 	return false;
 }
 
+/* The box that writes a variable or acts itself; NULL: none. */
+static const struct plc_element *box_of(const struct sketch *s, int step)
+{
+	const int at = s->graph->step[step];
+	const struct plc_element *e = &s->graph->element[at];
+
+	if (e->kind == PLC_BLOCK)
+		return e;
+	return s->absorbed[at] ? element_of(s, &s->graph->source[plc_in(s->graph, e, 0)->first]) : NULL;
+}
+
 static bool interferes(struct sketch *s, int first, int count)
 {
 	for (int i = first; i < first + count; i++) {
-		const int at = s->graph->step[i];
-		const struct plc_element *e = &s->graph->element[at];
-		const bool box = e->kind == PLC_BLOCK;
-		const char *name = box ? e->instance : e->name;
+		const struct plc_element *e = &s->graph->element[s->graph->step[i]], *box = box_of(s, i);
+		const char *name = e->kind == PLC_BLOCK ? e->instance : e->name;
 
 		if (e->kind == PLC_JUMP || e->kind == PLC_RETURN || !name)
 			continue;
-		/* What a box writes is written before the coils act. */
-		for (int k = box || s->absorbed[at] ? first : i + 1; k < first + count; k++)
-			if (step_reads(s, &s->graph->element[s->graph->step[k]], name))
+		/* What a box writes is written before the coils act, and after what leads to it was read. */
+		for (int k = box ? first : i + 1; k < first + count; k++)
+			if ((!box || box_of(s, k) != box) &&
+			    step_reads(s, &s->graph->element[s->graph->step[k]], name))
 				return true;
 	}
 	return false;
@@ -932,8 +950,11 @@ static bool put_rung(struct plcopen *c, struct plc_graph *graph, const struct pl
 	s->absorbed = calloc((size_t)graph->elements + 1, 1);
 	s->seen = calloc((size_t)graph->elements + 1, sizeof(*s->seen));
 	s->odd = !s->net_of || !s->met || !s->absorbed || !s->seen;
-	for (int i = first; i < first + count && !s->odd; i++)
-		meet_step(s, i);
+	/* A block with a number of its own stands where its output leads. */
+	for (int pass = 0; pass < 2; pass++)
+		for (int i = first; i < first + count && !s->odd; i++)
+			if ((graph->element[graph->step[i]].kind == PLC_BLOCK) == (pass == 1))
+				meet_step(s, i);
 	if (!s->odd && !interferes(s, first, count) && reduce(s)) {
 		draw_net(s, RAIL, 0, 0, 0);
 		good = !s->odd && s->rows > 0;

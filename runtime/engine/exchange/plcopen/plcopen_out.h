@@ -22,7 +22,9 @@ struct out {
 	int ids;                /* localIds given in this body                    */
 	const char *coil;       /* the name of coils TRANSITION; NULL: as written  */
 	int order;              /* executionOrderIds given in this body           */
+	bool numbered;          /* the elements of this body have their numbers     */
 	int y;                  /* where the next rung or network begins          */
+	uint64_t *digest;       /* of each POU: that of its element; 0: it has none */
 };
 
 /** plco_open - begins an element on a line of its own; @format: its name and attributes, which
@@ -73,4 +75,7 @@ void plco_networks(struct out *out, const struct pou *pou);
 void plco_chart(struct out *out, const struct pou *pou);
 /** plco_chart_actions - actions and transitions that have a name. */
 void plco_chart_actions(struct out *out, const struct pou *pou);
+/* ---- plcopen_write_own.c ---- */
+/** plco_own - the project's own text, beside what the XML says. Nothing if it cannot stand there. */
+void plco_own(struct out *out);
 #endif

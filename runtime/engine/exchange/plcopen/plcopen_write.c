@@ -2,6 +2,7 @@
  *
  * plcopen_write - the export as a whole: header, types, POUs, configuration.
  */
+#include "engine/exchange/plcopen/plcopen_digest.h"
 #include "engine/exchange/plcopen/plcopen_out.h"
 
 #include "engine/text/text.h"
@@ -135,6 +136,7 @@ static const char *type_word(const struct pou *pou)
 static void put_pou(struct out *out, const struct pou *pou)
 {
 	const struct var *result = result_of(pou);
+	const size_t from = out->text.len;
 
 	out->pou = pou;
 	if (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION) {
@@ -158,6 +160,8 @@ static void put_pou(struct out *out, const struct pou *pou)
 	plco_body(out, pou);
 	plco_documentation(out, plco_id(out, pou->comment));
 	plco_close(out, "pou");
+	if (out->digest && !out->text.failed)
+		out->digest[pou - out->project->pou] = plcopen_digest_text(out->text.text + from, out->text.len - from);
 }
 
 /* ---- configuration ---- */
@@ -279,6 +283,7 @@ char *plcopen_write(struct project *project, size_t *len, struct classic_report 
 
 	arena_init(&arena);
 	out.arena = &arena;
+	out.digest = arena_alloc(&arena, sizeof(*out.digest) * ((size_t)project->pou_count + 1));
 	sink_memory_init(&out.text);
 	out.sink = sink_to_memory(&out.text);
 	sink_text(&out.sink, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
@@ -294,6 +299,7 @@ char *plcopen_write(struct project *project, size_t *len, struct classic_report 
 	plco_close(&out, "pous");
 	plco_close(&out, "types");
 	put_configuration(&out);
+	plco_own(&out);
 	sink_text(&out.sink, "</project>\n");
 	text = out.text.failed || arena.failed ? NULL : out.text.text;
 	*len = out.text.len;

@@ -8,6 +8,7 @@
  */
 #include "engine/exchange/plcopen/plcopen_out.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/model/args.h"
 #include "engine/model/network.h"
@@ -29,6 +30,8 @@ struct drawing {
 	struct ref *ref;        /* of each element of the network                  */
 	struct ref *given;      /* inVariables of the box in work                  */
 	int givens, pitch;      /* pitch: height of a row                          */
+	int *order;             /* of each element: its place in the order         */
+	int *seen;              /* of each element: by which coil it was looked at */
 };
 
 static int next_id(struct drawing *d)
@@ -83,6 +86,51 @@ static void put_position(struct out *out, int x, int y)
 	plco_line(out, "position x=\"%d\" y=\"%d\"", x, y);
 }
 
+/* ---- the order ---- */
+
+static int outputs_in(const char *args)
+{
+	struct arg arg;
+	int count = 0;
+
+	while (args_next(&args, &arg))
+		count += arg.output;
+	return count;
+}
+
+/* Numbers what @net needs, then the element itself; power flows from left to right, so this ends. */
+static void order_net(struct drawing *d, int net);
+
+static void order_element(struct drawing *d, int at)
+{
+	const struct network_element *e = &d->net.element[at];
+
+	if (d->order[at])
+		return;
+	d->order[at] = -1;
+	order_net(d, e->in);
+	for (int i = e->first_pin; i < e->first_pin + e->pins; i++)
+		order_net(d, d->net.pin[i].in);
+	d->order[at] = d->out->order + 1;
+	d->out->order += 1 + outputs_in(plco_id(d->out, cell_of(d, e)->args));
+	d->out->order += e->word == ELEM_ASSIGN;
+}
+
+static void order_net(struct drawing *d, int net)
+{
+	for (int i = net == NET_RAIL || net < 0 ? 0 : d->net.first_feeder[net];
+	     net > NET_RAIL && i < d->net.first_feeder[net + 1]; i++)
+		order_element(d, d->net.feeder[i]);
+}
+
+/* The attribute of an element, or of one of the variables that it writes. */
+static const char *number(struct drawing *d, const struct network_element *e, int further)
+{
+	if (!d->out->numbered)
+		return "";
+	return plco_print(d->out, " executionOrderId=\"%d\"", d->order[e - d->net.element] + further);
+}
+
 /* ---- contacts and coils ---- */
 
 static void put_operand(struct drawing *d, const struct network_element *e, const char *kind,
@@ -90,8 +138,9 @@ static void put_operand(struct drawing *d, const struct network_element *e, cons
 {
 	const struct cell *cell = cell_of(d, e);
 
-	plco_open(d->out, "%s localId=\"%d\" height=\"%d\" width=\"%d\"%s", kind,
-		 d->ref[e - d->net.element].id, CONTACT_HEIGHT, CONTACT_WIDTH, attributes);
+	plco_open(d->out, "%s localId=\"%d\" height=\"%d\" width=\"%d\"%s%s", kind,
+		 d->ref[e - d->net.element].id, CONTACT_HEIGHT, CONTACT_WIDTH, attributes,
+		 !strcmp(kind, "coil") ? number(d, e, 0) : "");
 	put_position(d->out, x_of(e), y_of(d, e->row));
 	put_in(d, e->in);
 	plco_line(d->out, "connectionPointOut");
@@ -106,9 +155,10 @@ static void put_jump(struct drawing *d, const struct network_element *e, bool ju
 	const int id = d->ref[e - d->net.element].id;
 
 	if (jump)
-		plco_open(d->out, "jump localId=\"%d\" label=\"%s\"", id, plco_id(d->out, cell_of(d, e)->operand));
+		plco_open(d->out, "jump localId=\"%d\" label=\"%s\"%s", id, plco_id(d->out, cell_of(d, e)->operand),
+			 number(d, e, 0));
 	else
-		plco_open(d->out, "return localId=\"%d\"", id);
+		plco_open(d->out, "return localId=\"%d\"%s", id, number(d, e, 0));
 	put_position(d->out, x_of(e), y_of(d, e->row));
 	put_in(d, e->in);
 	plco_close(d->out, jump ? "jump" : "return");
@@ -128,9 +178,9 @@ static struct ref give(struct drawing *d, int x, int y, const char *expression)
 	return ref;
 }
 
-static void store(struct drawing *d, int x, int y, const char *name, struct ref from)
+static void store(struct drawing *d, int x, int y, const char *name, struct ref from, const char *order)
 {
-	plco_open(d->out, "outVariable localId=\"%d\" height=\"%d\" width=\"%d\"", next_id(d), PIN, BOX_WIDTH);
+	plco_open(d->out, "outVariable localId=\"%d\" height=\"%d\" width=\"%d\"%s", next_id(d), PIN, BOX_WIDTH, order);
 	put_position(d->out, x, y);
 	plco_open(d->out, "connectionPointIn");
 	put_ref(d->out, from);
@@ -145,8 +195,8 @@ static void open_box(struct drawing *d, const struct network_element *e, const c
 	const int id = d->ref[e - d->net.element].id;
 
 	if (instance)
-		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" instanceName=\"%s\" height=\"%d\" width=\"%d\"",
-			 id, type, instance, ROW, BOX_WIDTH);
+		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" instanceName=\"%s\" height=\"%d\" width=\"%d\"%s",
+			 id, type, instance, ROW, BOX_WIDTH, number(d, e, 0));
 	else
 		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" height=\"%d\" width=\"%d\"", id, type, ROW,
 			 BOX_WIDTH);
@@ -209,7 +259,7 @@ static void put_assignment(struct drawing *d, const struct network_element *e)
 		return;
 	put_with_text(d, e, "MOVE", "EN", "IN", colon + 2 + strspn(colon + 2, " "));
 	store(d, x_of(e) + BOX_WIDTH + PIN, y_of(d, e->row) + 2 * PIN,
-	      plco_print(d->out, "%.*s", (int)strcspn(text, " :"), text), (struct ref){ id, "OUT" });
+	      plco_print(d->out, "%.*s", (int)strcspn(text, " :"), text), (struct ref){ id, "OUT" }, number(d, e, 1));
 }
 
 static const struct word_row *row_of(const struct drawing *d, const struct network_element *e)
@@ -269,10 +319,13 @@ static void store_outputs(struct drawing *d, const struct network_element *e, co
 	int count = 0;
 
 	for (const char *at = args; args_next(&at, &arg); )
-		if (arg.output)
-			store(d, x_of(e) + BOX_WIDTH + PIN, y_of(d, e->row) + PIN * ++count,
+		if (arg.output) {
+			count++;
+			store(d, x_of(e) + BOX_WIDTH + PIN, y_of(d, e->row) + PIN * count,
 			      arg_text(d, arg.value, arg.value_len),
-			      (struct ref){ d->ref[e - d->net.element].id, arg_text(d, arg.pin, arg.pin_len) });
+			      (struct ref){ d->ref[e - d->net.element].id, arg_text(d, arg.pin, arg.pin_len) },
+			      number(d, e, count));
+		}
 }
 
 static void put_block(struct drawing *d, const struct network_element *e)
@@ -478,6 +531,96 @@ static int tallest(const struct drawing *d)
 	return most;
 }
 
+/* ---- a coil that others of its rung read ---- */
+
+/* What acts when all of its rung was read. */
+static bool is_last(const struct network_element *e)
+{
+	switch ((int)e->word) {
+	case ELEM_ASSIGN:
+	case ELEM_COIL:
+	case ELEM_COIL_NOT:
+	case ELEM_COIL_SET:
+	case ELEM_COIL_RESET:
+	case ELEM_COIL_P:
+	case ELEM_COIL_N:
+		return true;
+	default:
+		return false;
+	}
+}
+
+static const char *written(const struct drawing *d, const struct network_element *e)
+{
+	const char *text = plco_id(d->out, cell_of(d, e)->operand);
+
+	return e->word == ELEM_ASSIGN ? plco_print(d->out, "%.*s", (int)strcspn(text, " :"), text) : text;
+}
+
+/* Does @text name the variable that @name begins with? */
+static bool mentions(const char *text, const char *name)
+{
+	const size_t base = strcspn(name, ".[");
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END)
+		if (ascii_same(lex.token.text, name, base) && (lex.token.len == base ||
+		    (lex.token.len > base && lex.token.text[base] == '.') || name[0] == '%'))
+			return true;
+	return false;
+}
+
+static bool net_reads(struct drawing *d, int net, int coil);
+
+static bool element_reads(struct drawing *d, int at, int coil)
+{
+	const struct network_element *e = &d->net.element[at];
+	const struct cell *cell = cell_of(d, e);
+	const char *name = written(d, &d->net.element[coil]);
+	const bool box = row_of(d, e)->kind != WORD_ELEM;
+
+	if (d->seen[at] == coil + 1)
+		return false;
+	d->seen[at] = coil + 1;
+	/* A box that was called before has read what it needs. */
+	if (box && d->order[at] < d->order[coil])
+		return false;
+	if (!is_last(e) && (mentions(plco_id(d->out, cell->operand), name) || mentions(plco_id(d->out, cell->args), name)))
+		return true;
+	for (int i = e->first_pin; i < e->first_pin + e->pins; i++)
+		if (net_reads(d, d->net.pin[i].in, coil))
+			return true;
+	return net_reads(d, e->in, coil);
+}
+
+static bool net_reads(struct drawing *d, int net, int coil)
+{
+	for (int i = net <= NET_RAIL ? 0 : d->net.first_feeder[net];
+	     net > NET_RAIL && i < d->net.first_feeder[net + 1]; i++)
+		if (element_reads(d, d->net.feeder[i], coil))
+			return true;
+	return false;
+}
+
+/* Elsewhere a coil is written before what acts behind it reads; here a rung reads first. */
+static void report_readers(struct drawing *d)
+{
+	for (int i = 0; i < d->net.element_count; i++)
+		for (int k = 0; is_last(&d->net.element[i]) && k < d->net.element_count; k++) {
+			const struct network_element *e = &d->net.element[k];
+			const bool acts = is_last(e) || e->word == ELEM_JUMP || e->word == ELEM_RETURN ||
+					  row_of(d, e)->kind != WORD_ELEM;
+
+			if (!acts || d->order[k] <= d->order[i] || !element_reads(d, k, i))
+				continue;
+			plco_lost(d->out, REPORT_CHANGED, (int)d->rung->line, d->number, report_said(d->out->report,
+				  REPORTED("other tools write %s before the rest of the rung acts; here the whole rung is read first")),
+				  written(d, &d->net.element[i]));
+			break;
+		}
+}
+
 static void put_rung(struct out *out, const struct rung *rung, int number)
 {
 	struct drawing d = { .out = out, .rung = rung, .number = number };
@@ -488,13 +631,18 @@ static void put_rung(struct out *out, const struct rung *rung, int number)
 		return;
 	d.given = given;
 	d.ref = arena_alloc(out->arena, sizeof(*d.ref) * ((size_t)d.net.element_count + 1));
-	if (!d.ref)
+	d.order = arena_alloc(out->arena, sizeof(*d.order) * ((size_t)d.net.element_count + 1));
+	d.seen = arena_alloc(out->arena, sizeof(*d.seen) * ((size_t)d.net.element_count + 1));
+	if (!d.ref || !d.order || !d.seen)
 		return;
 	word = missing(&d);
 	if (rung->off || word) {
 		put_as_comment(&d, word);
 		return;
 	}
+	for (int i = 0; i < d.net.element_count; i++)
+		order_element(&d, i);
+	report_readers(&d);
 	put_heading(&d);
 	d.pitch = tallest(&d);
 	d.rail = next_id(&d);
@@ -509,8 +657,26 @@ static void put_rung(struct out *out, const struct rung *rung, int number)
 	out->y += d.pitch * rung->rows + ROW;
 }
 
+/* A block that leads to nothing: elsewhere it would act behind all coils of the body. */
+static bool has_idle_block(struct out *out, const struct rung *rung)
+{
+	struct network net;
+
+	if (rung->off || !network_make(rung, out->arena, &net))
+		return false;
+	for (int i = 0; i < net.element_count; i++)
+		if (words_row(&out->project->words, (enum word)net.element[i].word)->kind == WORD_FB &&
+		    (net.element[i].out < 0 || !net.reader_count[net.element[i].out]))
+			return true;
+	return false;
+}
+
 void plco_rungs(struct out *out, const struct pou *pou, int first, int count)
 {
+	out->order = 0;
+	out->numbered = false;
+	for (int i = first; i < first + count && !out->numbered; i++)
+		out->numbered = has_idle_block(out, pou->rung[i]);
 	for (int i = first; i < first + count; i++)
 		put_rung(out, pou->rung[i], i + 1);
 }

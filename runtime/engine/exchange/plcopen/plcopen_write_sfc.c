@@ -25,6 +25,7 @@ struct chart {
 	int *entry;             /* of each step: the transition above it; -1: none */
 	int *step_id, *leaves;  /* of each step: its localId; what transitions leave from */
 	int *transition_id, *enters; /* of each transition: what leads to its steps */
+	int *order, orders;     /* transitions as they stand in the drawing         */
 };
 
 static bool inside(const struct chart *c, int step)
@@ -62,8 +63,8 @@ static int row_of_transition(const struct chart *c, const struct sfc_transition 
 	return row;
 }
 
-/* Steps that are reached from those with a row get the next one; the first way to one is drawn. */
-static bool reach(struct chart *c)
+/* Steps that are reached from those of @row get the next one; the first way to one is drawn. */
+static bool reach(struct chart *c, int row)
 {
 	bool any = false;
 
@@ -73,12 +74,13 @@ static bool reach(struct chart *c)
 
 		for (int k = 0; k < t->from_count; k++)
 			ready = ready && inside(c, from_of(c, t)[k].step) && c->row[from_of(c, t)[k].step] >= 0;
+		ready = ready && row_of_transition(c, t) == row;
 		for (int k = 0; ready && k < t->to_count; k++) {
 			const int step = to_of(c, t)[k].step;
 
 			if (!inside(c, step) || c->row[step] >= 0)
 				continue;
-			c->row[step] = row_of_transition(c, t) + 1;
+			c->row[step] = row + 1;
 			c->entry[step] = i;
 			any = true;
 		}
@@ -94,13 +96,24 @@ static void find_rows(struct chart *c)
 		c->row[i] = inside(c, i) && c->sfc->step[i].kind == STEP_INITIAL ? 0 : -1;
 		c->entry[i] = -1;
 	}
-	while (reach(c))
-		;
-	for (int i = 0; i < c->sfc->step_count; i++)
-		last = c->row[i] > last ? c->row[i] : last;
-	for (int i = 0; i < c->sfc->step_count; i++)
+	for (int i = 0; i < c->sfc->step_count; i++) {
+		while (reach(c, last))
+			last++;
 		if (inside(c, i) && c->row[i] < 0)
 			c->row[i] = ++last;
+	}
+	while (reach(c, last))
+		last++;
+}
+
+/* Transitions as they stand: by their row, then in the order of the file. */
+static void find_order(struct chart *c)
+{
+	for (int row = -1; row <= c->sfc->step_count; row++)
+		for (int i = 0; i < c->sfc->transition_count; i++)
+			if (c->sfc->transition[i].macro == c->macro &&
+			    row_of_transition(c, &c->sfc->transition[i]) == row)
+				c->order[c->orders++] = i;
 }
 
 /* ---- elements ---- */
@@ -366,15 +379,20 @@ static bool give_ids(struct chart *c)
 	c->leaves = arena_alloc(c->out->arena, steps);
 	c->transition_id = arena_alloc(c->out->arena, transitions);
 	c->enters = arena_alloc(c->out->arena, transitions);
-	if (!c->row || !c->entry || !c->step_id || !c->leaves || !c->transition_id || !c->enters)
+	c->order = arena_alloc(c->out->arena, transitions);
+	if (!c->row || !c->entry || !c->step_id || !c->leaves || !c->transition_id || !c->enters || !c->order)
 		return false;
+	find_rows(c);
+	find_order(c);
 	for (int i = 0; i < c->sfc->step_count; i++) {
-		c->step_id[i] = ++c->out->ids;
-		c->leaves[i] = uses_of(c, i) > 1 ? ++c->out->ids : c->step_id[i];
+		c->step_id[i] = inside(c, i) ? ++c->out->ids : 0;
+		c->leaves[i] = inside(c, i) && uses_of(c, i) > 1 ? ++c->out->ids : c->step_id[i];
 	}
-	for (int i = 0; i < c->sfc->transition_count; i++) {
-		c->transition_id[i] = ++c->out->ids;
-		c->enters[i] = c->sfc->transition[i].to_count > 1 ? ++c->out->ids : c->transition_id[i];
+	for (int i = 0; i < c->orders; i++) {
+		const int t = c->order[i];
+
+		c->transition_id[t] = ++c->out->ids;
+		c->enters[t] = c->sfc->transition[t].to_count > 1 ? ++c->out->ids : c->transition_id[t];
 	}
 	return true;
 }
@@ -385,14 +403,12 @@ static void put_chart(struct out *out, const struct pou *pou, int macro)
 
 	if (!give_ids(&c))
 		return;
-	find_rows(&c);
 	plco_open(out, "SFC");
 	for (int i = 0; i < c.sfc->step_count; i++)
 		if (inside(&c, i))
 			put_step(&c, i);
-	for (int i = 0; i < c.sfc->transition_count; i++)
-		if (c.sfc->transition[i].macro == macro)
-			put_transition(&c, i);
+	for (int i = 0; i < c.orders; i++)
+		put_transition(&c, c.order[i]);
 	plco_close(out, "SFC");
 }
 

@@ -1,0 +1,171 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# plcopen_again.t - every sample is exported as PLCopen XML, imported, and exported again: the second XML is the
+# first, and the rung file is the sample itself. Without the text that an export puts beside the drawing, as other
+# tools see it, the import does the same as the sample, but for what the report of the export calls lost.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use File::Temp qw(tempdir);
+use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
+use PlcopenShape;
+
+my $tests = abs_path(dirname(__FILE__));
+my $build = abs_path($ENV{BUILD} // "$tests/../build");
+my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
+my $folder = tempdir(CLEANUP => 1);
+chdir $folder or die;
+
+spew('probe.xml', '<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types/></project>');
+plan skip_all => 'built without libxml2' if `$ladder check probe.xml 2>&1` =~ /LD040/;
+
+# The XML without the text beside the drawing.
+sub bare { return $_[0] =~ s{  <addData>\n    <data name="urn:rungboard:text".*?</addData>\n}{}sr }
+
+# Random inputs, and what is printed: all elementary variables of the project and of its programs.
+sub script {
+	my ($text, $seed) = @_;
+	my (%input, @print);
+	my $pou = '';
+	for my $line (split /\n/, $text) {
+		$pou = $2 // '' if $line =~ /^(PROGRAM|FUNCTION|FUNCTION_BLOCK|SUBROUTINE)\s+(\w+)/ ;
+		$pou = '?' if $line =~ /^(?:FUNCTION|FUNCTION_BLOCK|SUBROUTINE|TYPE)\b/;
+		$pou = '' if $line =~ /^(?:END_|CONFIGURATION)/ && $line !~ /^END_VAR/;
+		next unless $line =~ /^\s+(\w+)(?:\s+AT\s+(%\S+))?\s*:\s*(BOOL|S?INT|DINT|U(?:S|D)?INT|BYTE|D?WORD|TIME|REAL)\b/;
+		my ($name, $at, $type) = ($1, $2 // '', $3);
+		next if $pou eq '?';
+		$input{$name} = $type if $at =~ /^%I/ && $pou eq '';
+		push @print, $pou ? "$pou.$name" : $name if $at !~ /^%I/;
+	}
+	srand $seed;
+	my $script = '@print ' . join(' ', @print, '%QB0', '%MB0') . "\n";
+	my @names = sort keys %input;
+	for (1 .. 150) {
+		my @set = !@names ? () : map { my $n = $names[rand @names]; $input{$n} eq 'BOOL' ? "$n=" . int(rand 2) : $input{$n} =~ /REAL/ ? sprintf('%s=%.1f', $n, rand 100) : "$n=" . int(rand 100) } 0 .. rand 3;
+		@set = map { sprintf '%%IX%d.%d=%d', rand 2, rand 8, rand 2 } 0 .. rand 3 if !@names;
+		$script .= join(' ', @set) . "\n";
+		$script .= '. x' . int(1 + rand 40) . "\n" if rand() < 0.3;
+	}
+	return $script;
+}
+
+sub traced {
+	my ($file, $option) = @_;
+	my $text = `$ladder trace $option '$file' script 2>trouble`;
+	return $text eq '' ? slurp('trouble') : $text;
+}
+sub first_difference {
+	my @a = split /\n/, $_[0];
+	my @b = split /\n/, $_[1];
+	for (0 .. ($#a > $#b ? $#a : $#b)) {
+		return "was: " . ($a[$_] // '-') . "\nis:  " . ($b[$_] // '-') if ($a[$_] // '') ne ($b[$_] // '');
+	}
+	return '';
+}
+
+# What the drawing of these cannot say, so that it does something else without the text beside it.
+my %differs = (lift => 'EXECUTE', mixer => 'subroutines', 'mixing-tank' => 'CONTROL', 'press-two-hand' => 'CONTROL',
+	'traffic-crossing' => 'CONTROL', 'washing-machine' => 'CONTROL', 'cement-plant' => 'subroutines');
+
+my @samples = (sort(glob "$tests/../ladders/*.rung"), map { "$tests/../ladders/$_/$_.rung" } qw(boiler-room cement-plant));
+for my $sample (@samples) {
+	my $name = basename($sample, '.rung');
+	my $single = dirname($sample) =~ /ladders$/;
+	my $said = `$ladder export --as plcopen '$sample' -o first.xml 2>&1`;
+	is($?, 0, "$name: exported") or diag($said), next;
+	my $xml = slurp('first.xml');
+	is(PlcopenShape::wrong($xml), '', "$name: the XML is as TC6 2.01 has it");
+	my $taken = `$ladder import first.xml -o back.rung 2>&1`;
+	is($?, 0, "$name: imported") or diag($taken), next;
+	is(slurp('back.rung'), slurp($sample), "$name: it is the sample") if $single;
+	system("$ladder export --as plcopen back.rung -o second.xml 2>trouble");
+	ok(slurp('second.xml') eq $xml, "$name: the second XML is the first");
+
+	# What is drawn, alone.
+	spew('bare.xml', bare($xml));
+	isnt(slurp('bare.xml'), $xml, "$name: there is a text beside the drawing");
+	my $report = `$ladder import bare.xml -o bare.rung 2>&1`;
+	spew('script', script(slurp('back.rung'), 42));
+	my ($was, $is) = (traced($sample, '--changes'), traced('bare.rung', '--changes'));
+	if ($differs{$name}) {
+		like($said, qr/: (?:lost|changed): .*$differs{$name}/, "$name: the drawing says less, and the report says so");
+		isnt($is, $was, "$name: which the sample needs");
+		next;
+	}
+	ok($is eq $was && $was =~ /t=/, "$name: the drawing alone does the same") or diag(first_difference($was, $is) . "\n$said$report");
+	system("$ladder export --as plcopen bare.rung -o bare2.xml 2>trouble && $ladder import bare2.xml -o bare3.rung >trouble 2>&1");
+	is(slurp('bare3.rung'), slurp('bare.rung'), "$name: and stays the same from then on");
+}
+
+# The look at the XML notices what is wrong: each of these changes of a good one.
+my $good = slurp('first.xml');
+for ([qr/ localId="\d+"/, ''], [qr/ (?:x|y)="\d+"\/>/, '/>'], [qr/<position [^>]*>/, ''], [qr/<connectionPointOut\/>/, '<connectionPointOut/><connectionPointOut/>'],
+	[qr/<variable>/, '<expression>'], [qr/localId="3"/, 'localId="2"'], [qr/refLocalId="\d+"/, 'refLocalId="99999"'], [qr/<inOutVariables\/>/, ''],
+	[qr/<types>/, '<kinds>'], [qr/ priority="\d+"/, ''], [qr/pouType="program"/, 'pouType="class"'], [qr/ handleUnknown="\w+"/, ''], [qr/formalParameter="Q"\/>/, 'formalParameter="QQ"/>'],
+	[qr/<BOOL\/>/, '<BOOLEAN/>'], [qr/tc6_0201"/, 'tc6_0200"'], [qr/<documentation>/, '<documentation>words'], [qr/negated="true"/, 'negated="yes"'], [qr/<xhtml:p>/, '<xhtml:p><b/>']) {
+	my ($was, $is) = @$_;
+	my $bad = $good =~ s/$was/$is/r;
+	isnt(PlcopenShape::wrong($bad), '', "not as TC6 has it: $is instead of $was") if $bad ne $good;
+}
+
+# Random ladders: two outputs may branch, boxes may lead on or to nothing, coils may be read again in their rung. Where
+# the report says nothing, the drawing alone does the same.
+my (@in, @bit, %instance) = map { "in$_" } 0 .. 5;
+@bit = map { "b$_" } 0 .. 5;
+sub one_of { return $_[rand @_] }
+sub contact {
+	my $n = int rand 14;
+	return one_of('NO ', 'NC ') . one_of(@in, @bit) if $n < 9;
+	return one_of('P ', 'N ') . one_of(@in) if $n < 10;
+	return 'NOT' if $n < 11;
+	return '[ n > ' . int(rand 6) . ' ]' if $n < 12;
+	my $type = one_of(qw(TON TOF R_TRIG F_TRIG));
+	my $name = lc($type) . keys %instance;
+	$instance{$name} = $type;
+	return "$type $name" . ($type =~ /^T/ ? ' PT:=T#' . int(10 + rand 50) . 'ms' : '');
+}
+sub output {
+	my $n = int rand 12;
+	return one_of('COIL ', 'COIL ', 'COILNOT ', 'S ', 'R ', 'COILP ') . one_of(@bit) if $n < 9;
+	return '[ n := n + 1 ]' if $n < 11;
+	return 'MOVE IN:=' . int(rand 5) . ' OUT=>n';
+}
+sub random_rung {
+	my $width = 1 + int rand 4;
+	my @row = ([(map { contact() } 1 .. $width), output()]);
+	$row[0][-1] = '---' if rand() < 0.1 && $row[0][-2] =~ /^(?:TON|TOF)/;
+	push @row, [(map { contact() } 1 .. $width - 1), contact() . ' ^'] if rand() < 0.5;
+	if ($row[1] && $width > 1 && rand() < 0.5) { my $k = 1 + int rand($width - 1); $row[1] = [@{$row[1]}[0 .. $k - 1]]; $row[1][-1] =~ s/(?: \^)?$/ ^/ }
+	if (@row == 1 && rand() < 0.4) {
+		my $k = int rand $width;
+		push @row, [(map { ' ' } 1 .. $k), ' ^', (map { contact() } 2 .. $width - $k), output()];
+	}
+	return "RUNG\n" . join '', map { '  | ' . join(' | ', @$_) . " |\n" } @row;
+}
+my (@unequal, $silent, $checked);
+for my $seed ($ENV{SEED} // 1 .. $ENV{PROJECTS} // 150) {
+	srand $seed;
+	%instance = ();
+	my $body = join '', map { random_rung() } 1 .. 3;
+	$body =~ s/ \^ \|/ ^|/g;
+	spew('random.rung', "RUNGBOARD 1\nVAR\n" . join('', map { "  $in[$_] AT %IX0.$_ : BOOL;\n" } 0 .. $#in) . join('', map { "  $_ : BOOL;\n" } @bit)
+		. "  n : INT;\n" . join('', map { "  $_ : $instance{$_};\n" } sort keys %instance) . "END_VAR\nPROGRAM Main LD\n${body}END_PROGRAM\n");
+	next if system("$ladder check random.rung >trouble 2>&1");
+	$checked++;
+	my $said = `$ladder export --as plcopen random.rung -o random.xml 2>&1` =~ s/^.*(?:warning|hint).*\n//gmr;
+	spew('bare.xml', bare(slurp('random.xml')));
+	push @unequal, "$seed: " . PlcopenShape::wrong(slurp('random.xml')) if PlcopenShape::wrong(slurp('random.xml'));
+	$silent++ if $said eq '';
+	next if $said ne '';
+	spew('script', join '', '@print ', join(' ', @bit, 'n'), "\n", map { join(' ', map { "$_=" . int rand 2 } @in) . "\n" } 1 .. 30);
+	my ($was, $is) = (traced('random.rung', ''), traced('bare.xml', ''));
+	push @unequal, "$seed: " . first_difference($was, $is) . "\n" . slurp('random.rung') . `$ladder import bare.xml 2>&1` if $was ne $is || $was !~ /^1 t=/;
+}
+is(scalar @unequal, 0, "$silent of $checked random ladders do the same by their drawing") or diag(join "\n", @unequal[0 .. ($#unequal > 2 ? 2 : $#unequal)]);
+cmp_ok($silent, '>', $checked / 2, 'the report is silent about most');
+cmp_ok($silent, '<', $checked, 'and not about all');
+done_testing;
