@@ -613,9 +613,6 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_HELLO:
 		add_hello(out);
 		break;
-	case SERVICE_SYMBOLS:
-		wire_put_u32(out, 0);
-		break;
 	case SERVICE_READ:
 	case SERVICE_UNFORCE:
 	case SERVICE_PUBLISH:
@@ -650,6 +647,7 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_PIECES:
 		add_pieces(out);
 		break;
+	case SERVICE_SYMBOLS:
 	case SERVICE_BLOCK:
 	case SERVICE_UPLOAD:
 	case SERVICE_EVENTS:
