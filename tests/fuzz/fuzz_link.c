@@ -596,6 +596,10 @@ static void put_io(struct wire_writer *out, enum service service)
 		wire_put_u16(out, 1);
 		wire_put_u16(out, 5);
 	}
+	if (service == SERVICE_DEVICES) {
+		wire_put_u8(out, 0);
+		wire_put_u32(out, 3);
+	}
 	if (service == SERVICE_IO_REPORT) {
 		wire_put_string(out, "1 bus");
 		wire_put_u16(out, 1);
@@ -682,11 +686,8 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_IO_PUT:
 	case SERVICE_IO_WINDOW:
 	case SERVICE_IO_REPORT:
-		put_io(out, service);
-		break;
 	case SERVICE_DEVICES:
-		wire_put_u8(out, 0);
-		wire_put_u32(out, 3);
+		put_io(out, service);
 		break;
 	}
 }

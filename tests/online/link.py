@@ -3579,7 +3579,7 @@ def test_command_shows_and_changes():
         assert board.command('get', 'Start')[1] == 'Start=1 forced\n'
         assert 'Start=1 instead of ' in board.command('forces')[1]
         status, out, err = board.command('watch', 'Motor', 'Start', '--count', '1')
-        assert status == 0 and out.endswith('t=0.000 Motor=1 Start=1\n'), (out, err)
+        assert status == 0 and out.endswith('t=0.000 Motor=1 Start=1!forced\n'), (out, err)
         assert board.command('watch', 'Motor', '--csv', '--count', '1')[1].startswith('scan,ms,Motor\n')
         assert board.command('unforce') == (0, '', '') and board.command('forces')[1] == ''
         assert board.command('stop') == (0, '', '') and board.command('run', '--cold') == (0, '', '')

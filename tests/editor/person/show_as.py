@@ -127,7 +127,7 @@ def refused(screen):
     editor.to_sheet()
     editor.command('Convert to Structured Text')
     says(editor, '“Main” cannot be shown as ST')
-    reason = until(lambda: editor.all('"STOP" has no counterpart in Structured Text'), 'the reason')[0]
+    reason = until(lambda: editor.all('"STOP" has no counterpart in ST'), 'the reason')[0]
     until(lambda: editor.all('Main, rung 2'), 'its place')
     editor.shot('show-refused')
     editor.click(reason)
