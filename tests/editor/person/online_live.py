@@ -342,7 +342,57 @@ def chinese(screen):
     board.stop()
 
 
+NETWORKS = '''RUNGBOARD 1
+PROJECT "Tank"
+
+VAR
+  Ready AT %IX0.0 : BOOL;
+  Valve AT %QX0.0 : BOOL;
+  Level : INT := 30;
+  Limit : INT;
+  Delay : TON;
+END_VAR
+
+PROGRAM Main FBD
+NETWORK "Open while there is room"
+  Room := Level < 50
+  Delay(IN := Room AND Ready, PT := T#20ms)
+  Valve := Delay.Q
+NETWORK "Half of the sum"
+  Limit := (Level + 6) / 2
+END_PROGRAM
+'''
+
+
+def networks(screen):
+    """values of pins and wires are those of the board; what a board keeps nowhere is not shown; why an output is FALSE"""
+    board = board_of(screen, 'tank', program=NETWORKS)
+    editor = Editor(screen, new_file(screen, NETWORKS, 'tank.rung'))
+    until(lambda: editor.all('Networks'), 'the sheet')
+    connect(editor, board.where)
+
+    def part(name):
+        return until(lambda: [node for node in editor.all(role='table cell') if node.name == name], 'what is called ' + name)[0]
+    part('<, input 1: Level, 30')
+    part('<, output 1: wire Room, TRUE')
+    part('Store in Valve, FALSE')
+    part('/, input 1: wire')
+    part('Store in Limit, 18')
+    editor.click(part('Store in Valve, FALSE'))
+    editor.keys('ctrl+F12')
+    until(lambda: editor.all('Delay.IN FALSE: Ready is FALSE'), 'why the valve is shut')
+    board.ask('force', 'Ready=1')
+    part('Store in Valve, TRUE')
+    editor.shot('online-networks')
+    board.ask('set', 'Level=60')
+    part('<, input 1: Level, 60')
+    part('<, output 1: wire Room, FALSE')
+    part('Store in Valve, FALSE')
+    part('Store in Limit, 33')
+    board.stop()
+
+
 chinese.size = '1024x700x24'
 
 if __name__ == '__main__':
-    main([watches, edits, edits_elsewhere, structured_text, only_looks, operates, late, recording, chinese])
+    main([watches, edits, edits_elsewhere, structured_text, only_looks, operates, late, recording, networks, chinese])
