@@ -159,8 +159,8 @@ static void fill_more(GtkMenuButton *button, gpointer data)
 	g_object_unref(menu);
 }
 
-/* A tab that is cut by the edge is not drawn: it is in the menu. */
-static void draw_whole_tabs(struct below *below)
+/* A tab that is cut by the edge is not drawn: it is in the menu. @full: not all have room. */
+static void draw_whole_tabs(struct below *below, bool full)
 {
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
 	const double left = gtk_adjustment_get_value(along) - 1;
@@ -170,8 +170,8 @@ static void draw_whole_tabs(struct below *below)
 	for (GtkWidget *tab = gtk_widget_get_first_child(below->switcher); tab;
 	     tab = gtk_widget_get_next_sibling(tab))
 		gtk_widget_set_child_visible(
-			tab, gtk_widget_compute_bounds(tab, below->switcher, &at) &&
-			at.origin.x >= left && at.origin.x + at.size.width <= right);
+			tab, !full || (gtk_widget_compute_bounds(tab, below->switcher, &at) &&
+			at.origin.x >= left && at.origin.x + at.size.width <= right));
 }
 
 /* Scrolls as little as shows the tab of the current panel; the first tab drawn is whole. */
@@ -214,7 +214,7 @@ static void show_more(struct below *below)
 	/* Room to scroll the last tab to where a tab begins. */
 	gtk_widget_set_margin_end(below->switcher, full ? widest_tab(below) : 0);
 	reveal_tab(below);
-	draw_whole_tabs(below);
+	draw_whole_tabs(below, full);
 }
 
 static gboolean look_at_room(gpointer data)
