@@ -1,7 +1,7 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# convert.t - what `ladder export --as` st, fbd and il write does the same as the program that it comes
+# convert.t - what `ladder export --as` st, fbd, ld and il write does the same as the program that it comes
 # from: all samples with their scenarios, all golden cases that have a trace, and random programs.
 #
 #   convert.t [--seed N [LANGUAGE]]   one random program; both texts and the first difference are printed
@@ -19,7 +19,7 @@ my $tests = abs_path(dirname(__FILE__));
 my $build = abs_path($ENV{BUILD} // "$tests/../build");
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
 my $random = "$build/tests/bin/differential";
-my $count = $ENV{CONVERT_COUNT} // 300;
+my $count = $ENV{CONVERT_COUNT} // 200;
 my $dir = tempdir(CLEANUP => 1);
 
 # A trace without the variables that conversion adds, and without places of the program's text.
@@ -27,7 +27,7 @@ sub plain {
 	my ($trace) = @_;
 	$trace =~ s/ Rung\d+(?:_\d+|_edge(?:_\d+)?\.(?:CLK|Q))?=\S+//g;
 	$trace =~ s/ (?:\w+\.)?\w+_(?:rises|falls)(?:_\d+)?\.(?:CLK|Q|N\d+)=\d//g;
-	$trace =~ s/ (?:[\w.\[\]]+\.)?(?:Rung\d|_[A-Z]\d|EDGE\d+\.E\d)\w*(?:\.N\d+)?=\S+//g;
+	$trace =~ s/ (?:[\w.\[\]]+\.)?(?:Rung\d|Net\d|_[A-Z]\d|EDGE\d+\.E\d)\w*(?:\.N\d+)?=\S+//g;
 	$trace =~ s/^# (STOP|FAULT)[^\n]*\n/# $1\n/mg;
 	return $trace;
 }
@@ -47,11 +47,25 @@ sub first_difference {
 	return '';
 }
 
+# Without wires: a ladder has variables of other names.
+sub without_wires {
+	my ($trace) = @_;
+	$trace =~ s/ (?:[\w.\[\]]+\.)?\w+\.[NP]\d+(?:[.\[]\S*)?=\S+//g;
+	return $trace;
+}
+
 # Is a file of this kind converted? Then its text is in the second file.
 sub converts {
 	my ($from, $as, $to) = @_;
 	my $said = `cd $dir && $ladder export --as $as '$from' -o '$to' 2>&1`;
 	return ($? == 0, $said);
+}
+
+# As networks and back.
+sub back {
+	my ($from, $to) = @_;
+	my ($good, $said) = converts($from, 'fbd', 'between.rung');
+	return $good ? converts('between.rung', 'ld', $to) : (0, $said);
 }
 
 # Samples. Ladders of samples can all be converted.
@@ -61,10 +75,11 @@ sub sample {
 	copy($sample, "$dir/$name");
 	my ($good, $said) = converts($name, $as, "$as-$name");
 	ok($good, "$name: its ladders become $as") or diag($said), return;
-	unlike(slurp("$dir/$as-$name"), qr/^PROGRAM \w+ LD/m, "$name: no ladder is left");
+	my $left = $as eq 'ld' ? qr/^PROGRAM \w+ FBD/m : qr/^PROGRAM \w+ LD/m;
+	unlike(slurp("$dir/$as-$name"), $left, "$name: nothing is left that becomes $as");
 	(my $scenario = $sample) =~ s/rung$/scn/;
 	# Steps of a chart have no names in Structured Text.
-	return if !-e $scenario || ($as eq 'st' && slurp($sample) =~ /^PROGRAM \w+ SFC/m);
+	return if !-e $scenario || slurp($sample) =~ /^PROGRAM \w+ SFC/m;
 	copy($scenario, "$dir/$as-" . basename($scenario));
 	(my $plant = $sample) =~ s/rung$/plant.rung/;
 	copy($plant, "$dir/$_" . basename($plant)) for -e $plant ? ('', "$as-") : ();
@@ -73,34 +88,37 @@ sub sample {
 }
 
 for my $sample (sort(glob("$tests/../ladders/*.rung"), glob("$tests/../ladders/*/*.rung"))) {
-	next unless slurp($sample) =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK)\b.* LD$/m && $sample !~ /plant\.rung$/;
-	next if slurp($sample) =~ /^(?:INCLUDE|USES)/m;
-	sample($sample, $_) for 'st', 'fbd';
+	next if slurp($sample) =~ /^(?:INCLUDE|USES)/m || $sample =~ /plant\.rung$/;
+	my $ladders = slurp($sample) =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK)\b.* LD$/m;
+	my $networks = slurp($sample) =~ /^(?:PROGRAM|FUNCTION|FUNCTION_BLOCK)\b.* FBD$/m;
+	sample($sample, $_) for ($ladders || $networks ? 'st' : ()), ($ladders ? 'fbd' : ()), ($networks ? 'ld' : ());
 }
 
 # Golden cases with a trace.
-my %done = (st => 0, fbd => 0, il => 0);
+my %done = (st => 0, fbd => 0, ld => 0, back => 0, il => 0);
 for my $case (sort glob "$tests/golden/*") {
 	next unless -e "$case/main.rung" && -e "$case/expected.trace";
 	my $name = basename($case);
 	next if -e "$case/stimulus" && slurp("$case/stimulus") =~ /\.N\d/; # a wire has another name in a list
 	system "cp $case/* $dir/";
-	for my $as ('st', 'fbd', 'il') {
-		next if $as eq 'st' && slurp("$case/main.rung") =~ /^PROGRAM \w+ SFC/m; # its steps lose their names
+	for my $as ('st', 'fbd', 'ld', 'back', 'il') {
+		next if $as ne 'il' && slurp("$case/main.rung") =~ /^PROGRAM \w+ SFC/m; # its steps lose their names
 		next if $as eq 'st' && slurp("$case/main.rung") !~ /^\w+ .* ?(?:LD|FBD)$/m;
-		next if $as eq 'fbd' && slurp("$case/main.rung") !~ /^\w+ .* ?LD$/m;
-		my ($good, $said) = converts('main.rung', $as, "$as.rung");
+		next if ($as eq 'fbd' || $as eq 'back') && slurp("$case/main.rung") !~ /^\w+ .* ?LD$/m;
+		next if $as eq 'ld' && slurp("$case/main.rung") !~ /^\w+ .* ?FBD$/m;
+		my ($good, $said) = $as eq 'back' ? back('main.rung', 'back.rung') : converts('main.rung', $as, "$as.rung");
 		if (!$good) {
 			ok($said =~ m{error LD78}, "$name: a reason why it does not become $as") or diag(join "\n", grep { !m{warning} } split m{\n}, $said);
 			next;
 		}
 		my ($was, $is) = (trace_of('main.rung', 'stimulus'), trace_of("$as.rung", 'stimulus'));
+		($was, $is) = (without_wires($was), without_wires($is)) if $as eq 'ld' || $as eq 'back';
 		$done{$as}++;
 		ok($is eq $was && $was ne q(), "$name as $as") or diag(first_difference($was, $is));
 	}
 	unlink glob "$dir/*.rung";
 }
-ok($done{st} > 100 && $done{fbd} > 100 && $done{il} > 150,
+ok($done{st} > 100 && $done{fbd} > 100 && $done{back} > 100 && $done{ld} && $done{il} > 150,
    'most golden cases are converted: ' . join ', ', map { "$done{$_} $_" } sort keys %done);
 
 # Charts become ladders, and these Structured Text: both texts do the same.
@@ -115,6 +133,33 @@ for my $sample (qw(sequence-s0-s8 press-two-hand traffic-crossing)) {
 	ok($was =~ /^200 t=/m && $was eq trace_of('chart-st.rung', 's'), "$sample: both do the same");
 }
 
+# One chart alone: the other one stays.
+{
+	my $chart = "PROGRAM %s SFC\n  INITIAL_STEP %s_off:\n  END_STEP\n  STEP %s_on:\n    %s(N);\n  END_STEP\n" .
+		"  TRANSITION FROM %s_off TO %s_on := %s; END_TRANSITION\n  TRANSITION FROM %s_on TO %s_off := NOT %s; END_TRANSITION\nEND_PROGRAM\n";
+	spew("$dir/two.rung", "RUNGBOARD 1\n" . join '', map { my ($name, $in, $out) = @$_; sprintf $chart, ($name) x 3, $out, ($name) x 2, $in, ($name) x 2, $in }
+	     ['Press', '%IX0.0', '%QX0.0'], ['Feed', '%IX0.1', '%QX0.1']);
+	srand 5;
+	spew("$dir/s", '@print %QB0' . "\n" . join '', map { sprintf "%%IX0.%d=%d\n", rand 2, rand 2 } 1 .. 60);
+	my $was = trace_of('two.rung', 's');
+	for my $as (qw(ld st fbd)) {
+		my $said = `cd $dir && $ladder export --as $as two.rung Press -o one.rung 2>&1`;
+		is($?, 0, "one chart becomes $as") or diag($said), next;
+		my $text = slurp("$dir/one.rung");
+		ok($text =~ /^PROGRAM Feed SFC/m && $text !~ /^PROGRAM Press SFC/m, "$as: the other chart stays");
+		my ($word) = uc $as;
+		unlike($text, qr/^\w+ \w+ (?!$word|SFC)[A-Z]+$/m, "$as: nothing is left in between");
+		ok($was =~ /^60 t=/m && $was eq trace_of('one.rung', 's'), "$as: it does the same");
+	}
+	my $said = `cd $dir && $ladder export --as il two.rung Press 2>&1`;
+	ok($? && $said =~ /LD784/, 'a chart is no list');
+	spew("$dir/words.rung", "RUNGBOARD 1\n\nPROGRAM Main ST\n  %QX0.0 := TRUE;\nEND_PROGRAM\n");
+	for my $as (qw(ld fbd)) {
+		$said = `cd $dir && $ladder export --as $as words.rung Main 2>&1`;
+		ok($? && $said =~ /^words.rung:3: error LD784/m, "Structured Text does not become $as");
+	}
+}
+
 # Networks: their wires have other names, so only the variables of both are compared.
 sub network {
 	my ($number) = @_;
@@ -124,7 +169,7 @@ sub network {
 	my $text = 'NETWORK ' . (rand() < 0.1 ? 'OFF ' : '') . "L$number\n";
 	for my $line (1 .. 2 + rand 6) {
 		my $wire = "w$line" . '_' x ($number % 3);
-		my $kind = int rand 10;
+		my $kind = int rand 20;
 		my ($p, $q, $m, $n) = ($bit->(), $bit->(), $int->(), $int->());
 		if ($kind == 0) { $text .= "  $wire := $p AND NOT $q\n"; push @bit, $wire }
 		elsif ($kind == 1) { $text .= "  $wire := ADD($m, n1)\n"; push @int, $wire }
@@ -135,28 +180,48 @@ sub network {
 		elsif ($kind == 6) { $text .= "  n" . int(rand 3) . " := MUL($m, n0) / $n\n" }
 		elsif ($kind == 7) { $text .= "  t" . int(rand 2) . "(IN := $p, PT := T#20ms)\n  b" . int(rand 4) . " := t0.Q AND $q\n" }
 		elsif ($kind == 8) { $text .= "  b" . int(rand 4) . " := n0 > $m OR R_EDGE($q)\n" }
+		elsif ($kind == 9) { $text .= "  $wire := AND($p, NOT $q, OR(b0, $p)) XOR b1\n"; push @bit, $wire }
+		elsif ($kind == 10) { $text .= "  c0(CU := $p OR b2, R := " . ('b3', "$q AND NOT b0", "n0 > $m", 'R_EDGE(b1 OR b0)')[rand 4] . ", PV := 3)\n  b" . int(rand 4) . " := c0.Q\n" }
+		elsif ($kind == 11) { $text .= "  n" . int(rand 3) . " := ADD(EN := $p AND $q, IN1 := n1, IN2 := " . ($m =~ /^\d/ ? $m : 'n2') . ", ENO => b" . int(rand 4) . ")\n" }
+		elsif ($kind == 12) { $text .= "  b" . int(rand 4) . " := " . ('NOT', '')[rand 2] . " ($p AND ($q OR NOT (b2 XOR F_EDGE($q)))) OR " . ('TRUE', 'FALSE', "$p")[rand 3] . "\n" }
+		elsif ($kind == 13) { $text .= '  a[' . ($m =~ /^\d/ ? $m % 4 : $m) . '] ' . ('S=', 'R=', ':=')[rand 3] . " $p OR b1\n  $wire := a[n0] AND $q\n"; push @bit, $wire }
+		elsif ($kind == 14) { $text .= "  w0 := (w0 XOR INT_TO_WORD($m)) AND 16#0F0F\n  b" . int(rand 4) . " := (w0 AND 4) = 4 AND $p\n" }
+		elsif ($kind == 15) { $text .= "  b" . int(rand 4) . ' ' . ('S', 'R')[rand 2] . "= 8 / n0 > $n AND $p\n" }
+		elsif ($kind == 16) { $text .= "  $wire := SEL(R_EDGE($p AND $q), $m, n1 + 1)\n"; push @int, $wire }
+		elsif ($kind == 17) { $text .= "  " . ('More()', "r0(S1 := $p, R := $q)\n  b1 S= r0.Q1", "t1(EN := $p, IN := $q, PT := T#30ms)", "x0($p, n2)\n  n1 := x0.Out")[rand 4] . "\n" }
+		elsif ($kind == 18) { $text .= "  $wire := PREVIOUS($wire) XOR $p\n"; push @bit, $wire }
 		else { $text .= rand() < 0.7 ? '  JMP L' . ($number + 1) . " IF $p\n" : "  RETURN IF $p AND $q AND c1\n" }
 	}
 	return $text;
 }
 
-my ($networks, $unequal) = (0, '');
+my ($networks, $unequal, %drawn) = (0, '');
 for my $seed (1 .. ($ENV{CONVERT_COUNT} // 200)) {
 	srand $seed;
 	my $body = join '', map { network($_) } 1 .. 5;
 	spew("$dir/n.rung", "RUNGBOARD 1\n\nVAR\n" . join('', map { "  b$_ : BOOL;\n" } 0 .. 3) .
-	     join('', map { "  n$_ : INT := $_;\n" } 0 .. 2) . "  t0 : TON;\n  t1 : TON;\n  c1 : BOOL := TRUE;\nEND_VAR\n\n" .
+	     join('', map { "  n$_ : INT := $_;\n" } 0 .. 2) . "  t0 : TON;\n  t1 : TON;\n  c0 : CTU;\n  r0 : SR;\n  x0 : Own;\n" .
+	     "  a : ARRAY[0..3] OF BOOL;\n  w0 : WORD;\n  c1 : BOOL := TRUE;\nEND_VAR\n\n" .
+	     "SUBROUTINE More FBD\nNETWORK\n  n2 := n2 + 1\nEND_SUBROUTINE\n\n" .
+	     "FUNCTION_BLOCK Own FBD\nVAR_INPUT\n  Up : BOOL;\n  By : INT;\nEND_VAR\nVAR_OUTPUT\n  Out : INT;\nEND_VAR\n" .
+	     "NETWORK\n  Rose := R_EDGE(Up)\n  Out := ADD(EN := Rose OR By > 3, IN1 := Out, IN2 := By)\nEND_FUNCTION_BLOCK\n\n" .
 	     "PROGRAM Main FBD\n${body}NETWORK L6\n  c1 := NOT %IX0.0\nEND_PROGRAM\n");
 	next if system("cd $dir && $ladder check n.rung >/dev/null 2>&1");
-	my ($good, $said) = converts('n.rung', 'st', 'm.rung');
-	spew("$dir/s", '@print ' . join(' ', map({ "b$_" } 0 .. 3), 'n0 n1 n2 t0.ET t1.Q c1 SYS_ERRORS') . "\n" .
+	spew("$dir/s", '@print ' . join(' ', map({ "b$_" } 0 .. 3), 'n0 n1 n2 t0.ET t1.Q c0.CV r0.Q1 x0.Out a[0] a[3] w0 c1 SYS_ERRORS') . "\n" .
 	     join '', map { sprintf "%%IX0.%d=%d %%IX0.%d=%d\n", rand 8, rand 2, rand 8, rand 2 } 1 .. 20);
-	my ($was, $is) = (trace_of('n.rung', 's'), $good ? trace_of('m.rung', 's') : $said);
+	my $was = trace_of('n.rung', 's');
 	$networks++;
-	$unequal .= "seed $seed: " . first_difference($was, $is) . "\n" if $was ne $is || $was !~ /^20 t=/m;
+	for my $as ('st', 'ld') {
+		my ($good, $said) = converts('n.rung', $as, 'm.rung');
+		next if !$good && $said =~ /LD786/;
+		my $is = $good ? trace_of('m.rung', 's') : $said;
+		$unequal .= "seed $seed: $as: " . first_difference($was, $is) . "\n" if $was ne $is || $was !~ /^20 t=/m;
+		$drawn{$as}++;
+	}
 }
-is($unequal, '', "$networks random programs of networks and their Structured Text do the same");
-ok($networks > ($ENV{CONVERT_COUNT} // 200) / 4, 'many random networks are good');
+is($unequal, '', "$networks random programs of networks do the same: $drawn{st} as st, $drawn{ld} as ld");
+ok($networks > ($ENV{CONVERT_COUNT} // 200) / 4 && $drawn{st} > $networks / 4 && $drawn{ld} > $networks / 2,
+   'many random networks are good');
 
 # Random programs.
 sub names_of {
@@ -180,7 +245,7 @@ sub stimulus {
 
 my (%same, %refused, @bad, %why);
 my $only = @ARGV > 1 && $ARGV[0] eq '--seed' ? $ARGV[1] : 0;
-my @as = $ARGV[2] // ('st', 'fbd');
+my @as = $ARGV[2] // ('st', 'fbd', 'back');
 for my $seed ($only ? $only : 1 .. $count) {
 	my $program = `$random --seed $seed --text`;
 	spew("$dir/a.rung", $program);
@@ -188,7 +253,7 @@ for my $seed ($only ? $only : 1 .. $count) {
 	spew("$dir/s", stimulus($seed, names_of($program)));
 	my $was = trace_of('a.rung', 's');
 	for my $as (@as) {
-		my ($good, $said) = converts('a.rung', $as, 'b.rung');
+		my ($good, $said) = $as eq 'back' ? back('a.rung', 'b.rung') : converts('a.rung', $as, 'b.rung');
 		if (!$good) {
 			$refused{$as}++;
 			$said =~ /error (LD\d+)/;

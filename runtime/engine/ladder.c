@@ -887,14 +887,21 @@ char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list 
 char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct diag_list *diags)
 {
 	struct project *project = ladder_project(ladder);
+	uint8_t *wanted = project ? calloc((size_t)project->pou_count + 1, 1) : NULL;
 	struct sink_memory memory;
 	struct sink sink;
+	bool good;
 
 	if (!project)
 		return NULL;
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	if (sfc_ladder(project, pou, &sink, diags) && !memory.failed) {
+	memory.failed = !wanted;
+	if (wanted && pou >= 0)
+		wanted[pou] = 1;
+	good = wanted && sfc_ladder(project, pou >= 0 ? wanted : NULL, &sink, diags);
+	free(wanted);
+	if (good && !memory.failed) {
 		*len = memory.len;
 		return memory.text;
 	}

@@ -233,7 +233,8 @@ char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct di
 /**
  * ladder_export_as - the project with POUs in another language (convert/convert.h)
  * @wanted: a byte a POU: 1 for one that is converted
- * @to:     LANGUAGE_ST: ladders and networks; LANGUAGE_FBD: ladders
+ * @to:     LANGUAGE_ST: ladders, networks and charts; LANGUAGE_FBD: ladders and charts; LANGUAGE_LD: networks and
+ *          charts. A chart becomes ladders first, in programs and subroutines of their own
  * @diags:  gets LD780 to LD786 for parts that cannot be converted
  *
  * The project is built. The text is not canonical. Owns: the caller, free(). Scan-safe: no.

@@ -29,26 +29,6 @@ static enum status write_out(struct call *call, const char *text, size_t len)
 	return STATUS_GOOD;
 }
 
-/* Writes @text, as the engine made it, in canonical form. */
-static enum status write_canonical(struct call *call, const char *path, const char *text,
-				   size_t len)
-{
-	struct ladder *ladder = ladder_new();
-	enum status status = STATUS_NO;
-	char *out;
-
-	if (!ladder)
-		return report_no_memory(path);
-	if (ladder_load_text(ladder, path, text, len)) {
-		out = ladder_write(ladder, &len);
-		status = out ? write_out(call, out, len) : report_no_memory(path);
-		free(out);
-	}
-	report_diags(ladder_diags(ladder));
-	ladder_free(ladder);
-	return status;
-}
-
 /* The program with each chart as ladders; NULL after messages. Owns: the caller, free(). */
 static char *as_ladder(struct ladder *ladder, const char *path, size_t *len)
 {
@@ -63,29 +43,22 @@ static char *as_ladder(struct ladder *ladder, const char *path, size_t *len)
 	return text;
 }
 
-static enum status export_ladder(struct call *call, struct ladder *ladder,
-				 const char *path)
-{
-	enum status status = STATUS_NO;
-	size_t len;
-	char *text = as_ladder(ladder, path, &len);
-
-	if (text)
-		status = write_canonical(call, path, text, len);
-	free(text);
-	return status;
-}
-
 /* ---- other languages ---- */
 
 static bool becomes_st(const struct pou *pou)
 {
-	return (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_FBD) && !pou->included;
+	return (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_FBD || pou->language == LANGUAGE_SFC) &&
+	       !pou->included;
 }
 
 static bool becomes_fbd(const struct pou *pou)
 {
-	return pou->language == LANGUAGE_LD && !pou->included;
+	return (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_SFC) && !pou->included;
+}
+
+static bool becomes_ladder(const struct pou *pou)
+{
+	return (pou->language == LANGUAGE_FBD || pou->language == LANGUAGE_SFC) && !pou->included;
 }
 
 static bool is_no_list(const struct pou *pou)
@@ -201,25 +174,14 @@ static enum status export_to(struct call *call, struct ladder *ladder, const cha
 	return status;
 }
 
-/* Charts become ladders first. */
 static enum status export_st(struct call *call, struct ladder *ladder, const char *path)
 {
-	struct ladder *again;
-	enum status status = STATUS_NO;
-	size_t len;
-	char *text;
+	return export_to(call, ladder, path, LANGUAGE_ST, becomes_st);
+}
 
-	if (call->arg_count > 1 || !has_chart(ladder_project(ladder), NULL))
-		return export_to(call, ladder, path, LANGUAGE_ST, becomes_st);
-	again = ladder_new();
-	text = as_ladder(ladder, path, &len);
-	if (text && again && ladder_load_text(again, path, text, len) && ladder_build(again))
-		status = export_to(call, again, path, LANGUAGE_ST, becomes_st);
-	else if (text && again)
-		report_diags(ladder_diags(again));
-	free(text);
-	ladder_free(again);
-	return status;
+static enum status export_ladder(struct call *call, struct ladder *ladder, const char *path)
+{
+	return export_to(call, ladder, path, LANGUAGE_LD, becomes_ladder);
 }
 
 static enum status export_fbd(struct call *call, struct ladder *ladder, const char *path)
@@ -515,9 +477,8 @@ enum status cmd_export(struct call *call)
 		language++;
 	if (!as || (classic == CLASSIC_WORDS && language == LANGUAGES))
 		return report_usage(call, "--as needs st, ld, fbd, il, plcopen, classicladder, linuxcnc or numeric");
-	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_ladder ||
-				   languages[language].run == export_plcopen))
-		return report_usage(call, "POUs can be named with --as st, --as fbd and --as il");
+	if (call->arg_count > 1 && (language == LANGUAGES || languages[language].run == export_plcopen))
+		return report_usage(call, "POUs can be named with --as st, ld, fbd and il");
 	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);

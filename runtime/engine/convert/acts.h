@@ -166,6 +166,10 @@ bool ladder_acts(struct acts *acts);
  * diagnostic, or without memory. */
 bool fbd_st(struct acts *acts, const struct sink *sink);
 
+/* ---- fbd_ladder.c ---- */
+/** fbd_ladder - networks as rungs, with what they declare. Fails: false after a diagnostic, or without memory. */
+bool fbd_ladder(struct acts *acts, const struct sink *sink);
+
 /* ---- fbd_text.c ---- */
 /** fbd_text - the acts as networks, one for each rung, with what they declare.
  * Fails: false after a diagnostic, or without memory. */

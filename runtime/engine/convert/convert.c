@@ -28,11 +28,12 @@ static void take(void *context, const struct text_span *span)
 		places->body[span->number] = *span;
 }
 
-static bool convert_one(struct acts *acts, const struct pou *pou, const struct sink *sink)
+static bool convert_one(struct acts *acts, const struct pou *pou, enum pou_language to, const struct sink *sink)
 {
 	acts->pou = pou;
+	acts->networks = to == LANGUAGE_FBD;
 	if (pou->language == LANGUAGE_FBD)
-		return fbd_st(acts, sink);
+		return to == LANGUAGE_LD ? fbd_ladder(acts, sink) : fbd_st(acts, sink);
 	if (!ladder_acts(acts))
 		return false;
 	settle_acts(acts);
@@ -67,7 +68,7 @@ static bool put_pou(struct acts *acts, int number, const char *text, const struc
 
 	return put_heading(sink, text + whole->at, body->at - whole->at,
 			   pou_language_word(pou->language), to) &&
-	       convert_one(acts, pou, sink);
+	       convert_one(acts, pou, to, sink);
 }
 
 /* POUs stand in the text in the order of their places, which need not be that of their numbers. */
@@ -92,7 +93,7 @@ static bool put_all(struct project *project, struct scope *scope, struct arena *
 
 	for (int i; expr && (i = next_pou(places, wanted, at)) >= 0;) {
 		struct acts acts = { .project = project, .scope = scope, .arena = arena, .diags = diags,
-				     .expr = expr, .networks = to == LANGUAGE_FBD };
+				     .expr = expr };
 
 		sink_write(sink, text + at, places->pou[i].at - at);
 		good &= put_pou(&acts, i, text, places, to, sink);

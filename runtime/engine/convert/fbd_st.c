@@ -5,7 +5,7 @@
  * A wire keeps its value until its line runs again, so its variable is no VAR_TEMP. The value before
  * (PREVIOUS) is kept where the network begins.
  */
-#include "engine/convert/acts.h"
+#include "engine/convert/networks.h"
 
 #include "engine/base/ascii.h"
 #include "engine/model/fbd.h"
@@ -13,20 +13,6 @@
 
 #include <stdio.h>
 #include <string.h>
-
-/* A wire, or its value before, and its name as a variable. */
-struct wire {
-	uint32_t is;
-	const struct var *var;
-};
-
-struct networks {
-	struct acts *acts;
-	const struct sink *sink;
-	int network, item;
-	struct wire *wire;
-	int wires;
-};
 
 static const char *text_of(const struct networks *n, uint32_t id)
 {
@@ -42,8 +28,7 @@ static void refuse(struct networks *n, const char *what)
 		 .line = pou->st->item[n->item].line, .pou = text_of(n, pou->name) }, "%s", what);
 }
 
-/* The variable of a wire; made at its first use. */
-static uint32_t wire_name(struct networks *n, const char *name, size_t len, bool before)
+uint32_t networks_wire(struct networks *n, const char *name, size_t len, bool before)
 {
 	struct acts *acts = n->acts;
 	const uint32_t was = fbd_wire_name(&acts->project->names, name, len, n->network, before);
@@ -64,7 +49,11 @@ static uint32_t wire_name(struct networks *n, const char *name, size_t len, bool
 		acts->failed = true;
 		return 0;
 	}
+	if (n->scoped)
+		scope_network(acts->scope, acts->pou, -1);
 	*wire = (struct wire){ acts_name(acts, text), &acts->pou->vars.var[at] };
+	if (n->scoped)
+		scope_network(acts->scope, acts->pou, n->network);
 	taken = arena_push(acts->arena, &acts->edge, &acts->edges, sizeof(*taken)); /* its name is taken */
 	if (taken)
 		*taken = (struct act_edge){ .name = wire->is, .other = true };
@@ -122,6 +111,41 @@ static bool is_simple(struct lex lex)
 	return open == 0;
 }
 
+/* Functions that can always be computed. */
+static bool is_sure(const struct lex *lex)
+{
+	static const char *const words[] = { "NOT", "AND", "OR", "XOR", "SEL", "MIN", "MAX", "LIMIT", "GT", "GE", "EQ",
+					     "LE", "LT", "NE", "R_EDGE", "F_EDGE", "PREVIOUS" };
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(lex, words[i]))
+			return true;
+	return false;
+}
+
+/* Is anything computed before byte @at that can fail? Then an edge there is not computed each time. */
+static bool fails_before(const struct st_item *item, const struct names *names, const char *at)
+{
+	bool call[LIMIT_EXPR_DEPTH + 1] = { false };
+	bool name = false, sure = true;
+	struct lex lex;
+	int open = 0;
+
+	lex_init(&lex, names_text(names, item->text), names_len(names, item->text));
+	while (lex_next(&lex) != TOKEN_END && lex.token.text < at) {
+		if (lex_is(&lex, "[") || lex_is(&lex, "^") || lex_is(&lex, "+") || lex_is(&lex, "-") ||
+		    lex_is(&lex, "*") || lex_is(&lex, "/") || lex_is(&lex, "MOD") || lex_is(&lex, "**"))
+			return true;
+		if (lex_is(&lex, "(") && open < LIMIT_EXPR_DEPTH)
+			call[++open] = name && !sure;
+		else if (lex_is(&lex, ")") && open > 0 && call[open--])
+			return true;
+		name = lex.token.kind == TOKEN_NAME;
+		sure = name && is_sure(&lex);
+	}
+	return false;
+}
+
 /* May an edge of the statement be called before it: no EN, no lazy operator and no call of one's own in it? */
 static bool may_precede(struct networks *n, const struct st_item *item)
 {
@@ -152,7 +176,8 @@ static void put_edge(struct networks *n, struct lex *lex, bool rising, const str
 	uint32_t id;
 
 	lex_next(&inner); /* ( */
-	if (!is_simple(inner) || !may_precede(n, &acts->pou->st->item[n->item]))
+	if (!is_simple(inner) || !may_precede(n, &acts->pou->st->item[n->item]) ||
+	    fails_before(&acts->pou->st->item[n->item], &acts->project->names, lex->token.text))
 		refuse(n, rising ? "R_EDGE" : "F_EDGE");
 	lex_next(&inner);
 	if (inner.token.kind == TOKEN_NAME && !memchr(inner.token.text, '.', inner.token.len) &&
@@ -181,7 +206,7 @@ static void put_edge(struct networks *n, struct lex *lex, bool rising, const str
 static void put_name(struct networks *n, struct lex *lex, int open, const struct sink *sink)
 {
 	const size_t part = first_part(&lex->token);
-	const uint32_t wire = is_pin(lex, open) ? 0 : wire_name(n, lex->token.text, part, false);
+	const uint32_t wire = is_pin(lex, open) ? 0 : networks_wire(n, lex->token.text, part, false);
 
 	if (!wire) {
 		sink_write(sink, lex->token.text, lex->token.len);
@@ -210,7 +235,7 @@ static void put_range(struct networks *n, struct lex *lex, int until, const stru
 		} else if (!member && is_call(lex, "PREVIOUS")) {
 			lex_next(lex);
 			lex_next(lex);
-			sink_text(sink, text_of(n, wire_name(n, lex->token.text, lex->token.len, true)));
+			sink_text(sink, text_of(n, networks_wire(n, lex->token.text, lex->token.len, true)));
 			lex_next(lex);
 		} else if (!member && lex->token.kind == TOKEN_NAME) {
 			put_name(n, lex, open, sink);
@@ -221,8 +246,7 @@ static void put_range(struct networks *n, struct lex *lex, int until, const stru
 	}
 }
 
-/* The text of an item from byte @at on, with what must stand in front of the statement in @before. */
-static void put_text(struct networks *n, const char *text, size_t len, const struct sink *sink,
+void networks_text(struct networks *n, const char *text, size_t len, const struct sink *sink,
 		     const struct sink *before)
 {
 	struct lex lex;
@@ -250,7 +274,7 @@ static const char *behind_word(const char *text, size_t len, enum st_kind kind)
 	return NULL;
 }
 
-static void put_item(struct networks *n, const struct st_item *item, const struct sink *line,
+void networks_statement(struct networks *n, const struct st_item *item, const struct sink *line,
 		     const struct sink *before)
 {
 	const char *text = text_of(n, item->text);
@@ -265,13 +289,13 @@ static void put_item(struct networks *n, const struct st_item *item, const struc
 		return;
 	}
 	if (!latch && item->kind != ST_JUMP_IF && item->kind != ST_RETURN_IF) {
-		put_text(n, text, len, line, before);
+		networks_text(n, text, len, line, before);
 		sink_text(line, ";\n");
 		return;
 	}
 	if (value) {
 		sink_text(line, "IF ");
-		put_text(n, value, (size_t)(text + len - value), line, before);
+		networks_text(n, value, (size_t)(text + len - value), line, before);
 		sink_text(line, " THEN\n");
 	}
 	if (latch) {
@@ -279,7 +303,7 @@ static void put_item(struct networks *n, const struct st_item *item, const struc
 
 		while (target > 0 && text[target - 1] == ' ')
 			target--;
-		put_text(n, text, target, line, before);
+		networks_text(n, text, target, line, before);
 		sink_text(line, item->kind == ST_SET ? " := TRUE;\n" : " := FALSE;\n");
 	} else if (item->kind == ST_JUMP_IF) {
 		sink_text(line, "JMP ");
@@ -303,7 +327,7 @@ static void put_lines(struct networks *n, const struct fbd_network *network)
 		const struct sink to_line = sink_to_memory(&line), to_before = sink_to_memory(&before);
 
 		n->item = network->first + i;
-		put_item(n, &pou->st->item[n->item], &to_line, &to_before);
+		networks_statement(n, &pou->st->item[n->item], &to_line, &to_before);
 		sink_text(n->sink, sink_memory_text(&before));
 		sink_text(n->sink, sink_memory_text(&line));
 		n->acts->failed |= line.failed || before.failed;
@@ -312,27 +336,43 @@ static void put_lines(struct networks *n, const struct fbd_network *network)
 	}
 }
 
-/* Sum_before := Sum; of each wire that PREVIOUS names. */
-static void put_kept(struct networks *n)
+bool networks_kept(struct networks *n, int *at, uint32_t *before, uint32_t *wire, enum iec_type *type)
 {
 	const struct var_table *vars = &n->acts->pou->vars;
 	char end[16];
 	const size_t size = (size_t)snprintf(end, sizeof(end), ".P%d", n->network + 1);
 
-	for (int i = 0; i < vars->count; i++) {
-		const char *name = text_of(n, vars->var[i].name);
+	for (; *at < vars->count; ++*at) {
+		const char *name = text_of(n, vars->var[*at].name);
 		const size_t len = strlen(name);
 
-		if (!(vars_flags(vars, i) & VAR_WIRE) || len <= size || strcmp(name + len - size, end) != 0)
+		if (!(vars_flags(vars, *at) & VAR_WIRE) || len <= size || strcmp(name + len - size, end) != 0)
 			continue;
-		sink_text(n->sink, text_of(n, wire_name(n, name, len - size, true)));
+		*type = vars->var[*at].type;
+		*before = networks_wire(n, name, len - size, true);
+		*wire = networks_wire(n, name, len - size, false);
+		++*at;
+		return true;
+	}
+	return false;
+}
+
+/* Sum_before := Sum; of each wire that PREVIOUS names. */
+static void put_kept(struct networks *n)
+{
+	uint32_t before, wire;
+	enum iec_type type;
+	int at = 0;
+
+	while (networks_kept(n, &at, &before, &wire, &type)) {
+		sink_text(n->sink, text_of(n, before));
 		sink_text(n->sink, " := ");
-		sink_text(n->sink, text_of(n, wire_name(n, name, len - size, false)));
+		sink_text(n->sink, text_of(n, wire));
 		sink_text(n->sink, ";\n");
 	}
 }
 
-static bool leads_here(const struct networks *n, uint32_t label)
+bool networks_lead(const struct networks *n, uint32_t label)
 {
 	const struct st *st = n->acts->pou->st;
 	struct names *names = &n->acts->project->names;
@@ -371,7 +411,7 @@ static void put_network(struct networks *n, const struct fbd_network *network)
 		sink_text(n->sink, "\n");
 	}
 	put_commented(n, text_of(n, network->title), strlen(text_of(n, network->title)));
-	if (network->label && leads_here(n, network->label)) {
+	if (network->label && networks_lead(n, network->label)) {
 		sink_text(n->sink, text_of(n, network->label));
 		sink_text(n->sink, ":\n");
 	}
@@ -387,7 +427,7 @@ static void put_network(struct networks *n, const struct fbd_network *network)
 	}
 }
 
-static void declare(const struct networks *n, const struct sink *sink)
+void networks_declare(const struct networks *n, const struct sink *sink)
 {
 	for (int i = 0; i < n->wires; i++) {
 		sink_text(sink, i ? "" : "VAR\n");
@@ -417,7 +457,7 @@ bool fbd_st(struct acts *acts, const struct sink *sink)
 		n->network = i;
 		put_network(n, &acts->pou->fbd->network[i]);
 	}
-	declare(n, sink);
+	networks_declare(n, sink);
 	st_declare(acts, sink);
 	sink_text(sink, sink_memory_text(&memory));
 	acts->failed |= memory.failed;

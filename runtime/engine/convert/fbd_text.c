@@ -24,7 +24,7 @@ struct loop_labels {
 	uint32_t again, end;
 };
 
-struct networks {
+struct fbd_writer {
 	struct acts *acts;
 	const struct sink *sink;
 	struct home *home;     /* of each temporary                            */
@@ -36,19 +36,19 @@ struct networks {
 	int loops;
 };
 
-static const char *text_of(const struct networks *n, uint32_t id)
+static const char *text_of(const struct fbd_writer *n, uint32_t id)
 {
 	return project_text(n->acts->project, id);
 }
 
-static void put(const struct networks *n, const char *text)
+static void put(const struct fbd_writer *n, const char *text)
 {
 	sink_text(n->sink, text);
 }
 
 /* ---- labels ---- */
 
-static bool is_label(const struct networks *n, uint32_t label)
+static bool is_label(const struct fbd_writer *n, uint32_t label)
 {
 	const struct names *names = &n->acts->project->names;
 	const struct pou *pou = n->acts->pou;
@@ -63,7 +63,7 @@ static bool is_label(const struct networks *n, uint32_t label)
 }
 
 /* Rung3_again, Rung3_again_2. */
-static uint32_t label_new(struct networks *n, int rung, const char *what)
+static uint32_t label_new(struct fbd_writer *n, int rung, const char *what)
 {
 	char name[64];
 	uint32_t *own, id = 0;
@@ -85,7 +85,7 @@ static uint32_t label_new(struct networks *n, int rung, const char *what)
 }
 
 /* The label of the network of rung @rung, or of the one behind all. */
-static uint32_t label_of(struct networks *n, int rung)
+static uint32_t label_of(struct fbd_writer *n, int rung)
 {
 	if (!n->label[rung])
 		n->label[rung] = label_new(n, rung, "begins");
@@ -95,7 +95,7 @@ static uint32_t label_of(struct networks *n, int rung)
 /* ---- which act ends a network ---- */
 
 /* The call of a block that has no pin EN of its own. */
-static bool takes_en(const struct networks *n, const struct act *act)
+static bool takes_en(const struct fbd_writer *n, const struct act *act)
 {
 	const struct meaning *m = act->kind == ACT_CALL && !act->target && act->temp < 0 ?
 				  acts_meaning(n->acts, act->text) : NULL;
@@ -104,7 +104,7 @@ static bool takes_en(const struct networks *n, const struct act *act)
 	       word_pin_find(words_row(&n->acts->project->words, (enum word)m->word), "EN", 2) < 0;
 }
 
-static bool is_edge_call(const struct networks *n, const struct act *act)
+static bool is_edge_call(const struct fbd_writer *n, const struct act *act)
 {
 	for (int i = 0; act->kind == ACT_CALL && i < n->acts->edges; i++)
 		if (n->acts->edge[i].name == act->text)
@@ -113,7 +113,7 @@ static bool is_edge_call(const struct networks *n, const struct act *act)
 }
 
 /* Does it stand behind a jump over it, as no pin takes its condition? */
-static bool is_jumped(const struct networks *n, const struct act *act)
+static bool is_jumped(const struct fbd_writer *n, const struct act *act)
 {
 	if (!act->when || act->kind == ACT_NOTHING)
 		return false;
@@ -128,7 +128,7 @@ static bool is_jumped(const struct networks *n, const struct act *act)
 }
 
 /* Do later acts of the rung stand in another network? */
-static bool ends_network(const struct networks *n, const struct act *act)
+static bool ends_network(const struct fbd_writer *n, const struct act *act)
 {
 	if (act->kind == ACT_LABEL)
 		return true;
@@ -138,7 +138,7 @@ static bool ends_network(const struct networks *n, const struct act *act)
 	return is_jumped(n, act);
 }
 
-static bool has_more(const struct networks *n, int at)
+static bool has_more(const struct fbd_writer *n, int at)
 {
 	for (int i = at + 1; i < n->acts->count && n->acts->act[i].rung == n->acts->act[at].rung; i++)
 		if (n->acts->act[i].kind != ACT_NOTHING)
@@ -148,7 +148,7 @@ static bool has_more(const struct networks *n, int at)
 
 /* ---- wires ---- */
 
-static void use_temp(const struct networks *n, int temp, bool wire)
+static void use_temp(const struct fbd_writer *n, int temp, bool wire)
 {
 	struct home *home = temp >= 0 ? &n->home[temp] : NULL;
 
@@ -159,7 +159,7 @@ static void use_temp(const struct networks *n, int temp, bool wire)
 	home->wire &= wire && home->network == n->network;
 }
 
-static void use_term(const struct networks *n, const struct term *term)
+static void use_term(const struct fbd_writer *n, const struct term *term)
 {
 	if (!term)
 		return;
@@ -171,7 +171,7 @@ static void use_term(const struct networks *n, const struct term *term)
 }
 
 /* What a failing act does not store has the value of an earlier scan on a wire, not in a VAR_TEMP. */
-static void use_act(const struct networks *n, const struct act *act)
+static void use_act(const struct fbd_writer *n, const struct act *act)
 {
 	const bool stores = !act->fails && !is_jumped(n, act) && act->kind != ACT_TEST && act->kind != ACT_LOOP;
 
@@ -185,7 +185,7 @@ static void use_act(const struct networks *n, const struct act *act)
 			use_temp(n, act->arg[i].temp, stores);
 }
 
-static void find_wires(struct networks *n)
+static void find_wires(struct fbd_writer *n)
 {
 	struct acts *acts = n->acts;
 	const struct act *last = NULL;
@@ -220,18 +220,18 @@ static void find_wires(struct networks *n)
 
 /* ---- acts ---- */
 
-static void put_network(const struct networks *n, uint32_t label)
+static void put_network(const struct fbd_writer *n, uint32_t label)
 {
 	sink_printf(n->sink, "NETWORK %s\n", text_of(n, label));
 }
 
-static void put_jump_to(const struct networks *n, uint32_t label)
+static void put_jump_to(const struct fbd_writer *n, uint32_t label)
 {
 	sink_printf(n->sink, "JMP %s\n", text_of(n, label));
 }
 
 /* JMP Label IF NOT when. */
-static void put_jump(const struct networks *n, uint32_t label, const struct term *when, bool inverse)
+static void put_jump(const struct fbd_writer *n, uint32_t label, const struct term *when, bool inverse)
 {
 	put(n, label ? "JMP " : "RETURN");
 	put(n, text_of(n, label));
@@ -246,7 +246,7 @@ static void put_jump(const struct networks *n, uint32_t label, const struct term
 	put(n, "\n");
 }
 
-static void put_latch(const struct networks *n, const struct act *act)
+static void put_latch(const struct fbd_writer *n, const struct act *act)
 {
 	put(n, text_of(n, act->target));
 	put(n, act->value->kind == TERM_TRUE ? " S= " : " R= ");
@@ -255,7 +255,7 @@ static void put_latch(const struct networks *n, const struct act *act)
 }
 
 /* The call of @act, without outputs that nobody reads; its condition, if it has one, is EN. */
-static void put_call(const struct networks *n, const struct act *act)
+static void put_call(const struct fbd_writer *n, const struct act *act)
 {
 	struct acts *acts = n->acts;
 	struct act call = *act;
@@ -282,7 +282,7 @@ static void put_call(const struct networks *n, const struct act *act)
 }
 
 /* FALSE, unless the value can be computed, while `when`, and is TRUE. */
-static void put_test(const struct networks *n, const struct act *act)
+static void put_test(const struct fbd_writer *n, const struct act *act)
 {
 	const char *name = text_of(n, n->acts->temp[act->temp].name);
 
@@ -299,7 +299,7 @@ static void put_test(const struct networks *n, const struct act *act)
 }
 
 /* The rung behind that of the NEXT of the FOR at @at. */
-static int behind_loop(const struct networks *n, int at)
+static int behind_loop(const struct fbd_writer *n, int at)
 {
 	int open = 0;
 
@@ -311,7 +311,7 @@ static int behind_loop(const struct networks *n, int at)
 	return n->acts->pou->rung_count;
 }
 
-static void put_loop(struct networks *n, int at)
+static void put_loop(struct fbd_writer *n, int at)
 {
 	const struct act *act = &n->acts->act[at];
 	const struct act_loop *loop = &act->loop;
@@ -326,7 +326,7 @@ static void put_loop(struct networks *n, int at)
 		    loop->down ? "<" : ">", text_of(n, loop->to));
 }
 
-static void put_step(struct networks *n, const struct act *act)
+static void put_step(struct fbd_writer *n, const struct act *act)
 {
 	const struct act_loop *loop = &act->loop;
 	const struct loop_labels *labels = &n->loop[n->loops ? --n->loops : 0];
@@ -357,7 +357,7 @@ struct block {
 };
 
 struct blocks {
-	struct networks *n;
+	struct fbd_writer *n;
 	const struct act *act;
 	struct block block[LIMIT_ST_DEPTH + 1];
 	int open;
@@ -384,13 +384,13 @@ static bool may_fail(const char *text, size_t len)
 }
 
 /* What stands behind the first word of an item: its condition. */
-static const char *condition_of(const struct networks *n, const struct st_item *item)
+static const char *condition_of(const struct fbd_writer *n, const struct st_item *item)
 {
 	return text_of(n, item->text) + strlen(st_form((enum st_kind)item->kind)->word);
 }
 
 /* Goes on below if the condition is TRUE, else at @label. */
-static void put_unless(struct networks *n, const struct act *act, const char *condition, uint32_t label)
+static void put_unless(struct fbd_writer *n, const struct act *act, const char *condition, uint32_t label)
 {
 	uint32_t then;
 
@@ -427,7 +427,7 @@ static void put_branch(struct blocks *b, int at)
 static void open_block(struct blocks *b, int at)
 {
 	const struct st_item *item = &b->act->item[at];
-	struct networks *n = b->n;
+	struct fbd_writer *n = b->n;
 	struct block *block;
 
 	if (b->open < LIMIT_ST_DEPTH)
@@ -475,7 +475,7 @@ static void put_leave(const struct blocks *b, bool exit)
 static void put_statement(struct blocks *b, int at)
 {
 	const struct st_item *item = &b->act->item[at];
-	struct networks *n = b->n;
+	struct fbd_writer *n = b->n;
 
 	switch ((enum st_kind)item->kind) {
 	case ST_IF: case ST_WHILE: case ST_REPEAT:
@@ -506,7 +506,7 @@ static void put_statement(struct blocks *b, int at)
 	}
 }
 
-static void put_statements(struct networks *n, const struct act *act)
+static void put_statements(struct fbd_writer *n, const struct act *act)
 {
 	struct blocks *b = arena_alloc(n->acts->arena, sizeof(*b));
 
@@ -521,7 +521,7 @@ static void put_statements(struct networks *n, const struct act *act)
 }
 
 /* The act behind a jump over it, which leads to the network behind. */
-static void put_jumped(struct networks *n, const struct act *act, bool more)
+static void put_jumped(struct fbd_writer *n, const struct act *act, bool more)
 {
 	const uint32_t label = more ? label_new(n, act->rung, "next") : label_of(n, act->rung + 1);
 	struct act bare = *act;
@@ -538,7 +538,7 @@ static void put_jumped(struct networks *n, const struct act *act, bool more)
 		put_network(n, label);
 }
 
-static void put_one(struct networks *n, int at)
+static void put_one(struct fbd_writer *n, int at)
 {
 	const struct act *act = &n->acts->act[at];
 
@@ -587,7 +587,7 @@ static void put_one(struct networks *n, int at)
 /* ---- networks ---- */
 
 /* The rows of a rung that is OFF, as comments. */
-static void put_off(struct networks *n, const struct rung *rung)
+static void put_off(struct fbd_writer *n, const struct rung *rung)
 {
 	struct rung *bare = rung_copy(rung);
 	char *text = NULL;
@@ -609,7 +609,7 @@ static void put_off(struct networks *n, const struct rung *rung)
 	rung_free(bare);
 }
 
-static void put_rungs(struct networks *n)
+static void put_rungs(struct fbd_writer *n)
 {
 	const struct acts *acts = n->acts;
 	int at = 0;
@@ -630,7 +630,7 @@ static void put_rungs(struct networks *n)
 }
 
 /* Jumps to networks behind their own, whose headings must be known before. */
-static void give_labels(struct networks *n)
+static void give_labels(struct fbd_writer *n)
 {
 	const struct pou *pou = n->acts->pou;
 
@@ -644,7 +644,7 @@ static void give_labels(struct networks *n)
 	}
 }
 
-static void declare(const struct networks *n, const struct sink *sink)
+static void declare(const struct fbd_writer *n, const struct sink *sink)
 {
 	const struct acts *acts = n->acts;
 	bool begun = false;
@@ -668,7 +668,7 @@ static void declare(const struct networks *n, const struct sink *sink)
 
 bool fbd_text(struct acts *acts, const struct sink *sink)
 {
-	struct networks *n = arena_alloc(acts->arena, sizeof(*n));
+	struct fbd_writer *n = arena_alloc(acts->arena, sizeof(*n));
 	const size_t rungs = (size_t)acts->pou->rung_count + 1;
 
 	if (n) {

@@ -383,7 +383,7 @@ static void take(void *context, const struct text_span *span)
 		spans->span[span->number] = *span;
 }
 
-static bool write_project_text(struct lad *e, const struct sink *sink)
+static bool write_project_text(struct lad *e, const uint8_t *wanted, const struct sink *sink)
 {
 	struct project *project = e->project;
 	struct pou_spans spans = { .count = project->pou_count };
@@ -401,7 +401,7 @@ static bool write_project_text(struct lad *e, const struct sink *sink)
 		e->pou = &project->pou[i];
 		e->sfc = e->pou->sfc;
 		e->called_count = 0;
-		if (!e->sfc || (e->only >= 0 && e->only != i))
+		if (!e->sfc || (wanted && !wanted[i]))
 			continue;
 		if (!begin(e))
 			e->good = false;
@@ -415,18 +415,18 @@ static bool write_project_text(struct lad *e, const struct sink *sink)
 	return e->good;
 }
 
-static bool export_all(struct lad *e, const struct sink *sink)
+static bool export_all(struct lad *e, const uint8_t *wanted, const struct sink *sink)
 {
 	struct xref xref;
 	bool good;
 
 	e->xref = &xref;
-	good = xref_make(&xref, e->project) && write_project_text(e, sink);
+	good = xref_make(&xref, e->project) && write_project_text(e, wanted, sink);
 	xref_free(&xref);
 	return good;
 }
 
-bool sfc_ladder(struct project *project, int only, const struct sink *sink,
+bool sfc_ladder(struct project *project, const uint8_t *wanted, const struct sink *sink,
 		struct diag_list *diags)
 {
 	const struct diag place = { .id = DIAG_NO_MEMORY, .file = project->file };
@@ -438,11 +438,11 @@ bool sfc_ladder(struct project *project, int only, const struct sink *sink,
 	arena_init(&arena);
 	e = arena_alloc(&arena, sizeof(*e));
 	if (e) {
-		*e = (struct lad){ .project = project, .only = only, .diags = diags, .good = true,
+		*e = (struct lad){ .project = project, .diags = diags, .good = true,
 				   .arena = &arena, .last = { .area = AREA_M, .bits = 1,
 				   .bit = 7, .byte = FIRST_BYTE - 1 } };
 	}
-	good = e && export_all(e, sink);
+	good = e && export_all(e, wanted, sink);
 	arena_free(&arena);
 	if (!good && diags->errors == before)
 		diag_add(diags, place, "%s", "");

@@ -16,12 +16,12 @@
 /**
  * sfc_ladder - the text of @project with ladders instead of its charts
  * @project: without errors; its table of names grows
- * @only:    the POU whose chart becomes ladders; -1: all charts
+ * @wanted:  a byte a POU: 1 for a chart that becomes ladders; NULL: all of them
  * @sink:    gets the text, which is not canonical
  *
  * A part that a ladder cannot express is a diagnostic LD460 with its place.
  * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.
  */
-bool sfc_ladder(struct project *project, int only, const struct sink *sink,
+bool sfc_ladder(struct project *project, const uint8_t *wanted, const struct sink *sink,
 		struct diag_list *diags);
 #endif

@@ -52,7 +52,6 @@ struct lad_called {
 
 struct lad {
 	struct project *project;
-	int only;            /* the chart that is written; -1: all             */
 	struct arena *arena;
 	struct diag_list *diags;
 	const struct pou *pou;
