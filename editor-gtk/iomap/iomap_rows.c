@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -572,6 +573,42 @@ GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *ma
 	for (; word && *word; word++)
 		offer(choices, *word, about_value(field, *word));
 	return choices;
+}
+
+void iomap_offer_units(const GArray *units, GPtrArray *choices)
+{
+	for (guint i = 0; units && i < units->len; i++) {
+		const struct iomap_unit *unit = &g_array_index(units, struct iomap_unit, i);
+		char *number = g_strdup_printf("%d", unit->unit);
+		char *about = unit->exception ? g_strdup_printf(_("answers in %.1f ms: exception %d"), unit->ms, unit->exception) :
+						g_strdup_printf(_("answers in %.1f ms"), unit->ms);
+
+		offer(choices, number, about);
+		g_free(about);
+		g_free(number);
+	}
+}
+
+static bool is_modbus(const struct io_text *io, int row)
+{
+	return io->row[row].kind == IO_KIND_BUS && (word_is(io, row, IO_WORD_DRIVER, "modbus-rtu") ||
+						     word_is(io, row, IO_WORD_DRIVER, "modbus-tcp"));
+}
+
+int iomap_bus_of(const struct io_text *io, int row, bool any)
+{
+	char *name = row >= 0 && row < io->count ? iomap_field(io, row, IO_BUS) : g_strdup("");
+	int found = row >= 0 && row < io->count && is_modbus(io, row) ? row : -1;
+
+	for (int i = 0; i < io->count && found < 0; i++) {
+		char *own = iomap_field(io, i, IO_ADDRESS);
+
+		if (is_modbus(io, i) && (*name ? name_equal(own, name) : any))
+			found = i;
+		g_free(own);
+	}
+	g_free(name);
+	return found;
 }
 
 /* ---- a new map ---- */

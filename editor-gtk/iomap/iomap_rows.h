@@ -10,6 +10,7 @@
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/document/iomap_check.h"
 #include "editor-gtk/document/iomap_devices.h"
+#include "editor-gtk/iomap/iomap_scan.h"
 #include "editor-gtk/document/iomap_text.h"
 #include "editor-gtk/document/iomap_uses.h"
 #include "editor-gtk/kit/panel_row.h"
@@ -88,5 +89,11 @@ bool iomap_next(const struct io_text *io, const struct io_check *check, struct i
 /** iomap_new_text - a map with a point for every input and output of @document, on lines of
  * this machine if it has any, else simulated. Caller: g_free. */
 char *iomap_new_text(LadderDocument *document);
+
+/** iomap_offer_units - adds what a scan has found to the choices of a unit. @units: NULL: nothing. */
+void iomap_offer_units(const GArray *units, GPtrArray *choices);
+/** iomap_bus_of - the BUS line of Modbus that a row is, or names; -1: the first one of the map, if @any; else
+ * -1: none. */
+int iomap_bus_of(const struct io_text *io, int row, bool any);
 
 #endif

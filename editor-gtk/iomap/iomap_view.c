@@ -27,11 +27,12 @@ struct page {
 struct _LadderIomapView {
 	GtkBox parent;
 	GtkTextBuffer *buffer;
-	GtkWidget *stack, *tools, *columns, *kinds, *board, *pages, *lacks, *lacks_label, *message;
+	GtkWidget *stack, *tools, *columns, *kinds, *scan_button, *board, *pages, *lacks, *lacks_label, *message;
 	struct page page[IOMAP_PAGES];
 	enum iomap_page now;    /* the visible page                            */
 	struct iomap_live live;
 	LadderBoardLink *link;  /* NULL: none yet                              */
+	struct iomap_scan *scan;
 	bool connected;         /* lines and devices are those of the board, or will be */
 	struct panel_watch *watch;
 	struct io_machine machine;
@@ -72,6 +73,7 @@ static void apply(LadderIomapView *view, const char *text, struct io_edit *edit)
 {
 	GtkTextIter from, to;
 
+	iomap_scan_hush(view->scan);
 	if (edit->removed || *edit->with) {
 		gtk_text_buffer_begin_user_action(view->buffer);
 		iter_at(view->buffer, text, edit->at, &from);
@@ -565,6 +567,56 @@ void ladder_iomap_view_connect(LadderIomapView *view, LadderBoardLink *link)
 	link_changed(view);
 }
 
+/* ---- the scan of a bus ---- */
+
+static void show_scan(LadderIomapView *view)
+{
+	const bool runs = iomap_scan_runs(view->scan);
+	const char *name = runs ? _("Stop the scan") : _("Scan the bus");
+
+	gtk_button_set_icon_name(GTK_BUTTON(view->scan_button), runs ? "process-stop-symbolic" : "system-search-symbolic");
+	tip_set(view->scan_button, name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->scan_button), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_widget_set_visible(view->scan_button, view->now == IOMAP_MODBUS || view->now == IOMAP_BUSES);
+}
+
+static void scan_changed(gpointer data)
+{
+	LadderIomapView *view = data;
+
+	if (!view->watch)
+		return; /* the view is disposed */
+	show_scan(view);
+	tell(view, NULL);
+}
+
+/* The bus of the selected line; else the first one. */
+static void scan_bus(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
+	char *text = map_text(view);
+	const char *why = NULL;
+	struct io_text io;
+	int bus;
+
+	(void)action;
+	(void)unused;
+	if (iomap_scan_runs(view->scan)) {
+		iomap_scan_stop(view->scan);
+	} else {
+		io_text_read(&io, text, strlen(text));
+		bus = iomap_bus_of(&io, selected(view), true);
+		if (bus >= 0)
+			iomap_scan_begin(view->scan, &io, bus);
+		else
+			why = _("This map has no Modbus bus to scan: add a BUS line");
+		io_text_free(&io);
+	}
+	g_free(text);
+	show_scan(view);
+	tell(view, why);
+}
+
 /* ---- messages ---- */
 
 static void show_lacks(LadderIomapView *view, const struct io_text *io,
@@ -583,7 +635,9 @@ static void show_lacks(LadderIomapView *view, const struct io_text *io,
 static void show_message(LadderIomapView *view)
 {
 	const LadderPanelRow *row = panel_list_row(list_now(view));
-	const char *note = row && !view->refused && !view->as_text ? row->note : NULL;
+	bool failed;
+	const char *scanned = iomap_scan_said(view->scan, &failed);
+	const char *note = row && !view->refused && !view->as_text && !scanned ? row->note : NULL;
 	char *text = view->refused ? g_strdup(view->refused) :
 		note ? g_strdup_printf(_("%s: %s"), panel_row_text(row, 0), note) :
 		g_strdup(view->said);
@@ -601,9 +655,14 @@ static void show_message(LadderIomapView *view)
 static void find_said(LadderIomapView *view, const struct io_check *check,
 		      const struct io_text *io)
 {
+	const char *scanned = iomap_scan_said(view->scan, &view->said_wrong);
+
 	g_free(view->said);
-	view->said = iomap_first_error(check, io, view->as_text);
-	view->said_wrong = view->said != NULL;
+	view->said = g_strdup(scanned);
+	if (!scanned) {
+		view->said = iomap_first_error(check, io, view->as_text);
+		view->said_wrong = view->said != NULL;
+	}
 	if (!view->said)
 		view->said = iomap_first_doubt(check);
 	if (!view->said && view->machine.diags.count)
@@ -776,6 +835,13 @@ static GPtrArray *choices_of(GObject *owner, int column)
 		row = -1;
 	choices = iomap_choices(&view->uses, &view->machine, &view->devices, &io, row,
 				iomap_column(view->now, column));
+	if (iomap_column(view->now, column) == IO_UNIT) {
+		const int bus = iomap_bus_of(&io, row, false);
+		char *name = bus < 0 ? NULL : iomap_field(&io, bus, IO_ADDRESS);
+
+		iomap_offer_units(name ? iomap_scan_units(view->scan, name) : NULL, choices);
+		g_free(name);
+	}
 	io_text_free(&io);
 	g_free(text);
 	return choices;
@@ -794,6 +860,7 @@ static void ladder_iomap_view_dispose(GObject *object)
 	for (int i = 0; i < IOMAP_PAGES; i++)
 		panel_list_clear(&view->page[i].list);
 	iomap_live_clear(&view->live);
+	iomap_scan_stop(view->scan);
 	if (view->link)
 		g_signal_handlers_disconnect_by_data(view->link, view);
 	g_clear_object(&view->link);
@@ -807,6 +874,7 @@ static void ladder_iomap_view_finalize(GObject *object)
 	io_machine_free(&view->machine);
 	io_devices_free(&view->devices);
 	io_uses_free(&view->uses);
+	iomap_scan_free(view->scan);
 	g_free(view->refused);
 	g_free(view->said);
 	g_free(view->board_shown);
@@ -827,12 +895,13 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	gtk_widget_class_install_action(widget, "iomap.up", NULL, move_up);
 	gtk_widget_class_install_action(widget, "iomap.down", NULL, move_down);
 	gtk_widget_class_install_action(widget, "iomap.look", NULL, look_again);
+	gtk_widget_class_install_action(widget, "iomap.scan", NULL, scan_bus);
 	gtk_widget_class_install_action(widget, "iomap.add-lacking", NULL,
 					add_lacking);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/iomap_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderIomapView, name)
-	CHILD(stack); CHILD(tools); CHILD(columns); CHILD(kinds); CHILD(board); CHILD(pages);
+	CHILD(stack); CHILD(tools); CHILD(columns); CHILD(kinds); CHILD(scan_button); CHILD(board); CHILD(pages);
 	CHILD(lacks); CHILD(lacks_label); CHILD(message);
 #undef CHILD
 	gtk_widget_class_bind_template_callback(widget, board_activated);
@@ -872,7 +941,7 @@ static bool has_choices(enum io_field field)
 {
 	switch ((int)field) {
 	case IO_ADDRESS: case IO_DRIVER: case IO_LINE: case IO_BUS: case IO_TYPE: case IO_AS:
-	case IO_RAW: case IO_NAMES: return true;
+	case IO_RAW: case IO_NAMES: case IO_UNIT: return true;
 	default: return !io_field_is_flag(field) && io_text_choices(field);
 	}
 }
@@ -1025,7 +1094,9 @@ static void turn(LadderIomapView *view)
 		if (is)
 			view->now = (enum iomap_page)i;
 	}
+	iomap_scan_hush(view->scan);
 	show_kinds(view);
+	show_scan(view);
 	if (view->now == IOMAP_ANALOG && !view->looked && !view->connected)
 		look_for_devices(view);
 	tell(view, NULL);
@@ -1038,6 +1109,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	arena_init(&view->uses.arena);
 	arena_init(&view->devices.arena);
 	io_machine_look(&view->machine, NULL);
+	view->scan = iomap_scan_new(scan_changed, view);
 	gtk_widget_init_template(widget);
 	iomap_live_init(&view->live);
 	for (int i = 0; i < IOMAP_PAGES; i++)

@@ -578,7 +578,7 @@ static void put_io(struct wire_writer *out, enum service service)
 		wire_put_string(out, "modbus");
 		return;
 	}
-	if (service == SERVICE_IO_WINDOW)
+	if (service == SERVICE_IO_WINDOW || service == SERVICE_DEVICES)
 		wire_put_u8(out, 1);
 	wire_put_u32(out, 1);
 	if (service == SERVICE_IO_MAP)

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: MIT
 """iomap_pages - a person edits the pages of an I/O map: analog values, Modbus, boards, buses, what others may ask."""
 import os
+import socket
 import sys
+import threading
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Chinese, Editor, main, until  # noqa: E402
+from desk import BUILD, Chinese, Editor, main, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -180,6 +182,72 @@ def values(screen):
     editor.shot('pages-module')
 
 
+def scanned(screen):
+    """a bus is scanned; the units that answer are offered; a scan is stopped; a bus without an answer says so"""
+    if not os.path.exists(os.path.join(BUILD, 'ladder-modbus')):
+        return
+    device = socket.create_server(('127.0.0.1', 0))
+    ports = [device.getsockname()[1], free_port()]
+    threading.Thread(target=answer, args=(device, (1, 3, 17)), daemon=True).start()
+    text = MAP.replace('10.0.0.20:502 timeout=300ms', '127.0.0.1:%d timeout=20ms' % ports[0]).replace(
+        'BUS   yard', 'BUS   quiet modbus-tcp  host=127.0.0.1:%d timeout=9s\nBUS   yard' % ports[1])
+    path, io = plant(screen, text)
+    editor = Editor(screen, path)
+    open_map(editor)
+    editor.tab('Modbus and modules (3)')
+    editor.click(cell(editor, '%QX40.0, Number'))
+    editor.click(editor.find('Scan the bus', 'push button'))
+    editor.find('Stop the scan', 'push button')
+    editor.find('Scanning “plant”')
+    editor.find('Units that answer on “plant”: 1, 3, 17')
+    editor.shot('pages-scanned')
+    editor.click(cell(editor, '%QX40.0, Unit'))
+    editor.keys('alt+Down')
+    editor.find('17 answers in', 'list item')
+    editor.find('exception 2', 'list item')
+    editor.shot('pages-units')
+    editor.keys('Down', 'Down', 'Return')
+    until(lambda: cell(editor, '%QX40.0, Unit').text() != '1', 'another unit')
+    assert cell(editor, '%QX40.0, Unit').text() in ('3', '17')
+    until(lambda: not editor.all('Units that answer on'), 'the result to go')
+    # The units of another bus are not those of this one.
+    editor.tab('Buses (5)')
+    editor.click(cell(editor, 'quiet, Host'))
+    editor.click(editor.find('Scan the bus', 'push button'))
+    editor.find('127.0.0.1: Connection refused')
+    device.close()
+    silent = socket.create_server(('127.0.0.1', ports[1]))
+    editor.click(editor.find('Scan the bus', 'push button'))
+    editor.find('Scanning “quiet”')
+    editor.click(editor.find('Stop the scan', 'push button'))
+    editor.find('Scan the bus', 'push button')
+    until(lambda: not editor.all('Scanning “quiet”'), 'the scan to end')
+    silent.close()
+
+
+def answer(device, units):
+    """A gateway of the network behind which some units are: register 0 is 7; unit 17 has no registers."""
+    while True:
+        try:
+            stream = device.accept()[0]
+        except OSError:
+            return
+        while True:
+            request = stream.recv(12)
+            if len(request) < 12:
+                break
+            unit = request[6]
+            if unit in units:
+                body = bytes([unit, 0x83, 2]) if unit == 17 else bytes([unit, 3, 2, 0, 7])
+                stream.sendall(request[:4] + bytes([0, len(body)]) + body)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return probe.getsockname()[1]
+
+
 def small(screen):
     """1024 x 700 in Chinese: the pages fit, each can be reached"""
     path, _ = plant(screen)
@@ -195,4 +263,4 @@ def small(screen):
 small.size = '1024x700x24'
 pages.quick = 'editor-gtk/iomap'
 if __name__ == '__main__':
-    main([pages, lines, values, small])
+    main([pages, lines, values, scanned, small])
