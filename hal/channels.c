@@ -316,6 +316,18 @@ void cell_write_safe(struct cell *cell)
 	}
 }
 
+void channels_safe_files(const struct channels *channels, bool fresh,
+			 bool (*visit)(void *context, const char *path, int64_t number), void *context)
+{
+	for (int i = 0; channels && i < channels->count; i++) {
+		const struct cell *cell = &channels->cell[i];
+
+		if (cell->driver && cell->point.output && !cell->point.hold && !(fresh && cell->twin) &&
+		    !visit(context, cell->device.path, cell->safe_number))
+			return;
+	}
+}
+
 void channels_safe(struct channels *channels)
 {
 	const int error = errno;

@@ -57,6 +57,14 @@ void channels_write(struct channels *channels, struct image *image, int64_t now_
 /** channels_trace - calls @told (NULL: nothing) for each output whose value, and for each point whose quality is
  * another one than at the last call. After a scan. Scan-safe: yes, as far as @told is. */
 void channels_trace(struct channels *channels, struct image *image, channels_told *told, void *context);
+/**
+ * channels_safe_files - calls @visit for each output that is a number in a file and does not hold its last value,
+ * until it returns false
+ * @fresh: only those that the other map does not have, after channels_beside()
+ * Scan-safe: yes, as far as @visit is.
+ */
+void channels_safe_files(const struct channels *channels, bool fresh,
+			 bool (*visit)(void *context, const char *path, int64_t number), void *context);
 /** channels_safe - safe values to all outputs, which hold them until channels_release(). Scan-safe: yes, also
  * in a signal handler. */
 void channels_safe(struct channels *channels);
@@ -140,6 +148,7 @@ static inline bool io_has_channel(const struct io_point *point)
 #define channels_tell_lines(channels, worst)    ((void)0)
 #define channels_write(channels, image, now_ns) ((void)0)
 #define channels_trace(channels, image, told, context) ((void)0)
+#define channels_safe_files(channels, fresh, visit, context) ((void)(visit))
 #define channels_safe(channels)                 ((void)0)
 #define channels_release(channels)              ((void)0)
 #define channels_quality(channels)              QUALITY_GOOD

@@ -29,6 +29,18 @@ static bool check_table(const struct guard_table *table, size_t len)
 	return true;
 }
 
+static bool check_files(const struct guard_files *files, size_t len)
+{
+	const size_t count = files->head.count;
+
+	if (count > GUARD_FILES || len != offsetof(struct guard_files, file) + count * sizeof(files->file[0]))
+		return false;
+	for (size_t i = 0; i < count; i++)
+		if (files->file[i].path[0] != '/' || !memchr(files->file[i].path, 0, GUARD_PATH))
+			return false;
+	return true;
+}
+
 bool guard_check(const union guard_packet *packet, size_t len)
 {
 	const struct guard_head *head = &packet->head;
@@ -43,6 +55,9 @@ bool guard_check(const union guard_packet *packet, size_t len)
 	case GUARD_MORE:
 		return len >= offsetof(struct guard_table, line) &&
 		       check_table(&packet->table, len);
+	case GUARD_VALUES:
+	case GUARD_VALUES_MORE:
+		return len >= offsetof(struct guard_files, file) && check_files(&packet->files, len);
 	case GUARD_LEVELS:
 		return len == sizeof(packet->levels);
 	case GUARD_TAKE:

@@ -15,6 +15,7 @@ union guard_packet {
 	struct guard_table table;
 	struct guard_tell tell;
 	struct guard_levels levels;
+	struct guard_files files;
 };
 
 /** guard_check - checks all fields of a packet of @len bytes; false: throw it away. */

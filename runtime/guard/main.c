@@ -10,6 +10,7 @@
 #include "guard/check.h"
 #include "guard/child.h"
 #include "guard/feed.h"
+#include "guard/files.h"
 #include "guard/lines.h"
 
 #include <errno.h>
@@ -44,6 +45,7 @@ struct guard {
 	int signal_fd;
 	struct child child;
 	struct lines lines;
+	struct files files;
 	struct feed feed;
 	int64_t due_ms;        /* of the next heartbeat                       */
 	int64_t look_ms;       /* when a scan may be over its limit           */
@@ -230,6 +232,12 @@ static void on_packet(const union guard_packet *packet, int64_t now)
 	case GUARD_MORE:
 		lines_more(&guard.lines, &packet->table);
 		break;
+	case GUARD_VALUES:
+		files_know(&guard.files, &packet->files);
+		break;
+	case GUARD_VALUES_MORE:
+		files_more(&guard.files, &packet->files);
+		break;
 	default:
 		feed_tell(&guard.feed, packet->tell.text);
 	}
@@ -291,6 +299,14 @@ static void tell_end(void)
 					    "STATUS=ladderd has died, not all outputs are safe");
 }
 
+/* Lines first: the driver of a file may hang. */
+static bool make_safe(void)
+{
+	const bool lines = lines_take(&guard.lines);
+
+	return files_write(&guard.files) && lines;
+}
+
 /* ladderd has ended. -1: it shall begin again; else the exit status of the guard. */
 static int on_end(int64_t now)
 {
@@ -302,7 +318,7 @@ static int on_end(int64_t now)
 				guard.argv[0]);
 		return WEXITSTATUS(status);
 	}
-	guard.safe = lines_take(&guard.lines);
+	guard.safe = make_safe();
 	tell_end();
 	if (guard.stop)
 		return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : 1;
@@ -349,7 +365,7 @@ static void on_time(int64_t now)
 	}
 	if (guard.child.pid || now < guard.again_ms)
 		return;
-	guard.safe = lines_take(&guard.lines);
+	guard.safe = make_safe();
 	if (!start(now))
 		guard.again_ms = now + AGAIN_MS;
 }

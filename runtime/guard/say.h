@@ -19,6 +19,8 @@
 #define GUARD_VARIABLE "LADDER_GUARD"
 #define GUARD_OWNER    "ladder-guard" /* consumer of the lines that the guard holds */
 #define GUARD_LINES    256            /* outputs that it can hold             */
+#define GUARD_FILES    64             /* outputs in files that it can make safe */
+#define GUARD_PATH     168            /* bytes of the name of such a file     */
 #define GUARD_DEV      64             /* bytes of the folder of device files  */
 #define GUARD_TEXT     120
 #define GUARD_MAGIC    UINT32_C(0x31475552)
@@ -31,12 +33,14 @@ enum guard_kind {
 	GUARD_TELL,     /* a text for the service manager                   */
 	GUARD_LEVELS,   /* levels of its outputs that hold, before it writes them */
 	GUARD_MORE,     /* further outputs that it will request; none: no longer */
+	GUARD_VALUES,   /* outputs that are numbers in files, behind GUARD_TABLE */
+	GUARD_VALUES_MORE, /* further ones, behind GUARD_MORE                  */
 };
 
 struct guard_head {
 	uint32_t magic;
 	uint16_t kind;      /* enum guard_kind                                */
-	uint16_t count;     /* GUARD_TABLE, GUARD_MORE: lines                 */
+	uint16_t count;     /* GUARD_TABLE, GUARD_MORE: lines; GUARD_VALUES…: files */
 	uint32_t within_ms; /* GUARD_BEAT: 1 … GUARD_LONGEST                  */
 };
 
@@ -59,6 +63,19 @@ struct guard_table {
 	struct guard_head head;
 	char dev[GUARD_DEV]; /* ends with a NUL                               */
 	struct guard_line line[GUARD_LINES];
+};
+
+/* An output that is a number in a file; none that holds its last value: the kernel does that by itself. */
+struct guard_file {
+	int64_t number;     /* the safe one                                   */
+	char path[GUARD_PATH]; /* ends with a NUL                             */
+};
+
+/* As long as its files. */
+struct guard_files {
+	struct guard_head head;
+	uint32_t pad;       /* 0                                              */
+	struct guard_file file[GUARD_FILES];
 };
 
 /* A bit for each line of the last table, in its order. */

@@ -5,6 +5,7 @@
 #include "ladderd/guarded.h"
 
 #include "guard/say.h"
+#include "hal/channels.h"
 #include "hal/request.h"
 
 #include <errno.h>
@@ -187,6 +188,35 @@ static bool send_table(struct guard_table *table, enum guard_kind kind, const st
 	return dropped == 0;
 }
 
+static bool add_file(void *context, const char *path, int64_t number)
+{
+	struct guard_files *files = context;
+	struct guard_file *file = &files->file[files->head.count];
+
+	if (files->head.count == GUARD_FILES) {
+		fprintf(stderr, "ladderd: ladder-guard knows %d outputs of converters; the others are not made safe by it\n",
+			GUARD_FILES);
+		return false;
+	}
+	if (strlen(path) < sizeof(file->path)) {
+		memset(file, 0, sizeof(*file));
+		memcpy(file->path, path, strlen(path));
+		file->number = number;
+		files->head.count++;
+	}
+	return true;
+}
+
+/* Of a map without channels: none. @fresh: as send_table(). */
+static bool send_files(struct guard_files *files, enum guard_kind kind, const struct hal *hal, bool fresh)
+{
+	memset(files, 0, offsetof(struct guard_files, file));
+	files->head = (struct guard_head){ .magic = GUARD_MAGIC, .kind = (uint16_t)kind };
+	channels_safe_files(hal_channels(hal), fresh, add_file, files);
+	return send(to.fd - 1, files, offsetof(struct guard_files, file) + files->head.count * sizeof(files->file[0]),
+		    MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
+}
+
 /* Before the write: if ladderd dies between them, the line gets what the program wants. */
 static void tell_levels(const struct hal *hal, const struct hal_request *request, uint64_t value)
 {
@@ -204,22 +234,28 @@ static void tell_levels(const struct hal *hal, const struct hal_request *request
 bool guarded_lines(struct hal *hal)
 {
 	static struct guard_table table; /* no stack of ladderd is so large */
+	static struct guard_files files;
+	bool good;
 
 	if (!to.fd)
 		return true;
 	hal->holds = tell_levels;
-	return send_table(&table, GUARD_TABLE, hal, false);
+	good = send_table(&table, GUARD_TABLE, hal, false);
+	return send_files(&files, GUARD_VALUES, hal, false) && good;
 }
 
 bool guarded_more(const struct hal *next)
 {
 	static const struct iomap no_map = { .dev = "/" };
 	static struct guard_table table; /* another thread than that of guarded_lines() */
+	static struct guard_files files;
 	const struct hal empty = { .map = &no_map };
+	bool good;
 
 	if (!to.fd)
 		return true;
-	return send_table(&table, GUARD_MORE, next ? next : &empty, true);
+	good = send_table(&table, GUARD_MORE, next ? next : &empty, true);
+	return send_files(&files, GUARD_VALUES_MORE, next ? next : &empty, true) && good;
 }
 
 void guarded_take(struct hal *hal)

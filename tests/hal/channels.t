@@ -7,6 +7,7 @@
 use strict;
 use warnings;
 use Test::More;
+use File::Copy qw(copy);
 use File::Path qw(make_path remove_tree);
 use File::Temp qw(tempdir);
 use FindBin;
@@ -182,6 +183,60 @@ show($sensor, "20000\n");
 ok(until_true(sub { kill 'HUP', $pid; sleep 0.1; duty() == 4_000_000 }), 'after a reset it writes again');
 kill 'TERM', $pid;
 is(finish($pid), 0, 'it ends');
+
+# ladder-guard makes the pulse width safe when ladderd is killed. Here ladderd cannot begin again, so nobody else writes.
+sub start_guard {
+	my (@ladderd) = @_;
+	unlink "$dir/out", "$dir/err";
+	my $pid = fork // die "fork: $!";
+	if (!$pid) {
+		open STDOUT, '>>', "$dir/out" or die;
+		open STDERR, '>>', "$dir/err" or die;
+		open STDIN, '<', '/dev/null' or die;
+		exec "$build/ladder-guard", '--name', "channels-$$", '--', @ladderd;
+		die "exec: $!";
+	}
+	return $pid;
+}
+sub child_of {
+	my ($pid) = @_;
+	for my $folder (glob '/proc/[0-9]*') {
+		return $folder =~ s{.*/}{}r if (slurp("$folder/stat") // '') =~ /\) [^Z] $pid /;
+	}
+	return undef;
+}
+for my $hold (0, 1) {
+	my $copied = "$dir/ladderd";
+	copy($ladderd, $copied) or die;
+	chmod 0755, $copied;
+	my $its = $hold ? put('hold.io', slurp($map) =~ s/safe=4500/safe=hold/r) : $map;
+	$rung = put('copy.rung', get('loop.rung') =~ s/^RUNG Again\n.*\n//mr);
+	make_devices();
+	$pid = start_guard($copied, $rung, '--io', $its);
+	ok(until_true(sub { duty() == 4_288_000 }), 'under a guard it writes') or diag get('err');
+	unlink $copied;
+	my $child = child_of($pid);
+	kill 'KILL', $child if $child;
+	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; the outputs are safe/ }), 'ladderd is killed') or diag get('err');
+	is(duty(), $hold ? 4_288_000 : $safe, $hold ? 'an output that holds keeps its value' : 'the guard has made the pulse width safe');
+	kill 'TERM', $pid;
+	finish($pid);
+	is(duty(), $hold ? 4_288_000 : $safe, 'it stays so when the guard ends');
+}
+# Frozen: killed by the guard, safe, and it begins again.
+make_devices();
+$pid = start_guard($ladderd, $rung, '--io', $map);
+ok(until_true(sub { duty() == 4_288_000 }), 'it writes');
+kill 'STOP', child_of($pid);
+ok(until_true(sub { get('err') =~ /was frozen and is killed; the outputs are safe/ }), 'one that stands still is killed');
+ok(until_true(sub { duty() == 4_288_000 }), 'and the next one writes again') or diag get('err');
+# A file that cannot be written any more is told; the rest goes on.
+remove_tree("$sys/class/pwm");
+kill 'KILL', child_of($pid);
+ok(until_true(sub { get('err') =~ m{ladder-guard: "\S*/pwm0/duty_cycle" is not safe: No such file or directory; the guard tries again} }),
+	'an output that is gone is told') or diag get('err');
+kill 'TERM', $pid;
+finish($pid);
 
 # All lines of a wrong map are told, and nothing is driven.
 $map = put('wrong.io', <<'END');
