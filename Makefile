@@ -757,7 +757,7 @@ ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/watchdog.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
-TESTS_T  += tests/modbus/field.py
+TESTS_T  += tests/modbus/field.py tests/modbus/ways_out.py
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/

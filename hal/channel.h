@@ -177,4 +177,6 @@ bool io_ask_find(const struct image *image, const struct io_ask *ask, uint32_t *
 bool channel_value(const struct io_channel *channel, double raw, union iec_value *out);
 /** channel_raw - the other way: what the device gets for a value of the process image. Scan-safe: yes. */
 double channel_raw(const struct io_channel *channel, union iec_value value);
+/** channel_wanted - the same for a gateway: of the type channel->raw. Scan-safe: yes. */
+union iec_value channel_wanted(const struct io_channel *channel, union iec_value value);
 #endif

@@ -62,6 +62,12 @@ double channel_raw(const struct io_channel *channel, union iec_value value)
 	       (channel->at_high - channel->at_low);
 }
 
+union iec_value channel_wanted(const struct io_channel *channel, union iec_value value)
+{
+	return channel->raw != channel->type || channel->scaled ?
+	       channel_typed(channel->raw, channel_raw(channel, value)) : value;
+}
+
 double channel_number(enum iec_type type, union iec_value value)
 {
 	return value_double(type, value);

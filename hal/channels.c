@@ -203,9 +203,7 @@ static uint64_t wanted_bits(const struct cell *cell, union iec_value value)
 
 	if (cell->driver)
 		return bits_of(channel_raw(channel, value));
-	if (channel->raw != channel->type || channel->scaled)
-		value = channel_typed(channel->raw, channel_raw(channel, value));
-	return (uint64_t)value.i;
+	return (uint64_t)channel_wanted(channel, value).i;
 }
 
 void channels_write(struct channels *channels, struct image *image, int64_t now_ns)

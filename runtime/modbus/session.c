@@ -22,6 +22,7 @@
 #define LACKS_MS       2000 /* until this machine is examined again         */
 #define POLL_MOST      1040 /* 16 servers with 64 connections each           */
 #define REPORT_NS      1000000000
+#define SAFE_MS        1000 /* for safe values, when ladderd has gone       */
 #define FLUSH_NS       1000000 /* values that come within it go together        */
 
 static struct {
@@ -288,6 +289,56 @@ static void move_values(void)
 	}
 }
 
+/* Whether an output has its safe value when no ladderd says what it shall be. */
+static bool has_safe(int point)
+{
+	const struct io_point *of = &session.map.point[point];
+
+	return of->output && is_ours(of) && of->channel && !of->channel->ask && !of->hold;
+}
+
+/* Takes what the buses have written. Returns how many outputs of @left that were. */
+static int take_written(bool *left)
+{
+	const int count = field_take(&session.field, session.fresh);
+	int done = 0;
+
+	for (int i = 0; i < count; i++) {
+		const int point = session.fresh[i].point;
+
+		if (point >= session.map.count || !left[point] || !session.fresh[i].good)
+			continue;
+		left[point] = false;
+		done++;
+	}
+	return done;
+}
+
+/* ladderd has gone, and nobody says any more what an output shall be: each gets its safe value once. Afterwards it is
+ * not written any more, so that a watchdog of the far end can act, too. A unit that is silent is not waited for. */
+static void make_safe(void)
+{
+	const int64_t until_ns = line_now() + SAFE_MS * INT64_C(1000000);
+	bool *left = session.runs ? calloc((size_t)session.map.count + 1, sizeof(*left)) : NULL;
+	int count = 0;
+
+	if (!left)
+		return;
+	field_take(&session.field, session.fresh); /* what was written before */
+	for (int i = 0; i < session.map.count; i++) {
+		left[i] = has_safe(i);
+		count += left[i];
+		if (left[i])
+			masters_output(&session.masters, i, channel_wanted(session.map.point[i].channel,
+									    session.map.point[i].channel->safe));
+	}
+	while (count > 0 && line_now() < until_ns) {
+		pause_for(session.field.wake_fd, 20);
+		count -= take_written(left);
+	}
+	free(left);
+}
+
 /* While ladderd is there. */
 static void serve_board(void)
 {
@@ -305,8 +356,7 @@ static void serve_board(void)
 		}
 		move_values();
 	}
-	/* Without ladderd nobody says what an output shall be: it is not written any more, and the far end's
-	 * own watchdog decides. */
+	make_safe();
 	end_map();
 }
 

@@ -223,6 +223,12 @@ for my $hold (0, 1) {
 	finish($pid);
 	is(duty(), $hold ? 4_288_000 : $safe, 'it stays so when the guard ends');
 }
+make_devices();
+$pid = start();
+ok(until_true(sub { duty() == 4_288_000 }), 'it writes');
+kill 'KILL', $pid;
+is(finish($pid), 'signal 9', 'ladderd is killed');
+is(duty(), 4_288_000, 'without a guard the pulse width stays');
 # Frozen: killed by the guard, safe, and it begins again.
 make_devices();
 $pid = start_guard($ladderd, $rung, '--io', $map);
