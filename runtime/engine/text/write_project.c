@@ -173,6 +173,150 @@ uint32_t write_inner_text(struct project *project, const struct structure *struc
 	return id;
 }
 
+/* ---- long initial values ---- */
+
+#define LINE_MOST 100 /* columns of a declaration whose initial value stands on one line */
+
+/* The items of `[1, 2, 3]`. */
+struct items {
+	const char *at;      /* of the next one                               */
+	const char *text;    /* of this one                                   */
+	size_t len;
+	bool last;
+};
+
+/* What holds for all of them. */
+struct table {
+	int width;           /* of the widest                                 */
+	bool parts;          /* one is a structure or a row, or repeats some  */
+	bool uneven;         /* one is a string, or repeats a number          */
+};
+
+static bool item_next(struct items *items)
+{
+	char quote = '\0';
+	int depth = 0;
+
+	if (items->last)
+		return false;
+	items->text = items->at;
+	for (; depth > 0 || quote || (*items->at != ',' && *items->at != ']'); items->at++) {
+		const char c = *items->at;
+
+		if (!c)
+			return false;
+		if (quote && c == '$' && items->at[1])
+			items->at++;
+		else if (c == '\'' || c == '"')
+			quote = !quote ? c : quote == c ? '\0' : quote;
+		else if (!quote)
+			depth += (c == '(' || c == '[') - (c == ')' || c == ']');
+	}
+	items->len = (size_t)(items->at - items->text);
+	items->last = *items->at == ']';
+	items->at += items->last ? 1 : 1 + strspn(items->at + 1, " ");
+	return true;
+}
+
+static void note_item(struct table *table, const char *text, size_t len)
+{
+	const size_t at = strcspn(text, "('[\",]"); /* an item ends with , or ] */
+	const char *inner = text + at + 1;
+
+	if (at >= len)
+		return;
+	if (text[at] != '(' || at == 0)
+		table->parts |= text[at] == '(' || text[at] == '[';
+	else
+		table->parts |= *inner == '(' || *inner == '[' || strncmp(inner + strcspn(inner, " '\"()"), " :=", 3) == 0;
+	table->uneven |= !table->parts;
+}
+
+static struct table measure_items(const char *text)
+{
+	struct items items = { .at = text + 1 };
+	struct table table = { .width = 0 };
+
+	while (item_next(&items)) {
+		const int width = utf8_width(items.text, items.len);
+
+		table.width = width > table.width ? width : table.width;
+		note_item(&table, items.text, items.len);
+	}
+	return table;
+}
+
+/* Items in a line: of numbers as many as the last dimension has, else ten or twenty, which are counted easily; of
+ * structures and rows one; 0: as many as fit, whose number is not the same in each line. */
+static int items_in_line(const struct var *var, const struct table *table, int indent)
+{
+	const int fit = (LINE_MOST - indent) / (table->width + 2);
+	const int row = var->dims > 1 ? (int)var->dim[var->dims - 1].count : fit;
+
+	if (table->parts)
+		return 1;
+	if (table->uneven || fit < 1)
+		return 0;
+	return row < fit ? row : fit > 10 ? fit - fit % 10 : fit;
+}
+
+/* `[` … `]` in lines between the first and the last one, numbers below one another. */
+static void write_table(const struct sink *sink, const struct var *var, const char *text, int depth)
+{
+	struct items items = { .at = text + 1 };
+	const struct table table = measure_items(text);
+	const int indent = 2 * (depth + 2), most = items_in_line(var, &table, indent);
+	int column = 0, count = 0;
+
+	sink_text(sink, " := [");
+	while (item_next(&items)) {
+		const int width = utf8_width(items.text, items.len);
+		const bool begins = column == 0 || (most ? count == most : column + 2 + width > LINE_MOST);
+
+		if (begins) {
+			sink_text(sink, "\n");
+			sink_repeat(sink, " ", indent);
+			column = indent;
+			count = 0;
+		} else {
+			sink_text(sink, " ");
+			column++;
+		}
+		if (most > 1)
+			sink_repeat(sink, " ", table.width - width);
+		sink_write(sink, items.text, items.len);
+		sink_text(sink, items.last ? "" : ",");
+		column += width + !items.last;
+		count++;
+	}
+	sink_text(sink, "\n");
+	sink_repeat(sink, "  ", 1 + depth);
+	sink_text(sink, "]");
+}
+
+static void count_columns(void *columns, const char *text, size_t len)
+{
+	*(int *)columns += utf8_width(text, len);
+}
+
+static void write_initial(const struct sink *sink, const struct project *project, const struct var *var,
+			  const struct widths *widths)
+{
+	const char *text = var->has_init && !var->inherits && var->init_text ?
+			   project_text(project, var->init_text) : "";
+	int columns = 2 * (1 + widths->depth) + widths->name + (var->at_text ? 4 + widths->at : 0);
+	const struct sink counted = { .write = count_columns, .context = &columns };
+
+	if (*text == '[') {
+		project_write_type(project, var, &counted);
+		columns += (int)strlen(" :  := ;") + write_width(project, var->init_text);
+	}
+	if (*text == '[' && columns > LINE_MOST)
+		write_table(sink, var, text, widths->depth);
+	else
+		project_write_init(project, var, sink);
+}
+
 static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
@@ -199,7 +343,7 @@ static void write_var(const struct sink *sink, const struct project *project,
 	}
 	if (var->edge)
 		sink_text(sink, var->edge == 1 ? " R_EDGE" : " F_EDGE");
-	project_write_init(project, var, sink);
+	write_initial(sink, project, var, widths);
 	sink_text(sink, ";");
 	if (var->comment) {
 		sink_text(sink, " ");

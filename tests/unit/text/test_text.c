@@ -194,6 +194,35 @@ static void test_initial_parts(void)
 		  "  T : TON := (pt := t#1s);\nEND_VAR\n");
 }
 
+/* Initial values that make a line too long; strings may hold what else ends an item. */
+static void test_tables(void)
+{
+	canonical("RUNGBOARD 1\nVAR\n  Words : ARRAY[1..3] OF STRING[30] := "
+		  "['one, [two]; (three) of them $'now$'','a second one, which is long','$$'];\n"
+		  "  T : ARRAY[1..2,1..3] OF DINT := [1000000000,2,3,-1000000000,5,1000000000];\n"
+		  "  R : ARRAY[1..2,1..4] OF DINT := [[1000000000,2,3,-1000000000],[5,1000000000,7,1000000000]];\n"
+		  "  L : ARRAY[1..40] OF DINT := [30(1000000000), 1000000001, 1000000002, 1000000003, 1000000004, 1000000005];(* x *)\n"
+		  "END_VAR\n",
+		  "RUNGBOARD 1\n\nVAR\n"
+		  "  Words : ARRAY[1..3] OF STRING[30] := [\n"
+		  "    'one, [two]; (three) of them $'now$'', 'a second one, which is long', '$$'\n"
+		  "  ];\n"
+		  "  T     : ARRAY[1..2, 1..3] OF DINT := [1000000000, 2, 3, -1000000000, 5, 1000000000];\n"
+		  "  R     : ARRAY[1..2, 1..4] OF DINT := [\n"
+		  "    [1000000000, 2, 3, -1000000000],\n"
+		  "    [5, 1000000000, 7, 1000000000]\n"
+		  "  ];\n"
+		  "  L     : ARRAY[1..40] OF DINT := [\n"
+		  "    30(1000000000), 1000000001, 1000000002, 1000000003, 1000000004, 1000000005\n"
+		  "  ]; (* x *)\nEND_VAR\n");
+	canonical("RUNGBOARD 1\nVAR\n  T : ARRAY[1..2,1..4] OF LINT := [1000000000000, 2, 3, -1000000000000, 5, 1000000000000, 7, 1000000000000];\nEND_VAR\n",
+		  "RUNGBOARD 1\n\nVAR\n"
+		  "  T : ARRAY[1..2, 1..4] OF LINT := [\n"
+		  "     1000000000000,              2,              3, -1000000000000,\n"
+		  "                 5,  1000000000000,              7,  1000000000000\n"
+		  "  ];\nEND_VAR\n");
+}
+
 static void test_empty(void)
 {
 	canonical("RUNGBOARD 1", "RUNGBOARD 1\n");
@@ -567,6 +596,7 @@ int main(void)
 	test_forms();
 	test_arrays();
 	test_initial_parts();
+	test_tables();
 	test_empty();
 	test_expressions();
 	test_comments();
