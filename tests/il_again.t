@@ -47,6 +47,35 @@ for my $case (qw(st-case-labels st-splits st-calls st-main-none st-stored-values
 	   "$case: its lists do the same");
 }
 
+# Programs of the documents, which have pointers, references, unions, actions and calls of programs. A pointer itself
+# is another number where temporaries change the layout.
+my ($shown, @differ) = (0);
+for my $page (map { "$tests/../docs/$_.md" } qw(st declarations language rung-file)) {
+	my $text = slurp($page);
+
+	while ($text =~ /^```rung (\S+)\n(.*?)^```/msg) {
+		my ($name, $program) = ($1, $2);
+		my ($end) = $name =~ /(\w+)$/;
+		next if $program =~ /\bSFC\b|INITIAL_STEP/ || $program =~ /^CONFIGURATION/m;
+		spew("$dir/shown.$end", $program);
+		`$ladder check $dir/shown.$end 2>&1`;
+		next if $?;
+		my $list = `$ladder il $dir/shown.$end 2>/dev/null`;
+		my $as = $list =~ /^RUNGBOARD/ ? 'rung' : $end;
+		spew("$dir/list.$as", $list);
+		my @lines = map { scalar `printf '.\n.\n.\n' | $ladder trace $dir/$_ - 2>/dev/null` } "shown.$end", "list.$as";
+		my @values = map { [map { {/(\S+?)=('(?:[^'\$]|\$.)*'|\S*)/g} } split /\n/] } @lines;
+		$shown++;
+		for my $i (0 .. $#{$values[0]}) {
+			my ($want, $is) = ($values[0][$i], $values[1][$i] // {});
+			push @differ, map { "$name: $_ is " . ($is->{$_} // 'not there') . ", not $want->{$_}" }
+				grep { $want->{$_} !~ /^\d{15,}$/ && ($is->{$_} // '') ne $want->{$_} } sort keys %$want;
+		}
+	}
+}
+cmp_ok($shown, '>', 60, 'programs of the documents became lists');
+is(join("\n", @differ), '', 'which do the same');
+
 # Random programs. Only names of both programs are compared, so temporaries do not count.
 sub names_of {
 	my ($text) = @_;

@@ -52,9 +52,12 @@ static bool il_report_wrong(struct il_check *c, const struct il_line *line, cons
 	return il_report(&c->fn, line, DIAG_WRONG_TYPE, text);
 }
 
+/* As it is written: without the sign of REF(Name). */
 static const char *il_operand_text(struct il_check *c, const struct il_line *line)
 {
-	return scope_text(c->fn.scope, line->operand);
+	const char *text = scope_text(c->fn.scope, line->operand);
+
+	return text + (*text == '&' || *text == '@');
 }
 
 /* The same, with likely words of @kinds in the message. */

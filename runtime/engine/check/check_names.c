@@ -904,6 +904,8 @@ static void note_il(struct names_check *c, const struct pou *pou)
 		m = scope_find(c->scope, pou, line->operand, &why);
 		if (m)
 			uses_add_index(&c->uses, c->scope, pou, line->operand, m);
+		if (m && m->kind == MEANING_INSTANCE && m->action) /* an action may be called beside its block */
+			use = USE_READ | USE_WRITTEN;
 		if (m && uses_add(&c->uses, m, use))
 			report_line(c, DIAG_INSTANCE_TWICE, pou,
 				    (int)line->line, text_of(c, line->operand));

@@ -1141,6 +1141,23 @@ static bool scope_has_index(const char *text, size_t len)
 	return (memchr(text, '[', len) || memchr(text, '^', len)) && !memchr(text, '\'', len);
 }
 
+/* ADR of a reference is where it leads: its own value, `@Name`. False: @id is another variable. */
+static bool mean_reference(struct scope *scope, uint32_t table, uint32_t id, struct meaning *out)
+{
+	char text[2 * LIMIT_NAME + 2];
+	const int len = snprintf(text, sizeof(text), "@%s", names_text(&scope->project->names, id));
+	const struct meaning *m;
+	enum diag_id why;
+
+	if (len >= (int)sizeof(text))
+		return false;
+	m = scope_find(scope, pou_of(scope, table), names_intern(&scope->project->names, text, (size_t)len), &why);
+	if (!m || meaning_is_indexed(m) || m->kind == MEANING_LITERAL)
+		return false;
+	*out = *m;
+	return true;
+}
+
 /* `&Name`, which ADR(Name) is for translation. */
 static bool mean_address_of(struct scope *scope, uint32_t table, const char *text, size_t len,
 			    struct meaning *out, enum diag_id *why)
@@ -1150,6 +1167,8 @@ static bool mean_address_of(struct scope *scope, uint32_t table, const char *tex
 
 	if (!m)
 		return false;
+	if (m->through && mean_reference(scope, table, id, out))
+		return true;
 	*why = DIAG_ADR_OF;
 	if (!m->var || m->constant || m->addr.area != AREA_NONE || meaning_is_indexed(m))
 		return false;
@@ -1337,6 +1356,7 @@ void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, ui
 	const char *name = scope_text(scope, text), *dot = strrchr(name, '.');
 	const struct meaning *m;
 
+	name += *name == '&' || *name == '@'; /* of REF(Name) */
 	named_tell(scope->project, why, name, out, size);
 	if (why != DIAG_NO_SUCH_PART || !dot)
 		return;

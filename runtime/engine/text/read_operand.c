@@ -181,16 +181,30 @@ static void add_part(struct reader *r)
 	buffer_add(r, &r->text, r->lex.token.text, r->lex.token.len);
 }
 
-/* Reads an index, members and a part after a name or address, as in `Line[2].Times[i].3`; leaves
+/* Does `[`, or in a list `^` behind a pointer, follow? */
+static bool goes_on(const struct reader *r)
+{
+	return reader_peek(r, "[") || (r->il && reader_peek(r, "^"));
+}
+
+/* Reads `^`; leaves the cursor on it. */
+static bool add_arrow(struct reader *r)
+{
+	reader_step(r);
+	buffer_add(r, &r->text, "^", 1);
+	return true;
+}
+
+/* Reads an index, members and a part after a name or address, as in `Line[2].Times[i].3` or `Line^.Next`; leaves
  * the cursor on the last token. */
 static bool add_path(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
 
-	while (reader_peek(r, "[")) {
-		if (!add_index(r))
+	while (goes_on(r)) {
+		if (!(reader_peek(r, "^") ? add_arrow(r) : add_index(r)))
 			return false;
-		if (reader_peek(r, "["))
+		if (goes_on(r))
 			continue;
 		if (!reader_peek(r, "."))
 			return true;
@@ -231,11 +245,37 @@ bool reader_instance(struct reader *r, uint32_t *id)
 	return true;
 }
 
+/* `REF(Name)` of a list, which is `&Name` in it; leaves the cursor on the ). */
+static bool add_reference(struct reader *r)
+{
+	reader_step(r);
+	reader_step(r);
+	if (r->lex.token.kind != TOKEN_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "name");
+	buffer_add(r, &r->text, "&", 1);
+	buffer_add(r, &r->text, r->lex.token.text, r->lex.token.len);
+	if (!check_length(r) || !add_path(r))
+		return false;
+	reader_step(r);
+	return reader_is(r, ')') || reader_fail_word(r, DIAG_EXPECTED, ")");
+}
+
+static bool is_reference(const struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	return r->il && token->kind == TOKEN_NAME && reader_peek(r, "(") &&
+	       (ascii_is("REF", token->text, token->len) || ascii_is("ADR", token->text, token->len));
+}
+
 bool reader_value(struct reader *r, bool constant, const struct token *word)
 {
 	const struct token *token = &r->lex.token;
 	size_t from = r->text.len;
 	struct iec_addr addr;
+
+	if (is_reference(r))
+		return add_reference(r);
 
 	if (constant && reader_sign(r) && token->kind != TOKEN_NUMBER)
 		return reader_fail_token(r, DIAG_BAD_LITERAL);

@@ -28,6 +28,21 @@ static void write_padded(const struct sink *sink, const char *word,
 	sink_repeat(sink, " ", len < 5 ? 6 - len : 1);
 }
 
+/* `&Name`, where a variable is, and `@Name`, where a reference leads, are REF(Name). */
+static void write_operand(const struct sink *sink, const struct project *project, uint32_t operand)
+{
+	const char *text = project_text(project, operand);
+	const bool place = *text == '&' || *text == '@';
+
+	if (!place) {
+		write_id(sink, project, operand);
+		return;
+	}
+	sink_text(sink, "REF(");
+	sink_text(sink, text + 1);
+	sink_text(sink, ")");
+}
+
 static void write_args(const struct sink *sink, const struct project *project,
 		       const struct il_line *arg, int count)
 {
@@ -38,7 +53,7 @@ static void write_args(const struct sink *sink, const struct project *project,
 			write_id(sink, project, arg[i].pin);
 			sink_text(sink, arg[i].kind == IL_ARG_OUT ? " => " : " := ");
 		}
-		write_id(sink, project, arg[i].operand);
+		write_operand(sink, project, arg[i].operand);
 	}
 	sink_text(sink, ")");
 }
@@ -57,7 +72,7 @@ static void write_operator(const struct sink *sink, const struct project *projec
 		modifier = "N";
 	if (line->operand && !(line->modifiers & MOD_PAREN)) {
 		write_padded(sink, word, modifier);
-		write_id(sink, project, line->operand);
+		write_operand(sink, project, line->operand);
 		return;
 	}
 	sink_text(sink, word);
@@ -67,7 +82,7 @@ static void write_operator(const struct sink *sink, const struct project *projec
 	/* AND( may stand with its first operand, as in the standard. */
 	if (line->operand) {
 		sink_text(sink, " ");
-		write_id(sink, project, line->operand);
+		write_operand(sink, project, line->operand);
 	}
 }
 
@@ -101,7 +116,7 @@ static void write_line(const struct sink *sink, const struct project *project,
 		if (line->modifiers & MOD_PAREN) {
 			sink_text(sink, word);
 			sink_text(sink, line->operand ? "( " : "(");
-			write_id(sink, project, line->operand);
+			write_operand(sink, project, line->operand);
 			return;
 		}
 		if (!line->operand) {
@@ -109,10 +124,10 @@ static void write_line(const struct sink *sink, const struct project *project,
 			return;
 		}
 		write_padded(sink, word, "");
-		write_id(sink, project, line->operand);
+		write_operand(sink, project, line->operand);
 		for (int i = 1; i <= args; i++) {
 			sink_text(sink, ", ");
-			write_id(sink, project, line[i].operand);
+			write_operand(sink, project, line[i].operand);
 		}
 		return;
 	case IL_CALL:

@@ -972,7 +972,8 @@ static struct value place_behind(struct chain *c, uint32_t place, const struct m
 	const size_t head = strcspn(text, m->through ? "^" : "[");
 	const bool reference = m->through && !text[head]; /* its name is what it leads to */
 	const size_t len = reference ? strcspn(text, ".[") : head;
-	const uint32_t id = signed_operand(c, m->through ? '@' : '&', text, len);
+	const uint32_t id = m->through && !reference ? chain_intern(c, text, len) :
+			    signed_operand(c, reference ? '@' : '&', text, len);
 	const struct meaning *from = meaning(c, m->through ? id : chain_intern(c, text, len));
 	struct value sum = { .operand = id, .type = IEC_LWORD };
 
