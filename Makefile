@@ -32,7 +32,7 @@ LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
 LEAN     += $(SMALL:1=-fno-inline-functions-called-once -fno-schedule-insns2 -fno-reorder-blocks)
 # A static program has a fixed address; without MMU (SMALL=1) it can be loaded anywhere.
 LEAN     += $(if $(filter 1,$(STATIC)),$(if $(filter 1,$(SMALL)),,-fno-pie))
-LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
+LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code -Wl,--as-needed
 # Tables of names have many pointers; packed, their relocations take 1 KB instead of 60.
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
@@ -58,6 +58,8 @@ CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number
 endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
+# Without errno a square root is an instruction where the processor has one, and libm takes no memory.
+$(call obj,$(addprefix runtime/engine/scan/,fn_real.c math_angle.c fb_sun.c)): CPPFLAGS += -fno-math-errno
 # Files that run once per load are compiled for size; for boards, also some that make loading fast here.
 OFTEN    := $(addprefix runtime/ladderd/,$(if $(CROSS)$(STATIC),,cycle.c) stats.c wall.c)
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \

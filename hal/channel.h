@@ -170,6 +170,9 @@ struct image;
  * Scan-safe: no.   Fails: false: the program has none of this name. */
 bool io_ask_find(const struct image *image, const struct io_ask *ask, uint32_t *at);
 
+/** channel_round - the nearest whole number, from a half away from 0: round() of libm, which ladderd would need for
+ * nothing else. Scan-safe: yes. */
+double channel_round(double x);
 /** channel_value - what the process image gets for a raw value
  * @raw: real: in `unit` of the channel; else of the type channel->raw
  * @out: of the type channel->type; numbers that do not fit are cut to the nearest that does

@@ -13,6 +13,18 @@ static double value_double(enum iec_type type, union iec_value value)
 	return iec_is_wide(type) ? (double)(uint64_t)value.i : (double)value.i;
 }
 
+double channel_round(double x)
+{
+	double whole;
+
+	if (!(fabs(x) < 4503599627370496.0)) /* 2^52: it has no fraction */
+		return x;
+	whole = (double)(int64_t)x;
+	if (x - whole >= 0.5)
+		return whole + 1;
+	return whole - x >= 0.5 ? whole - 1 : whole;
+}
+
 /* The nearest value that the type has. Both ends of 64 bits are compared as doubles, which have
  * fewer digits: at or beyond them is the end. */
 static union iec_value nearest(enum iec_type type, double x)
@@ -26,7 +38,7 @@ static union iec_value nearest(enum iec_type type, double x)
 	}
 	if (isnan(x))
 		return value;
-	x = round(x);
+	x = channel_round(x);
 	if (iec_is_wide(type))
 		value.i = x <= 0 ? 0 : x >= 18446744073709551616.0 ? -1 : (int64_t)(uint64_t)x;
 	else if (x <= (double)row->low)

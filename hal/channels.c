@@ -264,7 +264,7 @@ int64_t cell_number(const struct device *device, double raw)
 
 	if (exact >= most)
 		return device->most;
-	return exact > least ? (int64_t)round(exact) : (int64_t)least;
+	return exact > least ? (int64_t)channel_round(exact) : (int64_t)least;
 }
 
 /* A converter's highest step is one below its reference: what lies at the reference gets that step. */

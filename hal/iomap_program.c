@@ -153,16 +153,14 @@ static void check_safe(const struct iomap *map, struct diag_list *diags)
 		diag_add(diags, io_place(map, first, DIAG_IO_NO_SAFE), "%s", text);
 }
 
-bool iomap_check_program(const struct iomap *map, const struct program *program,
-			 struct arena *arena, struct diag_list *diags)
+/* What @program uses against the points of @map. */
+static bool check_cover(const struct iomap *map, const struct program *program, struct arena *scratch,
+			struct diag_list *diags)
 {
 	const struct areas *areas = &program->areas;
-	struct cover cover = { map, program, diags, arena_alloc(arena, areas->size),
-			       arena_alloc(arena, areas->size) };
-	const bool fits = iomap_fits(map, areas, diags);
+	struct cover cover = { map, program, diags, arena_alloc(scratch, areas->size),
+			       arena_alloc(scratch, areas->size) };
 
-	if (!check_net(map, program, arena, diags) || !fits)
-		return false;
 	if (!cover.mapped || !cover.named)
 		return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
 						      .file = map->file }, "%s", "");
@@ -176,4 +174,19 @@ bool iomap_check_program(const struct iomap *map, const struct program *program,
 	check_bits(&cover);
 	code_each_access(program, check_address, &cover);
 	return true;
+}
+
+bool iomap_check_program(const struct iomap *map, const struct program *program,
+			 struct arena *arena, struct diag_list *diags)
+{
+	const bool fits = iomap_fits(map, &program->areas, diags);
+	struct arena scratch;
+	bool good;
+
+	if (!check_net(map, program, arena, diags) || !fits)
+		return false;
+	arena_init(&scratch);
+	good = check_cover(map, program, &scratch, diags);
+	arena_free(&scratch);
+	return good;
 }

@@ -54,6 +54,31 @@ static void test_scaling(void)
 	CHECK(channel_raw(&channel, INT(-1)) == 18446744073709551616.0);
 }
 
+/* As round() of libm, which no program of a board needs. */
+static void test_round(void)
+{
+	static const double some[] = { 0, 0.5, 1, 1.5, 2.5, 1e15, 4503599627370495.5, 4503599627370496.0, 9007199254740993.0, 1e300, INFINITY };
+	uint64_t state = 88172645463325252u;
+	bool same = true;
+
+	for (size_t i = 0; i < sizeof(some) / sizeof(*some); i++)
+		for (int k = -1; k <= 1; k++) {
+			const double x = k < 0 ? nextafter(some[i], -1) : k > 0 ? nextafter(some[i], INFINITY) : some[i];
+
+			same &= channel_round(x) == round(x) && channel_round(-x) == round(-x);
+		}
+	for (int i = 0; i < 100000; i++) {
+		double x;
+
+		state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+		memcpy(&x, &state, sizeof(x));
+		same &= isnan(x) || channel_round(x) == round(x);
+		x = (double)(int32_t)state / 64;
+		same &= channel_round(x) == round(x);
+	}
+	CHECK_AS(same && isnan(channel_round(NAN)), "channel_round() is round()");
+}
+
 /* A file of the kernel that takes numbers up to 1000, as one of a converter does. */
 static void test_highest_step(void)
 {
@@ -793,6 +818,7 @@ int main(void)
 	if (!sys_begin())
 		return 1;
 	test_scaling();
+	test_round();
 	test_highest_step();
 	test_quality();
 	test_filter_and_threshold();

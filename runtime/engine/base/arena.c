@@ -35,6 +35,8 @@ struct arena_chunk {
 #define ALIGN     8u
 #define CHUNK_MIN 4000u
 #define HUGE_PAGE ((size_t)2 << 20) /* of x86-64 and arm64                  */
+#define PAGE      ((size_t)64 << 10) /* the largest that a kernel has for these */
+#define MAP_LEAST ((size_t)64 << 10)
 
 void arena_init(struct arena *arena)
 {
@@ -96,6 +98,19 @@ static struct arena_chunk *map_chunk(size_t whole)
 	return chunk;
 }
 
+/* Pages from the system, which are no memory until they are used. calloc() would clear them all, if the heap
+ * had them before. */
+static struct arena_chunk *map_pages(size_t whole)
+{
+	struct arena_chunk *chunk = mmap(NULL, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+	if (chunk == MAP_FAILED)
+		return NULL;
+	chunk->size = whole - sizeof(*chunk);
+	chunk->mapped = true;
+	return chunk;
+}
+
 /* @size bytes with a header, all zero. Large ones are huge pages: a load of 40 MB then
  * takes twenty page faults, not ten thousand. */
 static struct arena_chunk *new_chunk(size_t size)
@@ -106,6 +121,8 @@ static struct arena_chunk *new_chunk(size_t size)
 	if (MAPS && size >= HUGE_PAGE - 64)
 		return whole > SIZE_MAX - 2 * HUGE_PAGE ? NULL :
 		       map_chunk((whole + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1));
+	if (MAPS && size >= MAP_LEAST)
+		return map_pages((whole + PAGE - 1) & ~(PAGE - 1));
 	chunk = calloc(1, whole);
 	if (chunk)
 		chunk->size = size;
