@@ -422,7 +422,8 @@ static void add_table(struct search *s, const struct var_table *table)
 			if (fits < 0)
 				fits = fit_address(s, address);
 		}
-		if (fits >= 0 && is_wanted(s, var, vars_flags(table, i)))
+		/* a wire has another name in its network */
+		if (fits >= 0 && !(vars_flags(table, i) & VAR_WIRE) && is_wanted(s, var, vars_flags(table, i)))
 			add(s, var->type == IEC_NONE ? ENTRY_INSTANCE : ENTRY_VARIABLE,
 			    fits, name, address, type_word(s, var),
 			    project_text(project, var->comment));

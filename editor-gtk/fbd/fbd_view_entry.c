@@ -124,7 +124,7 @@ static void add_row(LadderFbdView *view, const struct entry_candidate *one, cons
 }
 
 /* Names for a line, as in the entry of a rung behind @head; without words of elements. */
-static void offer_names(LadderFbdView *view, const char *head, const char *line, gsize cursor, bool new_names)
+static void offer_names(LadderFbdView *view, int network, const char *head, const char *line, gsize cursor)
 {
 	const struct entry_place place = place_of(view, strcmp(head, "OUT ") == 0, false);
 	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
@@ -134,24 +134,71 @@ static void offer_names(LadderFbdView *view, const char *head, const char *line,
 
 	for (int i = 0; i < count; i++)
 		if (found[i].kind != ENTRY_WORD && found[i].kind != ENTRY_ROUTINE && found[i].kind != ENTRY_LABEL &&
-		    (new_names || found[i].kind != ENTRY_NEW) && strlen(found[i].line) >= skip)
+		    (found[i].kind != ENTRY_NEW || !is_wire(view, network, found[i].text)) && strlen(found[i].line) >= skip)
 			add_row(view, &found[i], found[i].line + skip);
 	g_free(part);
 	g_free(found);
 }
 
-static void offer_wires(LadderFbdView *view, int network, const char *line)
+/* Where the name before the cursor begins. */
+static gsize name_start(const char *line, gsize cursor)
+{
+	gsize at = cursor;
+
+	while (at > 0 && (g_ascii_isalnum(line[at - 1]) || line[at - 1] == '_' || line[at - 1] & 0x80))
+		at--;
+	return at;
+}
+
+/* @text in place of the name before the cursor, if it begins like that. */
+static void offer_text(LadderFbdView *view, const char *line, gsize cursor, const char *text,
+		       enum entry_kind kind, const char *note)
+{
+	const gsize from = name_start(line, cursor);
+	struct entry_candidate one = { .kind = kind };
+	char *whole;
+
+	if (!name_begins(line + from, cursor - from, text, strlen(text)))
+		return;
+	g_strlcpy(one.text, text, sizeof(one.text));
+	g_strlcpy(one.note, note, sizeof(one.note));
+	whole = g_strdup_printf("%.*s%s%s", (int)from, line, text, line + cursor);
+	add_row(view, &one, whole);
+	g_free(whole);
+}
+
+static void offer_wires(LadderFbdView *view, int network, const char *line, gsize cursor)
 {
 	const struct fbd_graph *graph = fbd_graph_of(view, network);
-	struct entry_candidate one = { .kind = ENTRY_VARIABLE };
 
 	for (int i = 0; i < graph->wire_count; i++)
-		if (graph->wire[i].name && name_begins(line, strlen(line), graph->wire[i].name,
-						       strlen(graph->wire[i].name))) {
-			g_strlcpy(one.text, graph->wire[i].name, sizeof(one.text));
-			g_strlcpy(one.note, _("wire"), sizeof(one.note));
-			add_row(view, &one, one.text);
-		}
+		if (graph->wire[i].name)
+			offer_text(view, line, cursor, graph->wire[i].name, ENTRY_VARIABLE, _("wire"));
+}
+
+/* The words that a value of a network may have besides functions. @box: as boxes, without a parenthesis. */
+static void offer_fbd_words(LadderFbdView *view, const char *line, gsize cursor, bool box)
+{
+	static const struct { const char *word, *note; } words[] = {
+		{ "R_EDGE(", N_("TRUE for one scan when the value becomes TRUE") },
+		{ "F_EDGE(", N_("TRUE for one scan when the value becomes FALSE") },
+		{ "PREVIOUS(", N_("the value of a wire in the scan before") },
+	};
+	char text[16];
+
+	for (gsize i = 0; name_start(line, cursor) < cursor && i < G_N_ELEMENTS(words) - box; i++) {
+		g_strlcpy(text, words[i].word, sizeof(text));
+		if (box)
+			text[strlen(text) - 1] = '\0';
+		offer_text(view, line, cursor, text, ENTRY_WORD, _(words[i].note));
+	}
+}
+
+/* What a value of a network is made of besides variables and functions. */
+static void offer_value(LadderFbdView *view, int network, const char *line, gsize cursor)
+{
+	offer_wires(view, network, line, cursor);
+	offer_fbd_words(view, line, cursor, false);
 }
 
 /* Words of boxes, and names. */
@@ -191,13 +238,17 @@ static void offer(const struct asked *asked, const char *line, gsize cursor)
 
 	if (asked->what == FBD_ASK_TITLE || asked->what == FBD_ASK_LABEL || asked->what == FBD_ASK_COMMENT)
 		return;
-	if (asked->what == FBD_ASK_ADD || asked->what == FBD_ASK_INSERT) {
+	if (asked->what == FBD_ASK_ADD && strpbrk(line, ":(=")) { /* a whole line */
+		offer_value(view, asked->at.network, line, cursor);
+		offer_boxes(view, line, cursor);
+	} else if (asked->what == FBD_ASK_ADD || asked->what == FBD_ASK_INSERT) {
+		offer_fbd_words(view, line, cursor, true);
 		offer_boxes(view, line, cursor);
 	} else if (asked->what == FBD_ASK_STORE || (pin && pin->output) || (box && stores(box) && !pin)) {
-		offer_names(view, "OUT ", line, cursor, true);
+		offer_names(view, asked->at.network, "OUT ", line, cursor);
 	} else if (pin || (box && box->kind == FBD_VALUE)) {
-		offer_wires(view, asked->at.network, line);
-		offer_names(view, "[", line, cursor, true);
+		offer_value(view, asked->at.network, line, cursor);
+		offer_names(view, asked->at.network, "[", line, cursor);
 	} else if (box && box->kind == FBD_JUMP) {
 		offer_labels(view, line);
 	} else if (box) {

@@ -245,5 +245,59 @@ def shown(screen):
     editor.finish()
 
 
+def first_row(editor, row, line):
+    """Takes the row below the entry; then the entry has this line."""
+    editor.candidate(row)
+    editor.keys('Down', 'Tab')
+    until(lambda: editor.asked() and editor.asked()[0].text() == line, 'the line ' + line)
+
+
+def completed(screen):
+    """the entry offers wires of the network, also inside of an expression, and R_EDGE, F_EDGE, PREVIOUS"""
+    path = new_file(screen, FILL)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1, Fill, Fill the tank while there is room')
+    editor.click(part(editor, 'AND, input 3: Ready'))
+    at(editor, 'AND, input 3: Ready')
+    on_sheet(editor)
+    editor.keys('Return')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('Ready OR Lo')
+    first_row(editor, 'Low', 'Ready OR Low')
+    editor.shot('fbd-candidates')
+    rows = [node.name for node in editor.all('Low', 'list item')]
+    assert len(rows) == 1, 'a wire is no variable and no new name: %s' % rows
+    editor.keys('Escape')
+    editor.gone()
+    on_sheet(editor)
+    editor.keys('Return')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('R_E')
+    first_row(editor, 'R_EDGE(', 'R_EDGE(')
+    editor.type('PREV')
+    first_row(editor, 'PREVIOUS(', 'R_EDGE(PREVIOUS(')
+    editor.type('L')
+    first_row(editor, 'Low', 'R_EDGE(PREVIOUS(Low')
+    editor.type('))')
+    editor.keys('Return')
+    editor.gone()
+    part(editor, 'R_EDGE, executed as number 2')
+    editor.click(part(editor, 'Network 2, Not used yet'))
+    at(editor, 'Network 2, Not used yet')
+    on_sheet(editor)
+    editor.type('F')
+    editor.opened()
+    editor.type('_E')
+    first_row(editor, 'F_EDGE', 'F_EDGE')
+    editor.keys('Return')
+    editor.gone()
+    part(editor, 'F_EDGE, executed as number 3')
+    text = editor.save(path)
+    assert 'IN := Low AND NOT Stop AND R_EDGE(PREVIOUS(Low))' in text, text
+    editor.finish()
+
+
 if __name__ == '__main__':
-    main([by_keyboard, by_pointer, changes, shown])
+    main([by_keyboard, by_pointer, changes, shown, completed])
