@@ -1336,17 +1336,32 @@ bool fbd_edit_type(struct fbd_edit *edit, const struct fbd_spot *box, const char
 	return finish(edit, at.line);
 }
 
-/* @path with @name in place of its head. */
-static const char *renamed(struct fbd_edit *edit, const char *path, const char *name)
+/* @path with @name in place of @wire, also in an index: Low, Low.X, A[Low + 1]. */
+static const char *renamed(struct fbd_edit *edit, const char *path, const char *wire, const char *name)
 {
-	const char *rest = path + strcspn(path, ".[^ ");
-	const size_t size = strlen(name) + strlen(rest) + 1;
-	char *text = arena_alloc(&edit->net.arena, size);
+	struct sink_memory memory;
+	struct sink sink = sink_to_memory(&memory);
+	const char *done = path, *out;
+	bool behind_dot = false;
+	struct lex lex;
 
-	if (!text)
-		return path;
-	snprintf(text, size, "%s%s", name, rest);
-	return text;
+	sink_memory_init(&memory);
+	lex_init(&lex, path, strlen(path));
+	while (lex_next(&lex) != TOKEN_END) {
+		const size_t head = lex.token.kind != TOKEN_NAME || behind_dot ? 0 :
+			strcspn(lex.token.text, ".[]^ +-*/,)(");
+
+		if (head && name_is(wire, lex.token.text, head)) {
+			sink_write(&sink, done, (size_t)(lex.token.text - done));
+			sink_text(&sink, name);
+			done = lex.token.text + head;
+		}
+		behind_dot = lex_is(&lex, ".");
+	}
+	sink_text(&sink, done);
+	out = memory.failed ? NULL : arena_copy(&edit->net.arena, memory.text, memory.len);
+	sink_memory_free(&memory);
+	return out ? out : path;
 }
 
 static void rename_in(struct fbd_edit *edit, struct fbd_line *line, struct fbd_node *node, const char *wire,
@@ -1354,8 +1369,8 @@ static void rename_in(struct fbd_edit *edit, struct fbd_line *line, struct fbd_n
 {
 	if (!node)
 		return;
-	if (node->kind == FBD_NODE_OPERAND && is_of(node->text, wire)) {
-		node->text = renamed(edit, node->text, name);
+	if (node->kind == FBD_NODE_OPERAND && mentions(node->text, wire)) {
+		node->text = renamed(edit, node->text, wire, name);
 		line->changed = true;
 	}
 	for (int i = 0; i < node->count; i++)
@@ -1368,8 +1383,8 @@ static void rename_lines(struct fbd_edit *edit, int from, const char *wire, cons
 		struct fbd_line *line = edit->net.line[i];
 
 		rename_in(edit, line, line->value, wire, name);
-		if (line->kind == FBD_LINE_ASSIGN && is_of(line->target, wire)) {
-			line->target = renamed(edit, line->target, name);
+		if (line->target && line->kind != FBD_LINE_JUMP && mentions(line->target, wire)) {
+			line->target = renamed(edit, line->target, wire, name);
 			line->changed = true;
 		}
 	}

@@ -79,3 +79,8 @@ bool fbd_is_network(const char *text)
 	lex_next(&lex);
 	return lex_is(&lex, "NETWORK");
 }
+
+int fbd_lines_wire(struct project *project, const struct pou *pou, int network, const char *name, size_t len)
+{
+	return fbd_wire(&project->names, pou, network, name, len);
+}

@@ -25,5 +25,7 @@ const char *fbd_lines_text(const struct project *project, const struct pou *pou,
 size_t fbd_heading_len(const char *text, size_t len);
 /** fbd_is_network - does the text begin with the word NETWORK, behind comments? */
 bool fbd_is_network(const char *text);
+/** fbd_lines_wire - index in pou->vars of the wire of this name; -1: the network has none. */
+int fbd_lines_wire(struct project *project, const struct pou *pou, int network, const char *name, size_t len);
 
 #endif

@@ -927,27 +927,35 @@ static const char *name_here(LadderFbdView *view)
 	return box->kind == FBD_BLOCK ? box->instance : box->target;
 }
 
+/* Is it a use of the name at the cursor, or of the wire of this network with that name? */
+static bool is_use_of(LadderFbdView *view, const struct xref *xref, const struct xref_use *use, const char *name)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	const gsize len = strcspn(name, "[^"), head = strcspn(name, ".[^");
+	const int wire = fbd_lines_wire(project, fbd_pou(view), view->cursor.network, name, head);
+	char text[3 * LIMIT_NAME + 8];
+
+	if (wire >= 0)
+		return use->target.what == XREF_VARIABLE && use->target.table == view->canvas->pou + 1 &&
+		       use->target.index == wire;
+	xref_name(xref->project, &use->target, use, text, sizeof(text));
+	return name_is(text, name, len) || name_is(text, name, head);
+}
+
 const struct xref_use *ladder_fbd_view_use(LadderFbdView *view, const struct xref *xref)
 {
 	const char *name;
 	const struct xref_use *found = NULL;
 	int row;
-	gsize len;
 
 	fbd_fresh(view);
 	name = fbd_pou(view) ? name_here(view) : NULL;
 	row = ladder_fbd_view_row(view);
-	len = name ? strcspn(name, "[^") : 0;
 	for (int i = 0; name && i < xref->count; i++) {
 		const struct xref_use *use = &xref->use[i];
-		char text[3 * LIMIT_NAME + 8];
 
-		if (use->pou != view->canvas->pou)
-			continue;
-		xref_name(xref->project, &use->target, use, text, sizeof(text));
-		if (!name_is(text, name, len) && !name_is(text, name, strcspn(name, ".[^")))
-			continue;
-		if (!found || use->row == row + 1)
+		if (use->pou == view->canvas->pou && is_use_of(view, xref, use, name) &&
+		    (!found || use->row == row + 1))
 			found = use;
 	}
 	return found;

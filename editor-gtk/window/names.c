@@ -454,6 +454,13 @@ void names_show_uses_of(struct core *core, const char *name)
 /* ---- another name ---- */
 
 /* A name that can be changed. */
+/* A wire of a network (model/fbd.h)? */
+static bool is_wire(const struct xref *xref, const struct xref_target *target)
+{
+	return target->what == XREF_VARIABLE && target->table > 0 && target->table <= xref->project->pou_count &&
+	       vars_flags(xref_table(xref->project, target->table), target->index) & VAR_WIRE;
+}
+
 struct named {
 	struct xref_target target;
 	char *name;          /* the current name                              */
@@ -481,7 +488,8 @@ static bool find_named(const struct xref *xref, struct named *named)
 
 	for (int i = 0; i < xref->count && !found; i++) {
 		const struct xref_use *use = &xref->use[i];
-		char *whole = use->kind == XREF_DECLARED && use->target.what == named->target.what ?
+		char *whole = (use->kind == XREF_DECLARED || is_wire(xref, &use->target)) &&
+			      use->target.what == named->target.what ?
 			whole_name(xref, use) : NULL;
 
 		found = g_strcmp0(whole, named->whole) == 0;
@@ -637,15 +645,22 @@ static void ask_name(struct core *core, GArray *choice)
 	naming_show(renaming->naming);
 }
 
-/* The declared name; NULL: the target is not declared. */
-static const char *declared_name(const struct xref *xref, const struct xref_target *target)
+/* The name, as it is declared; that of a wire, which is declared nowhere, without the number of its network.
+ * NULL: it has none. Caller frees. */
+static char *own_name(const struct xref *xref, const struct xref_target *target)
 {
+	if (is_wire(xref, target)) {
+		const char *name = project_text(xref->project,
+			xref_table(xref->project, target->table)->var[target->index].name);
+
+		return g_strndup(name, (gsize)(strrchr(name, '.') - name));
+	}
 	for (int i = 0; i < xref->count; i++) {
 		const struct xref_use *use = &xref->use[i];
 
 		if (use->kind == XREF_DECLARED && use->slot &&
 		    xref_same(&use->target, target))
-			return project_text(xref->project, *use->slot);
+			return g_strdup(project_text(xref->project, *use->slot));
 	}
 	return NULL;
 }
@@ -668,15 +683,14 @@ static GArray *choice_start(void)
 static void choice_add(GArray *choice, const struct xref *xref,
 		       const struct xref_target *target)
 {
-	const char *name = declared_name(xref, target);
 	struct named named = { .target = *target };
 
 	for (guint i = 0; i < choice->len; i++)
 		if (xref_same(&g_array_index(choice, struct named, i).target, target))
 			return;
-	if (!name)
+	named.name = own_name(xref, target);
+	if (!named.name)
 		return;
-	named.name = g_strdup(name);
 	named.whole = whole_name(xref, &(struct xref_use){ .target = *target });
 	for (int i = 0; i < xref->count; i++)
 		named.uses += xref_same(&xref->use[i].target, target);

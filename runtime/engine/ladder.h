@@ -335,7 +335,7 @@ struct ladder_rename {
 	int places;          /* places that change, with the declaration      */
 };
 /**
- * ladder_rename - renames a variable, member, label, POU, type or value and all its uses
+ * ladder_rename - renames a variable, wire, member, label, POU, type or value and all its uses
  * @target: from xref/xref.h, of the unchanged project
  * @how: gets the number of places, or the reason and place of a refusal
  *

@@ -9,6 +9,7 @@
 #include "engine/ladder.h"
 
 #include "engine/check/reserved.h"
+#include "engine/model/fbd.h"
 #include "engine/text/text.h"
 #include "engine/xref/xref.h"
 
@@ -79,12 +80,28 @@ static bool is_meant(const struct rename *r, const struct xref_target *target)
 	return xref_same(&named, &r->target);
 }
 
+/* The network, from 0, of which the target is a wire (model/fbd.h); -1: it is none. */
+static int network_of(const struct project *project, const struct xref_target *target)
+{
+	const struct fbd *fbd = target->what == XREF_VARIABLE && target->table >= 1 &&
+				target->table <= project->pou_count ? project->pou[target->table - 1].fbd : NULL;
+
+	for (int i = 0; fbd && i < fbd->count; i++)
+		if (target->index >= fbd->network[i].wire &&
+		    target->index < fbd->network[i].wire + fbd->network[i].wires)
+			return i;
+	return -1;
+}
+
+/* Where it is declared; a wire is declared nowhere: its first use. */
 static const struct xref_use *declaration(const struct rename *r)
 {
+	const bool wire = network_of(r->project, &r->target) >= 0;
+
 	for (int i = 0; i < r->before.count; i++) {
 		const struct xref_use *use = &r->before.use[i];
 
-		if (use->kind == XREF_DECLARED && xref_same(&use->target, &r->target))
+		if ((wire || use->kind == XREF_DECLARED) && xref_same(&use->target, &r->target))
 			return use;
 	}
 	return NULL;
@@ -128,6 +145,23 @@ static bool share_space(const struct project *project, const struct xref_target 
 		return project->enum_value[a->index].enumeration ==
 		       project->enum_value[b->index].enumeration;
 	return a->what == b->what && !a_type && a->table == b->table;
+}
+
+/* Another wire of the same network may not have the name. */
+static bool is_free_wire(struct rename *r)
+{
+	const int network = network_of(r->project, &r->target);
+	struct xref_target other = r->target;
+
+	if (network < 0)
+		return true;
+	other.index = fbd_wire(&r->project->names, &r->project->pou[r->target.table - 1], network, r->name,
+			       strlen(r->name));
+	for (int i = 0; i < r->before.count; i++)
+		if (other.index >= 0 && other.index != r->target.index &&
+		    xref_same(&r->before.use[i].target, &other))
+			return refuse(r, RENAME_TAKEN, &r->before.use[i]);
+	return true;
 }
 
 static bool is_free(struct rename *r)
@@ -174,7 +208,7 @@ static bool may_be_called(struct rename *r)
 	default:
 		if (is_word(r))
 			return refuse(r, RENAME_RESERVED, NULL);
-		return is_free(r);
+		return is_free_wire(r) && is_free(r);
 	}
 }
 

@@ -11,6 +11,7 @@
 #include "engine/check/access.h"
 #include "engine/check/scope.h"
 #include "engine/check/split.h"
+#include "engine/base/name.h"
 #include "engine/model/fbd.h"
 #include "engine/model/st.h"
 #include "engine/model/args.h"
@@ -377,6 +378,17 @@ static bool is_operator(const struct token *token)
 }
 
 /* The function of a call: `Twice(`. */
+/* PREVIOUS, R_EDGE and F_EDGE of networks (model/fbd.h) are no functions. */
+static bool is_of_networks(const struct scan *scan, const struct token *token)
+{
+	static const char *const words[] = { "PREVIOUS", "R_EDGE", "F_EDGE" };
+
+	for (size_t i = 0; scan->walk->pou && scan->walk->pou->fbd && i < sizeof(words) / sizeof(*words); i++)
+		if (name_is(words[i], token->text, token->len))
+			return true;
+	return false;
+}
+
 static void scan_function(struct scan *scan, const struct token *token)
 {
 	struct word_table *words = &scan->walk->project->words;
@@ -388,7 +400,7 @@ static void scan_function(struct scan *scan, const struct token *token)
 	if (word_is_own(word) && row->owner >= 0)
 		xref_add(scan->walk, target, XREF_CALLED, (uint32_t)(token->text - scan->text),
 			 (uint32_t)token->len);
-	else if (word == WORD_COUNT)
+	else if (word == WORD_COUNT && !is_of_networks(scan, token))
 		scan_other(scan, token, token->len);
 }
 

@@ -299,6 +299,11 @@ static void check_names(void)
 	EDIT(fbd_edit_rename(edit, "W", "Low"), "  Low := A\n  Valve := Low AND NOT Low\n  V := B\n");
 	REFUSED(fbd_edit_rename(edit, "Low", "V"), "Another wire of this network has this name.");
 	REFUSED(fbd_edit_move(edit, 0, true), "The order of these two follows from their wire.");
+	begin("  W := A\n  T[W] := T[W + T[W]].W + W.X\n  H[W] S= B\n  JMP W IF W > 1\n  Delay(IN := T[MAX(W, 2)], Q => T[W])\n");
+	EDIT(fbd_edit_rename(edit, "W", "Low"), "  Low := A\n  T[Low] := T[Low + T[Low]].W + Low.X\n  H[Low] S= B\n"
+	     "  JMP W IF Low > 1\n  Delay(IN := T[MAX(Low, 2)], Q => T[Low])\n");
+	begin("  Low := A\n  Valve := Low AND NOT Low\n  V := B\n");
+	REFUSED(fbd_edit_move(edit, 0, true), "The order of these two follows from their wire.");
 	EDIT(fbd_edit_move(edit, 2, false), "  Low := A\n  V := B\n  Valve := Low AND NOT Low\n");
 	REFUSED(fbd_edit_move(edit, 0, false), "This is the first line of the network.");
 	spot = out(2, 0, "");

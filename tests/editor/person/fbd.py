@@ -30,6 +30,24 @@ END_PROGRAM
 '''
 
 
+INDEX = '''RUNGBOARD 1
+
+VAR
+  T : ARRAY[0..9] OF INT;
+  I AT %IW2 : INT;
+END_VAR
+
+PROGRAM Main FBD
+NETWORK
+  Low := I + 1
+  T[Low] := T[T[Low]]
+NETWORK
+  Low := I
+  T[Low] := 1
+END_PROGRAM
+'''
+
+
 def sheet(editor):
     return until(lambda: [node for node in editor.all('Networks') if node.name == 'Networks'], 'the networks')[0]
 
@@ -245,6 +263,27 @@ def shown(screen):
     editor.finish()
 
 
+def renamed(screen):
+    """F2 renames a wire wherever its network reads it, also in an index, and not that of another network"""
+    path = new_file(screen, INDEX)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1')
+    editor.click(part(editor, '+, output 1: wire Low'))
+    at(editor, '+, output 1: wire Low')
+    on_sheet(editor)
+    editor.keys('F2')
+    until(lambda: editor.all(role='dialog'), 'the dialog')
+    editor.shot('fbd-rename')
+    editor.focus_on(role='text')
+    editor.keys('ctrl+a')
+    editor.type('High')
+    editor.keys('Return')
+    part(editor, '+, output 1: wire High')
+    text = editor.save(path)
+    assert 'High := I + 1\n  T[High] := T[T[High]]\nNETWORK\n  Low := I\n  T[Low] := 1\n' in text, text
+    editor.finish()
+
+
 def first_row(editor, row, line):
     """Takes the row below the entry; then the entry has this line."""
     editor.candidate(row)
@@ -300,4 +339,4 @@ def completed(screen):
 
 
 if __name__ == '__main__':
-    main([by_keyboard, by_pointer, changes, shown, completed])
+    main([by_keyboard, by_pointer, changes, shown, renamed, completed])

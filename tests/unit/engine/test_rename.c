@@ -436,8 +436,64 @@ static void test_good(void)
 	ladder_free(ladder);
 }
 
+/* ---- wires ---- */
+
+static const char networks[] =
+	"RUNGBOARD 1\n\nVAR\n  T : ARRAY[0..9] OF INT;\n  I AT %IW2 : INT;\n  Q AT %QW2 : INT;\nEND_VAR\n\n"
+	"PROGRAM Main FBD\nVAR\n  Count : CTU;\nEND_VAR\nNETWORK\n  Low := I + 1\n  T[Low] := 5\n"
+	"  Q := T[Low] + Low\n  T[LIMIT(0, Low, PREVIOUS(Low))] := T[T[Low]]\n  Count(PV := Low, CV => Sum)\n"
+	"  Q := T[Sum]\nNETWORK\n  Low := I\n  Q := T[Low]\nEND_PROGRAM\n";
+
+/* The variable of a wire has the number of its network in its name. */
+static struct xref_target wire(struct ladder *ladder, const char *name)
+{
+	struct project *project = ladder_project(ladder);
+	const int index = vars_find(&project->pou[0].vars, names_fold(&project->names,
+		names_intern(&project->names, name, strlen(name))));
+
+	return (struct xref_target){ .what = XREF_VARIABLE, .table = 1, .index = index };
+}
+
+static void wire_refused(struct ladder *ladder, const char *to, enum ladder_refusal why)
+{
+	const struct xref_target target = wire(ladder, "Low.N1");
+	struct ladder_rename how;
+	size_t len;
+	char *text = ladder_rename(ladder, &target, to, &len, &how);
+
+	CHECK_AS(!text && how.why == why, to);
+	free(text);
+}
+
+static void test_wires(void)
+{
+	struct ladder *ladder = loaded(networks);
+	struct xref_target target = wire(ladder, "Low.N1");
+	struct ladder_rename how;
+	size_t len;
+	char *text = ladder_rename(ladder, &target, "High", &len, &how);
+
+	CHECK_AS(text && how.places == 8 && strstr(text, "  High := I + 1\n  T[High] := 5\n  Q := T[High] + High\n"
+		 "  T[LIMIT(0, High, PREVIOUS(High))] := T[T[High]]\n  Count(PV := High, CV => Sum)\n"),
+		 "a wire is renamed wherever its network reads it, also in an index");
+	CHECK_AS(text && strstr(text, "NETWORK\n  Low := I\n  Q := T[Low]\n"),
+		 "the wire of another network keeps the same name");
+	free(text);
+	target = wire(ladder, "Sum.N1");
+	text = ladder_rename(ladder, &target, "Total", &len, &how);
+	CHECK_AS(text && how.places == 2 && strstr(text, "CV => Total)\n  Q := T[Total]\n"),
+		 "an output that is a wire is renamed");
+	free(text);
+	wire_refused(ladder, "Sum", RENAME_TAKEN);
+	wire_refused(ladder, "Count", RENAME_TAKEN);
+	wire_refused(ladder, "Q", RENAME_MEANING);
+	wire_refused(ladder, "a b", RENAME_FORM);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
+	test_wires();
 	test_rich();
 	test_computed();
 	test_types();
