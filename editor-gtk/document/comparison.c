@@ -8,7 +8,9 @@
 #include "editor-gtk/document/iomap_beside.h"
 #include "editor-gtk/document/iomap_compare.h"
 #include "editor-gtk/draw/diff_draw.h"
+#include "editor-gtk/draw/diff_networks.h"
 #include "editor-gtk/draw/place.h"
+#include "editor-gtk/edit/fbd_lines.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
@@ -70,8 +72,8 @@ struct making {
 	struct compare_difference last; /* of the last row; its POU is text of a project */
 	char *subject;                  /* of that difference                   */
 	struct place_sheet sheet;
-	int chart;                      /* POU of the chart that has its rows; -1: none */
-	bool differs;                   /* has that chart any row?                     */
+	int chart;                      /* POU of the chart or the networks that have their rows; -1: none */
+	bool differs;                   /* have they any row?                          */
 };
 
 static void clear_detail(gpointer data)
@@ -375,17 +377,69 @@ static bool add_chart(struct making *making, const char *name, int pou_a, int po
 	return any;
 }
 
-/* A line of a chart: all its rows were made at its first line. */
+/* ---- networks ---- */
+
+/* With its label, else its title. */
+static char *network_title(const struct project *project, int pou, int index)
+{
+	const struct fbd_heading heading = fbd_lines_heading(project, &project->pou[pou], index);
+	const char *title = heading.label && *heading.label ? heading.label : heading.title;
+
+	return title && *title ? g_strdup_printf(_("Network %d (%s)"), index + 1, title) :
+				 g_strdup_printf(_("Network %d"), index + 1);
+}
+
+static void add_network(struct making *making, const char *name, const struct diff_network *part, int pou_a,
+			int pou_b)
+{
+	const struct project *a = ladder_project(making->of->of_a);
+	const struct project *b = ladder_project(making->of->of_b);
+	struct compare_row *row = row_new(making, pou_group(making, name), part->b < 0 ?
+		network_title(a, pou_a, part->a) : network_title(b, pou_b, part->b));
+
+	row->change = part->a < 0 ? COMPARE_ADDED : part->b < 0 ? COMPARE_REMOVED :
+		      part->moved ? COMPARE_MOVED : COMPARE_CHANGED;
+	row->shows = COMPARE_SHOWS_NETWORK;
+	row->pou_a = pou_a;
+	row->pou_b = pou_b;
+	row->at_a = part->a;
+	row->at_b = part->b;
+	add_words(row, part->moved ? g_strdup_printf(_("moved from %d to %d"), part->a + 1, part->b + 1) :
+		  g_strdup(part->words));
+}
+
+/* Rows for the networks of a POU. False: none of them differs. */
+static bool add_networks(struct making *making, const char *name, int pou_a, int pou_b)
+{
+	const struct project *a = ladder_project(making->of->of_a);
+	const struct project *b = ladder_project(making->of->of_b);
+	GArray *parts = diff_networks(a, &a->pou[pou_a], b, &b->pou[pou_b]);
+	const bool any = parts->len > 0;
+
+	for (guint i = 0; i < parts->len; i++)
+		add_network(making, name, &g_array_index(parts, struct diff_network, i), pou_a, pou_b);
+	g_array_unref(parts);
+	return any;
+}
+
+/* A line of a chart or of networks: all their rows were made at the first line. */
 static bool is_of_chart(struct making *making, const struct compare_difference *what)
 {
 	const struct project *a = ladder_project(making->of->of_a);
 	const struct project *b = ladder_project(making->of->of_b);
 	const int pou_a = pou_of(a, what->pou), pou_b = pou_of(b, what->pou);
 
-	if (!what->line || pou_a < 0 || pou_b < 0 || !a->pou[pou_a].sfc || !b->pou[pou_b].sfc)
+	bool charts, networks;
+
+	if (!what->line || pou_a < 0 || pou_b < 0)
+		return false;
+	charts = a->pou[pou_a].sfc && b->pou[pou_b].sfc;
+	networks = a->pou[pou_a].fbd && b->pou[pou_b].fbd;
+	if (!charts && !networks)
 		return false;
 	if (making->chart != pou_a)
-		making->differs = add_chart(making, what->pou, pou_a, pou_b);
+		making->differs = charts ? add_chart(making, what->pou, pou_a, pou_b) :
+				  add_networks(making, what->pou, pou_a, pou_b);
 	making->chart = pou_a;
 	return making->differs;
 }
@@ -650,7 +704,7 @@ bool compare_row_place(const struct compare_row *row, struct project *project, i
 		return false;
 	memcpy(place, (int[]){ row->pou_b, -1, -1, -1 }, 4 * sizeof(int));
 	sfc = project->pou[row->pou_b].sfc;
-	if (row->shows == COMPARE_SHOWS_RUNG)
+	if (row->shows == COMPARE_SHOWS_RUNG || row->shows == COMPARE_SHOWS_NETWORK)
 		place[1] = row->at_b;
 	else if (row->shows == COMPARE_SHOWS_LINES)
 		place[2] = row->at_b + lines_before(project, row->pou_b);

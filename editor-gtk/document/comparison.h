@@ -34,9 +34,9 @@ struct compare_side compare_side_copy(const struct compare_side *side);
 char *compare_side_wants(const struct compare_side *side);
 
 enum compare_change { COMPARE_CHANGED, COMPARE_ADDED, COMPARE_REMOVED, COMPARE_MOVED };
-/* How the place of a row is drawn: as text, rung, chart, lines, or the whole POU. */
+/* How the place of a row is drawn: as text, rung, chart, network, lines, or the whole POU. */
 enum compare_shows { COMPARE_SHOWS_TEXT, COMPARE_SHOWS_RUNG, COMPARE_SHOWS_CHART,
-		     COMPARE_SHOWS_LINES, COMPARE_SHOWS_POU };
+		     COMPARE_SHOWS_NETWORK, COMPARE_SHOWS_LINES, COMPARE_SHOWS_POU };
 
 /* A property with its text in each version; "" : nothing. */
 struct compare_detail { char *label, *from, *to; };
@@ -49,7 +49,7 @@ struct compare_row {
 	enum compare_shows shows;
 	GArray *details;            /* struct compare_detail                    */
 	int pou_a, pou_b;           /* -1: none                                 */
-	int at_a, at_b;             /* rung, shape of the chart, or first line, 0-based; -1 */
+	int at_a, at_b;             /* rung, shape of the chart, network, or first line, 0-based; -1 */
 	int table, index;           /* of a declaration in the newer version, as in struct
 				       xref_target; -1: none */
 	bool map;                   /* of the I/O map                          */

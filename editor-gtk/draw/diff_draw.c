@@ -264,6 +264,15 @@ static void add_lines(GString *out, const char *text, const char *other, const c
 	g_strfreev(lines);
 }
 
+char *diff_words(const char *from, const char *to)
+{
+	GString *words = g_string_new(NULL);
+
+	add_lines(words, from, to, MINUS);
+	add_lines(words, to, from, PLUS);
+	return g_string_free(words, FALSE);
+}
+
 /* The text of a step or transition, and of the actions of a step, a line each. */
 static char *whole_text(struct plain *plain, int shape)
 {
@@ -287,14 +296,11 @@ static char *whole_text(struct plain *plain, int shape)
 static char *words_of(struct plain *a, int i, struct plain *b, int k)
 {
 	char *from = i < 0 ? g_strdup("") : whole_text(a, i);
-	char *to = k < 0 ? g_strdup("") : whole_text(b, k);
-	GString *words = g_string_new(NULL);
+	char *to = k < 0 ? g_strdup("") : whole_text(b, k), *words = diff_words(from, to);
 
-	add_lines(words, from, to, MINUS);
-	add_lines(words, to, from, PLUS);
 	g_free(from);
 	g_free(to);
-	return g_string_free(words, FALSE);
+	return words;
 }
 
 static void add_part(GArray *parts, struct plain *a, int i, struct plain *b, int k)

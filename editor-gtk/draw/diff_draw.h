@@ -54,6 +54,9 @@ float diff_draw_chart(const struct sfc_sheet *chart, const GArray *marks, bool a
 
 /* ---- text ---- */
 
+/** diff_words - lines that only one of two texts has, after - or +. Owns: the caller, g_free(). */
+char *diff_words(const char *from, const char *to);
+
 /** diff_draw_line - a line of a list or chart with its number; with + or - if only one
  * version has it. */
 void diff_draw_line(struct lettering *lettering, const struct compare_line *line, float y,

@@ -6,6 +6,7 @@
 #include "editor-gtk/panels/compare_sides.h"
 
 #include "editor-gtk/draw/diff_draw.h"
+#include "editor-gtk/draw/diff_networks.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include <string.h>
@@ -189,6 +190,65 @@ static float put_chart(const struct side *side)
 	return y;
 }
 
+/* ---- networks ---- */
+
+static struct fbd_layout *network_of(const struct side *side, bool newer, int at)
+{
+	const struct pou *pou = pou_of(side, newer);
+
+	return pou && pou->fbd && at >= 0 && at < fbd_layout_networks(pou) ?
+	       fbd_layout_new(project_of(side, newer), pou, at, side->lettering) : NULL;
+}
+
+static void put_layout(const struct side *side, const struct fbd_layout *layout, unsigned int state,
+		       const GArray *marks, float y)
+{
+	const struct fbd_scene scene = { .layout = layout, .theme = theme_screen(),
+		.mark = marks ? (const struct fbd_mark *)marks->data : NULL,
+		.mark_count = marks ? (int)marks->len : 0,
+		.state = state | (side->newer ? RUNG_ADDED : RUNG_REMOVED) };
+
+	picture_move(side->picture, 0, y);
+	fbd_draw(&scene, side->picture);
+	picture_move(side->picture, 0, 0);
+	picture_grow(side->picture, layout->width, y + layout->height);
+}
+
+static float put_network(const struct side *side)
+{
+	struct fbd_layout *a = network_of(side, false, side->row->at_a), *b = network_of(side, true, side->row->at_b);
+	const struct fbd_layout *own = side->newer ? b : a, *other = side->newer ? a : b;
+	GArray *marks = own && other ? diff_mark_boxes(&own->graph, &other->graph) : NULL;
+
+	if (own)
+		put_layout(side, own, other ? RUNG_CHANGED : 0, marks, 0);
+	else
+		put_note(side, _("not there"), 0);
+	g_clear_pointer(&marks, g_array_unref);
+	fbd_layout_free(a);
+	fbd_layout_free(b);
+	return 0;
+}
+
+static float put_networks(const struct side *side, const struct pou *pou)
+{
+	const int count = MIN(fbd_layout_networks(pou), RUNGS_MOST), more = fbd_layout_networks(pou) - count;
+	char *text = g_strdup_printf(ngettext("and %d more network", "and %d more networks", (gulong)more), more);
+	float y = 0;
+
+	for (int i = 0; i < count; i++) {
+		struct fbd_layout *layout = network_of(side, side->newer, i);
+
+		put_layout(side, layout, 0, NULL, y);
+		y += layout->height;
+		fbd_layout_free(layout);
+	}
+	if (more)
+		put_note(side, text, y);
+	g_free(text);
+	return 0;
+}
+
 /* ---- lists ---- */
 
 struct listing {
@@ -301,6 +361,8 @@ static float put_pou(const struct side *side)
 		return put_note(side, _("not there"), 0);
 	if (pou->sfc)
 		return put_chart(side);
+	if (pou->fbd)
+		return put_networks(side, pou);
 	return pou->language == LANGUAGE_LD ? put_rungs(side, pou) : put_lines(side);
 }
 
@@ -313,6 +375,7 @@ float compare_side_draw(const struct comparison *of, const struct compare_row *r
 	switch (row->shows) {
 	case COMPARE_SHOWS_RUNG: return put_rung(&side);
 	case COMPARE_SHOWS_CHART: return put_chart(&side);
+	case COMPARE_SHOWS_NETWORK: return put_network(&side);
 	case COMPARE_SHOWS_LINES: return MAX(put_lines(&side), 0);
 	case COMPARE_SHOWS_POU: return MAX(put_pou(&side), 0);
 	case COMPARE_SHOWS_TEXT: break;

@@ -6,6 +6,7 @@
 #include "editor-gtk/render/render_diff.h"
 
 #include "editor-gtk/draw/diff_draw.h"
+#include "editor-gtk/draw/diff_networks.h"
 #include "editor-gtk/draw/fbd_draw.h"
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/rung_layout.h"
@@ -112,30 +113,10 @@ static float put_charts(const struct project *a, int pou_a, const struct project
 
 /* ---- networks ---- */
 
-#define PAIRS_MOST 4000000 /* networks times networks that are compared          */
-
-struct networks {
-	const struct project *project;
-	const struct pou *pou;   /* NULL: there is none                            */
-	char **text;             /* of each: the same if nothing differs           */
-	int count;
-};
-
-static struct networks networks_of(const struct project *project, int pou)
+static float put_network(const struct project *project, const struct pou *pou, int index, unsigned int state,
+			 const struct theme *theme, struct lettering *lettering, float y, struct picture *picture)
 {
-	struct networks of = { .project = project, .pou = pou < 0 ? NULL : &project->pou[pou] };
-
-	of.count = of.pou ? fbd_layout_networks(of.pou) : 0;
-	of.text = g_new0(char *, of.count + 1);
-	for (int i = 0; i < of.count; i++)
-		of.text[i] = fbd_layout_text(project, of.pou, i);
-	return of;
-}
-
-static float put_network(const struct networks *of, int index, unsigned int state, const struct theme *theme,
-			 struct lettering *lettering, float y, struct picture *picture)
-{
-	struct fbd_layout *layout = fbd_layout_new(of->project, of->pou, index, lettering);
+	struct fbd_layout *layout = fbd_layout_new(project, pou, index, lettering);
 	const struct fbd_scene scene = { .layout = layout, .theme = theme, .state = state };
 
 	picture_move(picture, 0, y);
@@ -145,52 +126,6 @@ static float put_network(const struct networks *of, int index, unsigned int stat
 	picture_grow(picture, layout->width, y);
 	fbd_layout_free(layout);
 	return y;
-}
-
-/* The lengths of the longest common parts of both behind each pair; NULL: there are too many. */
-static int *common_parts(const struct networks *a, const struct networks *b)
-{
-	const int wide = b->count + 1;
-	int *part;
-
-	if ((gint64)(a->count + 1) * wide > PAIRS_MOST)
-		return NULL;
-	part = g_new0(int, (a->count + 1) * wide);
-	for (int i = a->count - 1; i >= 0; i--)
-		for (int k = b->count - 1; k >= 0; k--)
-			part[i * wide + k] = strcmp(a->text[i], b->text[k]) == 0 ? part[(i + 1) * wide + k + 1] + 1 :
-				MAX(part[(i + 1) * wide + k], part[i * wide + k + 1]);
-	return part;
-}
-
-/* Networks that only one of them has; both versions of a changed one, below each other. */
-static float put_networks(const struct networks *a, const struct networks *b, const struct theme *theme,
-			  struct lettering *lettering, float y, struct picture *picture)
-{
-	int *part = common_parts(a, b);
-	const int wide = b->count + 1;
-
-	for (int i = 0, k = 0; i < a->count || k < b->count;) {
-		const bool both = i < a->count && k < b->count;
-
-		if (both && strcmp(a->text[i], b->text[k]) == 0) {
-			i++;
-			k++;
-		} else if (i < a->count && (!both || !part || part[(i + 1) * wide + k] >= part[i * wide + k + 1])) {
-			y = put_network(a, i++, RUNG_REMOVED, theme, lettering, y, picture);
-			if (!part && k < b->count)
-				y = put_network(b, k++, RUNG_ADDED, theme, lettering, y, picture);
-		} else {
-			y = put_network(b, k++, RUNG_ADDED, theme, lettering, y, picture);
-		}
-	}
-	g_free(part);
-	return y;
-}
-
-static void networks_clear(struct networks *of)
-{
-	g_strfreev(of->text);
 }
 
 static float put_besides(const struct project *a, const struct project *b,
@@ -330,16 +265,24 @@ static void put_moved(struct comparison *of, struct compare_pair pair)
 	g_free(said);
 }
 
-/* The networks that differ; false: none is drawn. */
+/* The networks that differ, both versions of a changed one below each other; false: none is drawn. */
 static bool put_pou_networks(struct comparison *of, int pou_a, int pou_b)
 {
-	struct networks a = networks_of(of->a, pou_a), b = networks_of(of->b, pou_b);
-	const float y = of->y;
+	const struct theme *theme = theme_get(of->options->theme, THEME_GREEN);
+	const struct pou *a = pou_of(of->a, pou_a), *b = pou_of(of->b, pou_b);
+	GArray *parts = diff_networks(of->a, a, of->b, b);
+	const bool any = parts->len > 0;
 
-	of->y = put_networks(&a, &b, theme_get(of->options->theme, THEME_GREEN), of->lettering, of->y, of->picture);
-	networks_clear(&a);
-	networks_clear(&b);
-	return of->y > y;
+	for (guint i = 0; i < parts->len; i++) {
+		const struct diff_network *part = &g_array_index(parts, struct diff_network, i);
+
+		if (part->a >= 0)
+			of->y = put_network(of->a, a, part->a, RUNG_REMOVED, theme, of->lettering, of->y, of->picture);
+		if (part->b >= 0)
+			of->y = put_network(of->b, b, part->b, RUNG_ADDED, theme, of->lettering, of->y, of->picture);
+	}
+	g_array_unref(parts);
+	return any;
 }
 
 /* A POU that only one project has, or that has another language. */

@@ -123,6 +123,36 @@ static void check_charts(void)
 }
 
 /* Where a row leads in the newer version. */
+/* In which version a network stands elsewhere, is new, is gone, or has other lines. */
+#define NETS(nets) HEAD "VAR\n  A AT %IX0.0 : BOOL;\n  Q AT %QX0.0 : BOOL;\n  P AT %QX0.1 : BOOL;\n  R AT %QX0.2 : BOOL;\n" \
+	"END_VAR\n\nPROGRAM Nets FBD\n" nets "END_PROGRAM\n"
+#define ONE   "NETWORK One \"First\"\n  W := NOT A\n  Q := W\n"
+#define TWO   "NETWORK \"Second\"\n  P := A\n"
+#define THREE "NETWORK\n  R := A AND Q\n"
+
+static void check_networks(void)
+{
+	struct comparison *of;
+	const struct compare_row *row;
+	int place[4];
+
+	check_rows(NETS(ONE TWO THREE), NETS(ONE "NETWORK \"Second\"\n  P := A OR Q\n" THREE),
+		   "PROGRAM Nets|Network 2 (Second)|changed|− P := A ; + P := A OR Q\n");
+	check_rows(NETS(ONE TWO THREE), NETS(ONE THREE), "PROGRAM Nets|Network 2 (Second)|removed|− Second ; − P := A\n");
+	check_rows(NETS(ONE THREE), NETS(TWO ONE THREE), "PROGRAM Nets|Network 1 (Second)|added|+ Second ; + P := A\n");
+	check_rows(NETS(ONE TWO THREE), NETS(TWO THREE ONE), "PROGRAM Nets|Network 3 (One)|moved|moved from 1 to 3\n");
+	check_rows(NETS(ONE TWO), NETS("NETWORK One \"Other\"\n  W := A\n  Q := W\n" TWO THREE),
+		   "PROGRAM Nets|Network 1 (One)|changed|− First ; − W := NOT A ; + Other ; + W := A\n"
+		   "PROGRAM Nets|Network 3|added|+ R := A AND Q\n");
+	of = compare(NETS(ONE TWO), NETS(ONE "NETWORK OFF \"Second\"\n  P := A\n"));
+	row = of->rows->len == 1 ? of->rows->pdata[0] : NULL;
+	CHECK(row && strcmp(row->words, "+ OFF") == 0 && row->shows == COMPARE_SHOWS_NETWORK &&
+	      row->at_a == 1 && row->at_b == 1);
+	CHECK_AS(row && compare_row_place(row, ladder_project(of->of_b), place) && place[0] == 0 && place[1] == 1,
+		 "a network has its place");
+	comparison_free(of);
+}
+
 static void check_places(void)
 {
 	struct comparison *of = compare(
@@ -513,6 +543,7 @@ int main(void)
 	check_names();
 	check_lists();
 	check_charts();
+	check_networks();
 	check_places();
 	check_unreadable();
 	check_maps();

@@ -275,7 +275,43 @@ def two_files(screen):
 
 small.size = '1024x700x24'
 revisions.quick = 'editor-gtk/panels'
-TESTS = [revisions, others, follows, two_files, small]
+MORE = 'NETWORK "Only now"\n  Lamp := Valve\n'
+NETS = '''RUNGBOARD 1
+
+VAR
+  Level AT %IW2   : INT;
+  Valve AT %QX0.0 : BOOL;
+  Lamp  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main FBD
+VAR
+  Delay : TON;
+END_VAR
+NETWORK "Low level"
+  Low := Level < 20
+  Delay(IN := Low, PT := T#3s)
+  Valve := Delay.Q
+''' + MORE + 'END_PROGRAM\n'
+
+
+def networks(screen):
+    """networks are drawn side by side, and changed boxes have a frame"""
+    old, new = os.path.join(screen.home, 'old.rung'), os.path.join(screen.home, 'new.rung')
+    write(old, NETS.replace('Level < 20', 'Level < 15').replace('T#3s', 'T#5s').replace(MORE, ''))
+    write(new, NETS)
+    editor = Editor(screen, '--compare', old, new)
+    until(lambda: rows_with(editor, 'PROGRAM Main, Network 1 (Low level), changed: \N{MINUS SIGN} Low := Level < 15'),
+          'the changed network')
+    until(lambda: rows_with(editor, 'PROGRAM Main, Network 2 (Only now), added'), 'the new network')
+    editor.shot('compare-networks')
+    editor.keys('n')
+    editor.shot('compare-networks-added')
+    editor.finish()
+
+
+TESTS = [revisions, others, follows, two_files, small, networks]
+
 
 if __name__ == '__main__':
     main(TESTS)
