@@ -7,6 +7,7 @@
 #include "editor-gtk/fbd/fbd_view_inside.h"
 
 #include "editor-gtk/edit/entry_names.h"
+#include "editor-gtk/edit/fbd_instances.h"
 #include "editor-gtk/kit/comment_text.h"
 
 #include "engine/base/name.h"
@@ -155,7 +156,7 @@ bool fbd_put_heading(LadderFbdView *view, int network, const struct fbd_heading 
 	return good;
 }
 
-static void add_network(LadderFbdView *view, bool below, const char *text, const char *name)
+static bool add_network(LadderFbdView *view, bool below, const char *text, const char *name)
 {
 	const int network = view->cursor.network;
 	struct wanted wanted = { .pou = view->canvas->pou, .network = network };
@@ -163,11 +164,13 @@ static void add_network(LadderFbdView *view, bool below, const char *text, const
 	char *with = g_strdup_printf("%s%s", network < 0 ? "\n" : "", text);
 	const gsize at = network < 0 ? wanted.body.at + wanted.body.len :
 			 below ? wanted.span.at + wanted.span.len : wanted.span.at;
+	const bool good = whole && replace(view, at, 0, with, name);
 
-	if (whole && replace(view, at, 0, with, name))
+	if (good)
 		fbd_go(view, (struct fbd_pos){ network < 0 ? 0 : below ? network + 1 : network, -1, -1 }, false);
 	g_free(with);
 	g_free(whole);
+	return good;
 }
 
 /* The text of the network at the cursor. Caller frees; NULL: there is none. */
@@ -423,25 +426,77 @@ static bool copy(LadderFbdView *view)
 	return text != NULL;
 }
 
-static void put_text(LadderFbdView *view, const char *text, const char *name)
+/* Declares a new instance for each block of @text that the POU calls already. The text with their names; the
+ * caller frees. @told: gets what was declared. */
+static char *with_instances(LadderFbdView *view, const char *text, GString *told)
+{
+	LadderDocument *document = view->canvas->document;
+	char name[LIMIT_NAME + 1], fresh[LIMIT_NAME + 1], stem[LIMIT_NAME + 1];
+	char *out = g_strdup(text);
+	const char *type;
+
+	while (fbd_instance_again(ladder_document_project(document), view->canvas->pou, out, name, &type)) {
+		const struct entry_place place = { .project = ladder_document_project(document),
+						   .pou = view->canvas->pou };
+		char *word = g_strdup(type), *renamed;
+
+		fbd_instance_stem(name, stem);
+		entry_fresh_name(&place, NULL, stem, fresh, sizeof(fresh));
+		renamed = fbd_instance_renamed(out, name, fresh);
+		g_free(out);
+		out = g_strdup(renamed ? renamed : "");
+		free(renamed);
+		if (ladder_document_declare(document, view->canvas->pou, fresh, word, NULL, NULL))
+			g_string_append_printf(told, "%s%s : %s", told->len ? ", " : "", fresh, word);
+		g_free(word);
+	}
+	return out;
+}
+
+static bool put_as_is(LadderFbdView *view, const char *text, const char *name)
 {
 	const int network = view->cursor.network;
 	struct fbd_edit *edit;
+	bool good;
 	int behind;
 
 	if (fbd_is_network(text)) {
 		char *whole = g_strdup_printf("%s%s", text, g_str_has_suffix(text, "\n") ? "" : "\n");
 
-		add_network(view, true, whole, name);
+		good = add_network(view, true, whole, name);
 		g_free(whole);
-		return;
+		return good;
 	}
 	edit = fbd_begin(view, network);
 	if (!edit)
-		return;
+		return false;
 	behind = view->cursor.box >= 0 ? fbd_spot_of(view, view->cursor).statement :
 					 fbd_edit_statements(edit) - 1;
-	fbd_put(view, edit, network, fbd_edit_paste(edit, behind, text), name);
+	return fbd_put(view, edit, network, fbd_edit_paste(edit, behind, text), name);
+}
+
+static void put_text(LadderFbdView *view, const char *text, const char *name)
+{
+	GString *told = g_string_new(NULL);
+	char *with;
+
+	ladder_document_begin(view->canvas->document, name, NULL);
+	with = with_instances(view, text, told);
+	fbd_fresh(view);
+	if (put_as_is(view, with, name)) {
+		ladder_document_end(view->canvas->document);
+	} else { /* the instances are not needed */
+		ladder_document_cancel(view->canvas->document);
+		g_string_truncate(told, 0);
+	}
+	if (told->len) {
+		char *line = g_strdup_printf(_("New instances: %s"), told->str);
+
+		canvas_tell(LADDER_CANVAS(view), line);
+		g_free(line);
+	}
+	g_string_free(told, TRUE);
+	g_free(with);
 }
 
 static void text_came(GObject *clipboard, GAsyncResult *result, gpointer data)

@@ -4,6 +4,7 @@
  * lines can be read again, are canonical, and a line that an edit does not touch stays as it is.
  */
 #include "editor-gtk/edit/fbd_edit.h"
+#include "editor-gtk/edit/fbd_instances.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 
@@ -18,7 +19,8 @@ static char *now;
 
 static const char declared[] =
 	"RUNGBOARD 1\n\nPROGRAM Main FBD\nVAR\n  Level, Raw, Tare, Weight : REAL;\n"
-	"  Stop, Ready, Valve, Horn, A, B, C : BOOL;\n  Delay, Late : TON;\n  N : INT;\n  T : ARRAY[0..9] OF INT;\nEND_VAR\nEND_PROGRAM\n";
+	"  Stop, Ready, Valve, Horn, A, B, C : BOOL;\n  Delay, Late : TON;\n  N : INT;\n  T : ARRAY[0..9] OF INT;\nEND_VAR\nEND_PROGRAM\n\n"
+	"PROGRAM Other FBD\nVAR\n  A : BOOL;\n  Delay, Late : TON;\nEND_VAR\nNETWORK\n  Delay(IN := A)\nEND_PROGRAM\n";
 
 static void keep(void)
 {
@@ -291,6 +293,38 @@ static void check_types(void)
 	EDIT(fbd_edit_type(edit, &spot, "Late"), "  Late(IN := A)\n  Valve := Late.Q\n");
 }
 
+/* The text after each block that the POU calls, too, has got the name @to. */
+static void check_again(const char *text, const char *old, const char *to, const char *expected)
+{
+	char name[LIMIT_NAME + 1] = "", *renamed;
+	const char *type = "";
+
+	CHECK_AS(fbd_instance_again(ladder_project(ladder), 1, text, name, &type) == (expected != NULL), text);
+	if (!expected)
+		return;
+	CHECK_TEXT(name, old);
+	CHECK_TEXT(type, "TON");
+	renamed = fbd_instance_renamed(text, name, to);
+	CHECK_TEXT(renamed ? renamed : "", expected);
+	free(renamed);
+}
+
+static void check_instances(void)
+{
+	char stem[LIMIT_NAME + 1];
+
+	check_again("  Delay(IN := A)\n  Valve := Delay.Q AND Delay_ok\n", "Delay", "Delay2",
+		    "  Delay2(IN := A)\n  Valve := Delay2.Q AND Delay_ok\n");
+	check_again("NETWORK \"Delay(\"\n  (* Delay( *)\n  delay(IN := X.Delay, PT := Delay.PT)\n", "delay", "D",
+		    "NETWORK \"Delay(\"\n  (* Delay( *)\n  D(IN := X.Delay, PT := D.PT)\n");
+	check_again("  Late(IN := Delay.Q)\n", "", "", NULL);
+	check_again("  Valve := MAX(1, 2) > Delay.ET\n", "", "", NULL);
+	fbd_instance_stem("Delay12", stem);
+	CHECK_TEXT(stem, "Delay");
+	fbd_instance_stem("T1_x", stem);
+	CHECK_TEXT(stem, "T1_x");
+}
+
 static void check_names(void)
 {
 	struct fbd_spot spot;
@@ -478,6 +512,7 @@ int main(void)
 	check_inputs();
 	check_types();
 	check_names();
+	check_instances();
 	check_copies();
 	check_headings();
 	check_random();

@@ -263,6 +263,33 @@ def shown(screen):
     editor.finish()
 
 
+def pasted(screen):
+    """a copy of a block gets an instance of its own, in one step; one that was cut keeps its instance"""
+    path = new_file(screen, FILL)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1, Fill, Fill the tank while there is room')
+    editor.click(part(editor, 'TON Delay, executed as number 3'))
+    at(editor, 'TON Delay, executed as number 3')
+    editor.keys('ctrl+c', 'ctrl+v')
+    part(editor, 'TON Delay1, executed as number 5')
+    until(lambda: editor.all('New instances: Delay1 : TON'), 'what is declared')
+    editor.shot('fbd-pasted')
+    text = editor.save(path)
+    assert 'Delay1 : TON;' in text and '  Delay1(IN := ' in text, text
+    editor.keys('ctrl+z')
+    until(lambda: not [node for node in editor.all(role='table cell') if 'Delay1' in node.name], 'one step back')
+    assert editor.save(path) == FILL
+    editor.click(part(editor, 'TON Delay, executed as number 3'))
+    at(editor, 'TON Delay, executed as number 3')
+    editor.keys('ctrl+x')
+    until(lambda: not [node for node in editor.all(role='table cell') if 'TON' in node.name], 'the box to be cut')
+    editor.keys('ctrl+v')
+    until(lambda: [node for node in editor.all(role='table cell') if node.name.startswith('TON Delay, executed')], 'the box')
+    text = editor.save(path)
+    assert 'Delay1' not in text, text
+    editor.finish()
+
+
 def renamed(screen):
     """F2 renames a wire wherever its network reads it, also in an index, and not that of another network"""
     path = new_file(screen, INDEX)
@@ -339,4 +366,4 @@ def completed(screen):
 
 
 if __name__ == '__main__':
-    main([by_keyboard, by_pointer, changes, shown, renamed, completed])
+    main([by_keyboard, by_pointer, changes, shown, renamed, pasted, completed])
