@@ -86,24 +86,27 @@ static void copy_clear(struct copy *copy)
 
 /* ---- the languages ---- */
 
-static char *as_ladder(struct copy *copy, struct diag_list *why)
+static char *as_ladder(struct copy *copy, enum pou_language to, struct diag_list *why)
 {
 	size_t len;
 
+	(void)to;
 	return ladder_export_chart(copy->ladder, copy->pou, &len, why);
 }
 
-static char *as_statements(struct copy *copy, struct diag_list *why)
+/* Structured Text or networks. */
+static char *as_written(struct copy *copy, enum pou_language to, struct diag_list *why)
 {
 	size_t len;
 
-	return ladder_export_st(copy->ladder, copy->wanted, &len, why);
+	return ladder_export_as(copy->ladder, copy->wanted, to, &len, why);
 }
 
-static char *as_list(struct copy *copy, struct diag_list *why)
+static char *as_list(struct copy *copy, enum pou_language to, struct diag_list *why)
 {
 	size_t len;
 
+	(void)to;
 	(void)why;
 	return ladder_export_lists(copy->ladder, copy->wanted, &len);
 }
@@ -114,10 +117,11 @@ static char *as_list(struct copy *copy, struct diag_list *why)
 static const struct row {
 	enum pou_language to;
 	unsigned from, by_ladder;
-	char *(*write)(struct copy *copy, struct diag_list *why);
+	char *(*write)(struct copy *copy, enum pou_language to, struct diag_list *why);
 } rows[] = {
 	{ LANGUAGE_LD, FROM(SFC), 0, as_ladder },
-	{ LANGUAGE_ST, FROM(LD) | FROM(FBD), FROM(SFC), as_statements },
+	{ LANGUAGE_ST, FROM(LD) | FROM(FBD), FROM(SFC), as_written },
+	{ LANGUAGE_FBD, FROM(LD), FROM(SFC), as_written },
 	{ LANGUAGE_IL, FROM(LD) | FROM(FBD) | FROM(ST), FROM(SFC), as_list },
 };
 
@@ -175,7 +179,7 @@ static char *write_row(LadderDocument *document, struct copy *copy, const struct
 		       struct diag_list *why)
 {
 	struct diag_list *reasons = g_new0(struct diag_list, 1);
-	char *made = row->write(copy, reasons), *out = NULL;
+	char *made = row->write(copy, row->to, reasons), *out = NULL;
 
 	take_reasons(why, reasons);
 	if (made)
