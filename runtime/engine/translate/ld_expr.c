@@ -1017,8 +1017,11 @@ static struct value chain_place_of(struct chain *c, int index)
 static struct value chain_valid(struct chain *c, const struct expr_node *of)
 {
 	struct value out = { .type = IEC_BOOL };
+	const uint32_t name = intern_name(c, of->text, of->len);
+	const struct meaning *m = meaning(c, name);
 
-	ld_emit(c->ld, OP_LD, 0, signed_operand(c, '@', of->text, of->len));
+	/* The name of a reference is what it leads to; that of a pointer is the pointer. */
+	ld_emit(c->ld, OP_LD, 0, m && m->through ? signed_operand(c, '@', of->text, of->len) : name);
 	fn_line(c, FN_NE, chain_intern(c, "NULL", 4));
 	out.operand = ld_store_new(c->ld);
 	return out;
