@@ -312,16 +312,16 @@ void link_wake(struct link *link)
 
 /* ---- the link thread ---- */
 
-static bool wait_for_scan(void *context)
+static bool wait_for(struct link *link, bool brief)
 {
-	struct link *link = context;
 	const struct timespec nap = { .tv_nsec = NAP_NS };
 	const int64_t began_ns = clock_now();
 	int64_t now_ns = began_ns, nudged_ns = 0;
 
 	while (!exchange_is_done(&link->exchange)) {
 		/* After the last scan nobody does an order. */
-		if (now_ns - began_ns > PATIENCE_NS || atomic_load(&link->stop) || monitor_hangs())
+		if (now_ns - began_ns > PATIENCE_NS || atomic_load(&link->stop) ||
+		    (brief && monitor_hangs()))
 			return false;
 		if (now_ns - nudged_ns > NUDGE_NS && atomic_load(&link->dozes)) {
 			pthread_kill(link->scans, SIGURG);
@@ -331,6 +331,16 @@ static bool wait_for_scan(void *context)
 		now_ns = clock_now();
 	}
 	return true;
+}
+
+static bool wait_for_scan(void *context)
+{
+	return wait_for(context, false);
+}
+
+static bool wait_unless_hung(void *context)
+{
+	return wait_for(context, true);
 }
 
 /* What a disk does not take now; "": it takes everything. */
@@ -1301,7 +1311,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const size_t size = image_memory_size(program);
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = &cycle->board,
-		.wait = wait_for_scan, .hangs = scan_hangs, .amend = amend_status, .context = link,
+		.wait = wait_for_scan, .wait_unless_hung = wait_unless_hung, .hangs = scan_hangs, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,
 		.io = &link->io, .machine = &link->devices,

@@ -123,6 +123,10 @@ struct asked {
 /** server_give - gives server->order to the scan thread and waits. Fails: REFUSAL_BUSY: it is not
  * done yet; or as the scan thread says. */
 enum refusal server_give(struct server *server);
+/** server_give_unless_hung - the same, but while a scan hangs, REFUSAL_BUSY comes at once. */
+enum refusal server_give_unless_hung(struct server *server);
+/** server_hangs - a scan is over its limit and does not end; the outputs are safe. */
+bool server_hangs(const struct server *server);
 /** server_can_order - the order before is done: server->order may be used again. */
 bool server_can_order(const struct server *server);
 /** server_learn_forces - server->mirror gets the forces of the board. */

@@ -44,7 +44,7 @@ static enum refusal learn_status(struct server *server)
 	if (!server_can_order(server))
 		return REFUSAL_BUSY;
 	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status };
-	refusal = server_give(server);
+	refusal = server_give_unless_hung(server);
 	if (refusal == REFUSAL_NONE)
 		server->known = server->status;
 	return refusal;
@@ -53,7 +53,7 @@ static enum refusal learn_status(struct server *server)
 /* A scan that hangs tells nothing: the board says what it said last, and that. */
 static bool is_hung(struct server *server)
 {
-	if (!server->setup.hangs || !server->setup.hangs(server->setup.context) || !*server->known.version)
+	if (!server_hangs(server) || !*server->known.version)
 		return false;
 	server->known.mode = STATE_FAULT;
 	snprintf(server->known.fault, sizeof(server->known.fault), "watchdog: a scan hangs and does not end");

@@ -13,15 +13,43 @@
 
 /* ---- orders ---- */
 
-enum refusal server_give(struct server *server)
+static bool post(struct server *server)
 {
 	if (!exchange_is_done(server->setup.exchange))
-		return REFUSAL_BUSY;
+		return false;
 	if (server->order.kind < ORDER_MODE)
 		server->order.program = server->setup.program;
 	server->order.refusal = REFUSAL_BUSY; /* until it is done */
 	exchange_post(server->setup.exchange, &server->order);
-	return server->setup.wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
+	return true;
+}
+
+static enum refusal await(struct server *server, bool (*wait)(void *context))
+{
+	return wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
+}
+
+enum refusal server_give(struct server *server)
+{
+	return post(server) ? await(server, server->setup.wait) : REFUSAL_BUSY;
+}
+
+bool server_hangs(const struct server *server)
+{
+	return server->setup.hangs && server->setup.hangs(server->setup.context);
+}
+
+enum refusal server_give_unless_hung(struct server *server)
+{
+	enum refusal refusal;
+
+	if (!server->setup.hangs)
+		return server_give(server);
+	if (!post(server))
+		return REFUSAL_BUSY;
+	refusal = await(server, server->setup.wait_unless_hung);
+	/* It may have ended meanwhile. */
+	return refusal == REFUSAL_BUSY && !server_hangs(server) ? await(server, server->setup.wait) : refusal;
 }
 
 /* An order may be given only if the one before is done: it is the same memory. */

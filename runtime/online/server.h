@@ -184,7 +184,9 @@ struct server_setup {
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */
 	bool (*wait)(void *context);
-	/** The scan that runs is over its limit and does not end; the outputs are safe. NULL: never known. */
+	/** The same, but not while a scan hangs. NULL, as hangs(): a board that does not know. */
+	bool (*wait_unless_hung)(void *context);
+	/** The scan that runs is over its limit and does not end; the outputs are safe. */
 	bool (*hangs)(void *context);
 	/** Fills in what is not the scan's: time, processor, memory. */
 	void (*amend)(void *context, struct board_status *status);

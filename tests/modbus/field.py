@@ -30,8 +30,8 @@ try:
     from pymodbus.client import ModbusTcpClient
     logging.getLogger('pymodbus').setLevel(logging.CRITICAL)
     logging.getLogger('asyncio').setLevel(logging.CRITICAL)
-except ImportError:
-    print('1..0 # SKIP python3-pymodbus is not here')
+except ImportError as why:
+    print(f'1..0 # SKIP {why}: apt-get install python3-pymodbus python3-serial')
     sys.exit(0)
 
 COPY = '''RUNGBOARD 1

@@ -105,6 +105,7 @@ def faults(pid):
 
 def test_a_scan_meets_no_page_fault():
     """Also without locked memory, and when what desks write fills the record: 2,048 values are some pages of it."""
+    link.not_by_tsan('its own memory and calls')
     rt = link.in_real_time()
     for options in [[], rt] if rt else [[]]:
         with Board(SAME, '--period', '5ms', *options) as board:
@@ -127,6 +128,7 @@ test_a_scan_meets_no_page_fault.as_is = True
 
 
 def test_a_scan_calls_nothing_but_its_sleep():
+    link.not_by_tsan('its own memory and calls')
     if not shutil.which('strace'):
         raise Skip('needs strace')
     with Board(SAME, '--period', '5ms') as board, tempfile.NamedTemporaryFile('r') as out:
