@@ -31,7 +31,7 @@ try:
     logging.getLogger('pymodbus').setLevel(logging.CRITICAL)
     logging.getLogger('asyncio').setLevel(logging.CRITICAL)
 except ImportError as why:
-    print(f'1..0 # SKIP {why}: apt-get install python3-pymodbus python3-serial')
+    print(f'1..0 # SKIP {why}: apt-get install python3-pymodbus python3-serial python3-serial-asyncio')
     sys.exit(0)
 
 COPY = '''RUNGBOARD 1
