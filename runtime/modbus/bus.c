@@ -210,8 +210,8 @@ static bool has_twin(const struct bus *bus, const struct pdu *request, uint8_t u
 enum result { GOOD, REFUSED, FAILED };
 
 /* Asks once and does the accounts of the unit. @exception: for REFUSED. */
-static enum result ask_unit(struct bus *bus, uint8_t id, const struct pdu *request, struct pdu *answer,
-			    int *exception)
+static enum result ask_and_count(struct bus *bus, uint8_t id, const struct pdu *request, struct pdu *answer,
+				 int *exception)
 {
 	struct unit *unit = &bus->unit[id];
 	const int64_t sent_ns = bus->wire.now(bus->wire.context);
@@ -261,6 +261,31 @@ static enum result ask_unit(struct bus *bus, uint8_t id, const struct pdu *reque
 	}
 	unit->counts.answers += fit == PDU_FITS;
 	return fit == PDU_FITS ? GOOD : REFUSED;
+}
+
+static enum result ask_unit(struct bus *bus, uint8_t id, const struct pdu *request, struct pdu *answer,
+			    int *exception)
+{
+	const bool was_broken = bus->broken;
+	const enum result result = ask_and_count(bus, id, request, answer, exception);
+
+	pthread_mutex_lock(&bus->field->lock);
+	bus->told[id].counts = bus->unit[id].counts;
+	for (int i = 0; i < 256; i++)
+		if (i == id || bus->broken != was_broken)
+			bus->told[i].silent = bus->broken || unit_is_bad(&bus->unit[i]);
+	pthread_mutex_unlock(&bus->field->lock);
+	return result;
+}
+
+struct bus_told bus_tell(struct bus *bus, int id)
+{
+	struct bus_told told;
+
+	pthread_mutex_lock(&bus->field->lock);
+	told = bus->told[id];
+	pthread_mutex_unlock(&bus->field->lock);
+	return told;
 }
 
 /* Whether a smaller request may be allowed where this one is not. */

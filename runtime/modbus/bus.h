@@ -46,6 +46,12 @@ struct bus_request {
 	int status;            /* of what is done; 0: good                     */
 };
 
+/* What other threads may know of a unit: as it was after its last request. */
+struct bus_told {
+	struct unit_counts counts;
+	bool silent;           /* or there is no line                          */
+};
+
 struct bus_sent {
 	uint32_t serial;       /* of the value that was written last; 0: none   */
 	int64_t at_ns;
@@ -61,6 +67,7 @@ struct bus {
 	struct bus_request *request; /* one for each io_ask of the map; of other buses unused */
 	struct unit unit[256]; /* by number                                     */
 	bool has[256];         /* the plan asks it                              */
+	struct bus_told told[256]; /* by number; with field->lock                */
 	struct field *field;
 	struct wire wire;
 	int since_probe;       /* requests to others since one to a silent unit  */
@@ -80,6 +87,8 @@ void bus_changed(struct bus *bus);
 /** bus_ask_for - block @ask of the program makes request @number; 0: its request waits no longer. The answer is a
  * value of the point behind all points of the map. From any thread; field->lock is not held. */
 void bus_ask_for(struct bus *bus, int ask, uint32_t number);
+/** bus_tell - what unit @id has come to. From any thread; field->lock is not held. */
+struct bus_told bus_tell(struct bus *bus, int id);
 /** bus_step - at most one request. Returns when it wants to be called again; INT64_MAX: when an output
  * changes. */
 int64_t bus_step(struct bus *bus);

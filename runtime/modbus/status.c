@@ -6,27 +6,28 @@
 
 /* Each unit of each bus, until @visit has enough. */
 static void each_unit(const struct masters *masters,
-		      bool (*visit)(void *context, const struct master *master, const struct unit *unit),
+		      bool (*visit)(void *context, const char *bus, int id, const struct bus_told *told),
 		      void *context)
 {
 	for (int i = 0; masters->of && i < masters->count; i++)
-		for (int u = 0; masters->of[i] && u < 256; u++)
-			if (masters->of[i]->bus.has[u] &&
-			    !visit(context, masters->of[i], &masters->of[i]->bus.unit[u]))
+		for (int u = 0; masters->of[i] && u < 256; u++) {
+			struct master *master = masters->of[i];
+			struct bus_told told;
+
+			if (!master->bus.has[u])
+				continue;
+			told = bus_tell(&master->bus, u);
+			if (!visit(context, master->line.at->name, u, &told))
 				return;
+		}
 }
 
-static bool is_silent(const struct master *master, const struct unit *unit)
-{
-	return master->bus.broken || unit_is_bad(unit);
-}
-
-static uint32_t exceptions_of(const struct unit *unit)
+static uint32_t exceptions_of(const struct unit_counts *counts)
 {
 	uint32_t all = 0;
 
 	for (int i = 0; i < PDU_EXCEPTIONS; i++)
-		all += unit->counts.exceptions[i];
+		all += counts->exceptions[i];
 	return all;
 }
 
@@ -36,22 +37,23 @@ struct tally {
 	int units, away;
 };
 
-static bool add_unit(void *context, const struct master *master, const struct unit *unit)
+static bool add_unit(void *context, const char *bus, int id, const struct bus_told *told)
 {
+	const struct unit_counts *counts = &told->counts;
 	struct tally *tally = context;
 	struct gateway_unit *out;
 
-	if (is_silent(master, unit) != tally->silent)
+	if (told->silent != tally->silent)
 		return true;
 	tally->units++;
 	tally->away += tally->silent;
 	if (tally->report->count == REPORT_UNITS)
 		return true;
 	out = &tally->report->unit[tally->report->count++];
-	snprintf(out->name, sizeof(out->name), "%s/%d", master->line.at->name, unit->id);
-	out->requests = unit->counts.requests;
-	out->errors = (uint64_t)unit->counts.crc + unit->counts.wrong + unit->counts.late + exceptions_of(unit);
-	out->timeouts = unit->counts.timeouts;
+	snprintf(out->name, sizeof(out->name), "%s/%d", bus, id);
+	out->requests = counts->requests;
+	out->errors = (uint64_t)counts->crc + counts->wrong + counts->late + exceptions_of(counts);
+	out->timeouts = counts->timeouts;
 	return true;
 }
 
@@ -72,14 +74,14 @@ void status_report(const struct masters *masters, const struct serve *serve, str
 		 tally.units, tally.away, clients);
 }
 
-static bool print_unit(void *context, const struct master *master, const struct unit *unit)
+static bool print_unit(void *context, const char *bus, int id, const struct bus_told *told)
 {
 	FILE *out = context;
-	const struct unit_counts *counts = &unit->counts;
+	const struct unit_counts *counts = &told->counts;
 
 	fprintf(out, "%s/%d: %s, requests %u, answers %u, time-outs %u, wrong checks %u, wrong frames %u, late %u",
-		master->line.at->name, unit->id, is_silent(master, unit) ? "silent" : "answers", counts->requests,
-		counts->answers, counts->timeouts, counts->crc, counts->wrong, counts->late);
+		bus, id, told->silent ? "silent" : "answers", counts->requests, counts->answers,
+		counts->timeouts, counts->crc, counts->wrong, counts->late);
 	for (int i = 1; i < PDU_EXCEPTIONS; i++)
 		if (counts->exceptions[i])
 			fprintf(out, ", exception %d: %u", i, counts->exceptions[i]);
