@@ -759,12 +759,15 @@ ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/gateways.py tests/online/peers.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/watchdog.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
-TESTS_T  += tests/modbus/field.py tests/modbus/ways_out.py
+TESTS_T  += tests/modbus/field.py tests/modbus/ways_out.py tests/modbus/plant.py
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(EDITOR_WALK) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
+check-plant: all ## the cement plant on two boards, with modules that pymodbus simulates: four minutes
+	@BUILD=$(BUILD) PLANT=1 /usr/bin/python3 tests/modbus/plant.py
+.PHONY: check-plant
 TSAN     := $(BUILD)/tsan
 TSAN_RUN := $(addprefix tests/online/,link.py gateways.py peers.py stress.py sick_disk.py quiet_scan.py watchdog.py) tests/modbus/field.py
 tsan: ## ladderd and its gateways with the sanitizer of threads, in build/tsan/, and the tests of the link; it fails if a race is reported

@@ -58,14 +58,14 @@ class Units:
         self.loop = asyncio.new_event_loop()
         self.thread = threading.Thread(target=self.loop.run_forever, daemon=True)
         self.thread.start()
-        self.server = None
+        self.server, self.address = None, '127.0.0.1'
 
     def run(self, what):
         return asyncio.run_coroutine_threadsafe(what, self.loop).result(20)
 
     def tcp(self, port):
         async def begin():
-            self.server = ModbusTcpServer(self.context, address=('127.0.0.1', port), allow_reuse_address=True)
+            self.server = ModbusTcpServer(self.context, address=(self.address, port), allow_reuse_address=True)
             self.task = asyncio.ensure_future(self.server.serve_forever())
             await self.server.serving
         self.run(begin())
