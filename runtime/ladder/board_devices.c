@@ -28,12 +28,13 @@ static void put(const struct sink *out, const char *text, int width)
 static void print_row(const struct sink *out, const struct machine_row *row, bool first)
 {
 	const bool line = strcmp(row->driver, "gpio") == 0;
-	char text[32];
+	char text[32] = "";
 
 	if (first)
 		sink_text(out, "driver device                   channel      now    value\n");
 	put(out, row->driver, 6);
-	snprintf(text, sizeof(text), line ? " %u" : "", (unsigned)row->offset);
+	if (line)
+		snprintf(text, sizeof(text), " %u", (unsigned)row->offset);
 	foreign_text(out, line ? row->label : row->device);
 	sink_text(out, text);
 	sink_repeat(out, " ", 24 - (int)(strlen(line ? row->label : row->device) + strlen(text)));
