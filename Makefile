@@ -684,9 +684,9 @@ $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung la
 
 # ---- targets: the runtime on real kernels, in emulators ----
 # tests/targets/ has a script for each target. A missing package is reported.
-VEHICLES  ?= uml m3 riscv ast2600 armhf arm64 power
+VEHICLES  ?= uml field m3 riscv ast2600 armhf arm64 power
 AT_ONCE   ?= 1
-check-targets: ## the guest suite on emulated boards: VEHICLES="uml m3 riscv ast2600 armhf arm64 power" AT_ONCE=1
+check-targets: ## the guest suite on emulated boards: VEHICLES="uml field m3 riscv ast2600 armhf arm64 power" AT_ONCE=1
 	@rm -f $(VEHICLES:%=$(BUILD)/targets/%/result); status=0; \
 	  BUILD=$(BUILD) prove $(if $(filter 1,$(AT_ONCE)),-v) -j$(AT_ONCE) -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
 	  [ $$status -eq 0 ] || grep -a '^not ok' $(VEHICLES:%=$(BUILD)/targets/%/console) /dev/null; \

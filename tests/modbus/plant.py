@@ -7,6 +7,7 @@ which the board of the machines reads and writes over TCP. Here lines and knobs 
 of `./run targets field` they are lines of gpio-sim and converters. There time is virtual; here it takes some minutes, so it is
 skipped without PLANT=1.
 """
+import logging
 import os
 import signal
 import subprocess
@@ -25,6 +26,8 @@ except ImportError as why:
     print(f'1..0 # SKIP {why}: apt-get install python3-pymodbus python3-serial python3-serial-asyncio')
     sys.exit(0)
 
+logging.getLogger('pymodbus').setLevel(logging.CRITICAL)
+logging.getLogger('asyncio').setLevel(logging.CRITICAL)
 BUILD = board.BUILD
 FOLDER = os.path.abspath(os.path.dirname(os.path.abspath(__file__)) + '/../../ladders/cement-plant')
 PORT = 1502
@@ -208,6 +211,7 @@ class Plant:
         self.press('Acknowledge')
         self.knob_of_compressor(True)
         assert until(lambda: self.is_true('AirReady', 'HopperReady'), 60), self.state()
+        tell('both boards run, and there is air')
 
     def empty_mixer(self, record):
         """Waits until a batch is in the truck, and says so."""
@@ -215,6 +219,7 @@ class Plant:
         assert until(lambda: self.machines.read1('InMixer') < 0.01, 240), self.state()
         self.press('DischargedButton')
         assert until(lambda: self.cabinet.read1('Batches') >= record, 60), self.state()
+        tell(f'batch {record} is in the truck')
 
     def order(self):
         """Two batches, from the button until they are in the truck."""

@@ -1,0 +1,406 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""field - in a guest: analog values, pulse widths and chips by the drivers of its kernel, and a plant with two boards.
+
+    field.py BUILD KILLS [TEST]
+
+Converters are the dummy of Industrial I/O, and chips whose registers are memory (i2c-stub): a test writes what a chip would
+measure, and reads what it would drive. Lines are those of gpio-sim. Units of Modbus are those of pymodbus. Times are the guest's.
+"""
+import ctypes
+import fcntl
+import glob
+import os
+import signal
+import subprocess
+import sys
+import time
+import traceback
+
+BUILD, KILLS = sys.argv[1], int(sys.argv[2])
+os.environ['BUILD'] = BUILD
+TOP = os.getcwd()
+sys.path[:0] = [TOP + '/tests/modbus', TOP + '/tests/online']
+import board  # noqa: E402
+import client  # noqa: E402
+import plant  # noqa: E402
+from board import until  # noqa: E402
+from far import Units  # noqa: E402
+from plant import Machine, near, tell  # noqa: E402
+
+CONFIG = '/sys/kernel/config'
+BUS = '/sys/bus/i2c/devices/i2c-0'
+
+
+def put(path, text):
+    with open(path, 'w', encoding='ascii') as out:
+        out.write(str(text))
+
+
+def get(path):
+    with open(path, encoding='ascii') as file:
+        return file.read().strip()
+
+
+class Lines:
+    """A chip of gpio-sim."""
+
+    def __init__(self, label, names):
+        self.home, self.names = f'{CONFIG}/gpio-sim/{label}', list(names)
+        os.makedirs(self.home + '/bank')
+        put(self.home + '/bank/num_lines', len(self.names))
+        put(self.home + '/bank/label', label)
+        for i, name in enumerate(self.names):
+            os.mkdir(f'{self.home}/bank/line{i}')
+            put(f'{self.home}/bank/line{i}/name', name)
+        put(self.home + '/live', 1)
+        self.sys = f"/sys/devices/platform/{get(self.home + '/dev_name')}/{get(self.home + '/bank/chip_name')}"
+
+    def value(self, name):
+        return int(get(f'{self.sys}/sim_gpio{self.names.index(name)}/value'))
+
+    def pull(self, name, level):
+        put(f'{self.sys}/sim_gpio{self.names.index(name)}/pull', 'pull-up' if level else 'pull-down')
+
+    def close(self):
+        put(self.home + '/live', 0)
+        for i in range(len(self.names)):
+            os.rmdir(f'{self.home}/bank/line{i}')
+        os.rmdir(self.home + '/bank')
+        os.rmdir(self.home)
+
+
+class Converter:
+    """A dummy of Industrial I/O: its input 0 in volts, its output 0 in volts."""
+
+    def __init__(self, name):
+        self.name = name
+        self.begin()
+
+    def begin(self):
+        os.mkdir(f'{CONFIG}/iio/devices/dummy/{self.name}')
+        self.sys = next(it for it in glob.glob('/sys/bus/iio/devices/iio:device*') if get(it + '/name') == self.name)
+
+    def measure(self, volts):
+        scale, offset = (float(get(f'{self.sys}/in_voltage0_{it}')) for it in ('scale', 'offset'))
+        put(self.sys + '/in_voltage0_raw', round(volts * 1000 / scale - offset))
+
+    def output(self):
+        return int(get(self.sys + '/out_voltage0_raw')) / 1000
+
+    def close(self):
+        os.rmdir(f'{CONFIG}/iio/devices/dummy/{self.name}')
+
+
+class Chip:
+    """A chip on the bus that is memory."""
+
+    def __init__(self, driver, address):
+        self.address, self.fd = address, os.open('/dev/i2c-0', os.O_RDWR)
+        fcntl.ioctl(self.fd, 0x0706, address)
+        self.driver = driver
+
+    def there(self):
+        put(BUS + '/new_device', f'{self.driver} {self.address:#x}')
+        return self
+
+    def access(self, write, register, size, value=0):
+        data = (ctypes.c_uint8 * 34)(value & 255, value >> 8 & 255)
+
+        class Request(ctypes.Structure):
+            _fields_ = [('write', ctypes.c_uint8), ('register', ctypes.c_uint8), ('size', ctypes.c_uint32), ('data', ctypes.c_void_p)]
+
+        request = Request(0 if write else 1, register, size, ctypes.addressof(data))
+        fcntl.ioctl(self.fd, 0x0720, bytearray(request))
+        return data[0] | data[1] << 8
+
+    def byte(self, register):
+        return self.access(False, register, 2) & 255
+
+    def word(self, register):
+        return self.access(False, register, 3)
+
+    def set_word(self, register, value):
+        """With the higher byte first."""
+        self.access(True, register, 3, (value & 255) << 8 | value >> 8 & 255)
+
+    def close(self):
+        put(BUS + '/delete_device', f'{self.address:#x}')
+        os.close(self.fd)
+
+
+def pulse(chip, channel):
+    """What a PCA9685 gives at a pin: the part of a period, from 0 to 1."""
+    on_low, on_high, off_low, off_high = (chip.byte(6 + 4 * channel + i) for i in range(4))
+    if off_high & 0x10:
+        return 0
+    if on_high & 0x10:
+        return 1
+    return ((off_low | (off_high & 15) << 8) - (on_low | (on_high & 15) << 8)) % 4096 / 4096
+
+
+# ---- converters and pulse widths ----
+
+ANALOG = '''RUNGBOARD 1
+
+VAR
+  Level  AT %AIW0  : INT;
+  Good   AT %IX200.0 : BOOL;
+  Valve  AT %AQW0  : INT;
+  Full   AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Valve := Level / 2;
+  Full := Level > 20000;
+END_PROGRAM
+'''
+ANALOG_IO = '''BOARD "a converter"
+%AIW0    iio      device=tank channel=voltage0 range=0..27648 at 0V..10V poll=20ms stale=200ms substitute=-1
+%IX200.0 quality  of=%AIW0
+%AQW0    iio      device=valve channel=voltage0 range=0..27648 at 0V..10V safe=2765
+%QX0.0   sim      safe=0
+'''
+
+
+def test_a_converter_of_the_kernel():
+    """A voltage comes in, another goes out; the safe value; a converter that goes and comes back."""
+    tank, valve = Converter('tank'), Converter('valve')
+    with Machine(ANALOG, ANALOG_IO, '--period', '5ms') as it:
+        for volts in (0, 5, 10, 2.5):
+            tank.measure(volts)
+            assert until(lambda: near(it.read1('Level'), 2764.8 * volts, 1)), it.read1('Level')
+            assert until(lambda: near(valve.output(), volts / 2, 0.002)), valve.output()
+        assert it.read1('Good') is True
+        it.command('stop')
+        assert until(lambda: near(valve.output(), 1.0, 0.002)), valve.output()
+        it.command('run')
+        assert until(lambda: near(valve.output(), 1.25, 0.002)), valve.output()
+        tank.close()
+        began = time.monotonic()
+        assert until(lambda: it.read1('Level') == -1 and it.read1('Good') is False)
+        tell(f'a converter that has gone is noticed after {(time.monotonic() - began) * 1000:.0f} ms')
+        tank.begin()
+        tank.measure(7.5)
+        assert until(lambda: near(it.read1('Level'), 20736, 1) and it.read1('Good') is True), (it.read1('Level'), it.read('ladderd.out'))
+        it.ladderd.send_signal(signal.SIGTERM)
+        assert it.ladderd.wait(60) == 0 and near(valve.output(), 1.0, 0.002), valve.output()
+    tank.close()
+    valve.close()
+
+
+CHIPS = '''RUNGBOARD 1
+
+VAR
+  Volts  AT %AIW0  : INT;
+  Degree AT %AIW2  : INT;
+  Dim    AT %AQW0  : INT;
+  Wide   AT %AQW2  : INT;
+  Key    AT %IX0.0 : BOOL;
+  Lamp   AT %QX0.0 : BOOL;
+  Hot    AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Dim := Volts;
+  Wide := 27648 - Volts;
+  Lamp := Key;
+  Hot := Degree > 3000;
+END_PROGRAM
+'''
+CHIPS_IO = '''BOARD "chips on I2C"
+%AIW0  iio    device=ads1015 channel=voltage0 range=0..27648 at 0V..2V poll=20ms
+%AIW2  hwmon  device=lm75 channel=temp1 poll=20ms
+%AQW0  pwm    chip=pca9685-pwm channel=0 period=20ms safe=0
+%AQW2  pwm    chip=pca9685-pwm channel=7 period=20ms safe=13824
+%IX0.0 gpio   chip=mcp23017 offset=8
+%QX0.0 gpio   chip=mcp23017 offset=0 safe=0
+%QX0.1 gpio   chip=mcp23017 offset=1 safe=1
+'''
+
+
+def test_chips_on_i2c():
+    """ADS1015, LM75, PCA9685 and MCP23017 by the drivers of the kernel, by the names that docs/field.md gives."""
+    adc, sensor = Chip('ads1015', 0x48).there(), Chip('lm75', 0x4f)
+    sensor.set_word(0, 0x1900)
+    sensor.there()
+    lamp, port = Chip('pca9685', 0x40).there(), Chip('mcp23017', 0x20).there()
+    with Machine(CHIPS, CHIPS_IO, '--period', '20ms') as it:
+        for volts in (0.5, 1.0, 1.75, 0.0):
+            adc.set_word(0, round(volts * 1000) << 4)
+            wide = volts / 2
+            assert until(lambda: near(it.read1('Volts'), 27648 * wide, 16)), it.read1('Volts')
+            assert until(lambda: near(pulse(lamp, 0), wide, 0.001) and near(pulse(lamp, 7), 1 - wide, 0.001)), (pulse(lamp, 0), pulse(lamp, 7))
+        for value, hot in ((0x1900, 0), (0x2800, 1), (0x1e00, 0)):
+            sensor.set_word(0, value)
+            assert until(lambda: near(it.read1('Degree'), value / 256 * 100, 50) and port.word(0x14) >> 1 & 1 == hot), it.read1('Degree')
+        for level in (1, 0, 1):
+            port.access(True, 0x12, 3, level << 8)
+            assert until(lambda: port.word(0x14) & 1 == level), port.word(0x14)
+        adc.set_word(0, 1500 << 4)
+        assert until(lambda: near(pulse(lamp, 0), 0.75, 0.001))
+        it.command('stop')
+        assert until(lambda: pulse(lamp, 0) == 0 and near(pulse(lamp, 7), 0.5, 0.001) and port.word(0x14) & 3 == 2), (pulse(lamp, 0), port.word(0x14))
+        it.command('run')
+        assert until(lambda: near(pulse(lamp, 0), 0.75, 0.001))
+    assert pulse(lamp, 0) == 0 and near(pulse(lamp, 7), 0.5, 0.001) and port.word(0x14) & 3 == 2
+    for chip in (adc, sensor, lamp, port):
+        chip.close()
+
+
+# ---- a gateway that is killed ----
+
+REMOTE = '''RUNGBOARD 1
+
+VAR
+  Enable AT %IX10.0 : BOOL;
+  Wish   AT %IW12   : INT;
+  Pump   AT %QX0.0  : BOOL;
+  Speed  AT %AQW0   : INT;
+  Valve  AT %AQW2   : INT;
+  Told   AT %QW20   : INT;
+END_VAR
+
+PROGRAM Main ST
+  Pump := Enable;
+  Speed := SEL(Enable, 0, Wish);
+  Valve := SEL(Enable, 0, Wish);
+  Told := Wish;
+END_PROGRAM
+'''
+
+
+def test_a_gateway_is_killed_and_outputs_are_safe():
+    """What the program drives by values of a bus goes off, at a line, a converter and a pulse width; no scan is missed."""
+    lines, valve, lamp = Lines('pumps', ['PUMP', 'SPARE']), Converter('valve'), Chip('pca9685', 0x40).there()
+    port = board.free_port()
+    units = Units([1]).tcp(port)
+    units.set(1, 'discrete-input', 0, 1)
+    units.set(1, 'input-register', 0, 13824)
+    io = f'''BOARD "a pump"
+BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
+%IX10.0 modbus bus=plant unit=1 discrete-input=0 poll=20ms stale=200ms substitute=0
+%IW12 modbus bus=plant unit=1 input-register=0 poll=20ms stale=200ms substitute=0
+%QX0.0 gpio line=PUMP safe=0
+%AQW0 pwm chip=pca9685-pwm channel=0 period=20ms safe=0
+%AQW2 iio device=valve channel=voltage0 range=0..27648 at 0V..10V safe=0
+%QW20 modbus bus=plant unit=1 holding-register=0 safe=0 refresh=100ms
+'''
+
+    def runs():
+        return lines.value('PUMP') == 1 and near(pulse(lamp, 0), 0.5, 0.001) and near(valve.output(), 5, 0.002)
+
+    def is_off():
+        return lines.value('PUMP') == 0 and pulse(lamp, 0) == 0 and valve.output() == 0
+
+    took, back = [], []
+    with Machine(REMOTE, io, '--period', '10ms', gateway=True) as it:
+        assert until(runs), it.command('status')
+        for _ in range(KILLS):
+            it.modbus.kill()
+            began = time.monotonic()
+            assert until(is_off), it.command('status')
+            took.append(time.monotonic() - began)
+            it.modbus.wait(60)
+            it.start_modbus()
+            began = time.monotonic()
+            assert until(runs), it.command('status')
+            back.append(time.monotonic() - began)
+        status = it.desk.status()
+        assert status['mode'] == client.RUN and status['missed'] == 0, status
+        assert max(took) < 0.3 and max(back) < 2, (max(took), max(back))
+        tell(f"{KILLS} gateways were killed: outputs off after {max(took) * 1000:.0f} ms at most, on again after {max(back) * 1000:.0f} ms "
+             f"at most; {status['missed']} of {status['scans']} scans missed")
+        # The unit is gone, then comes back; and last the board itself ends.
+        units.stop()
+        assert until(is_off)
+        units.tcp(port)
+        assert until(runs), it.command('status')
+        it.ladderd.send_signal(signal.SIGTERM)
+        it.ladderd.wait(60)
+        assert is_off()
+    units.close()
+    for thing in (lines, valve, lamp):
+        thing.close()
+
+
+# ---- the cement plant on two boards ----
+
+MACHINES_GPIO = ''.join(f'%IX0.{n} gpio line=WIRE{n}\n' for n in range(7))
+
+
+class Kernel:
+    """The console and the wires: lines of gpio-sim, converters, and two networks."""
+    host, network, guarded = f'10.9.0.1:{plant.PORT}', 'machines', True
+
+    def __init__(self):
+        subprocess.run('ip netns add machines && ip link add cabinet type veth peer name field netns machines && '
+                       'ip addr add 10.9.0.1/24 dev cabinet && ip link set cabinet up && '
+                       'ip -n machines addr add 10.9.0.2/24 dev field && ip -n machines link set field up && ip -n machines link set lo up',
+                       shell=True, check=True)
+        self.console = Lines('cabinet', [line for _address, line in plant.BUTTONS.values()] + plant.RELAYS)
+        self.wires = Lines('machines', [f'WIRE{i}' for i in range(8)])
+        self.knobs = {name: Converter(name) for name in plant.KNOBS}
+
+    def cabinet_io(self, text):
+        for n, name in enumerate(plant.KNOBS):
+            text = text.replace(f'device=ads1015 channel=voltage{n} ', f'device={name} channel=voltage0 ')
+        return text
+
+    def machines_io(self):
+        return MACHINES_GPIO
+
+    def begin(self, cabinet, machines):
+        for _address, line in plant.BUTTONS.values():
+            self.console.pull(line, True)
+
+    def button(self, name, closed):
+        """A closed contact pulls its line down."""
+        self.console.pull(plant.BUTTONS[name][1], not closed)
+
+    def knob(self, name, volts):
+        self.knobs[name].measure(volts)
+
+    def relays(self):
+        return [self.console.value(line) for line in plant.RELAYS]
+
+    def wire(self, n, level):
+        self.wires.pull(f'WIRE{n}', level)
+
+    def connect(self):
+        pass
+
+    def end(self):
+        for thing in (self.console, self.wires, *self.knobs.values()):
+            thing.close()
+        subprocess.run('ip link del cabinet && ip netns del machines', shell=True, check=True)
+
+
+def test_the_cement_plant_runs_on_two_boards():
+    plant.run(Kernel())
+
+
+def main():
+    subprocess.run(['ip', 'link', 'set', 'lo', 'up'], check=True)
+    tests = {name[5:]: test for name, test in globals().items() if name.startswith('test_')}
+    if len(sys.argv) > 3:
+        tests = {name: test for name, test in tests.items() if name == sys.argv[3]}
+    print(f'1..{len(tests)}', flush=True)
+    failed = 0
+    for number, (name, test) in enumerate(tests.items(), 1):
+        began = time.monotonic()
+        good = True
+        try:
+            test()
+        except Exception:  # pylint: disable=broad-except
+            good = False
+            for line in traceback.format_exc().splitlines():
+                tell(line[-1500:])
+        failed += not good
+        print(f"{'ok' if good else 'not ok'} {number} - field: {name.replace('_', ' ')}")
+        tell(f'{name} took {time.monotonic() - began:.1f} s of this guest\'s time')
+    return failed != 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
