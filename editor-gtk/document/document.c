@@ -41,6 +41,7 @@ struct _LadderDocument {
 	GArray *files;            /* of struct beside: text files whose edits are steps of the
 				     history */
 	char *path;
+	char *copied;             /* the file that a document without a path is a copy of; NULL: none */
 	char *from;               /* the original of an import that has no path; NULL: none */
 	char *disk_sum;           /* digest of the file when it was read or saved */
 	GStatBuf disk_seen;       /* the file at the last look                 */
@@ -64,7 +65,7 @@ static const char EMPTY_PROJECT[] =
 
 static const char *file_name(const LadderDocument *document)
 {
-	return document->path ? document->path : "";
+	return document->path ? document->path : document->copied ? document->copied : "";
 }
 
 struct project *ladder_document_project(LadderDocument *document)
@@ -1582,7 +1583,7 @@ void ladder_document_note(LadderDocument *document, int file, const char *name,
 bool ladder_document_includes(LadderDocument *document, const char *path)
 {
 	const struct project *project = ladder_document_project(document);
-	char *folder = g_path_get_dirname(document->path ? document->path : "");
+	char *folder = g_path_get_dirname(file_name(document));
 	bool is = false;
 
 	for (int i = 0; project && i < project->pou_count && !is; i++)
@@ -1601,6 +1602,35 @@ bool ladder_document_includes(LadderDocument *document, const char *path)
 	}
 	g_free(folder);
 	return is;
+}
+
+static void add_file(GPtrArray *files, const char *path)
+{
+	if (path && *path && !g_ptr_array_find_with_equal_func(files, path, g_str_equal, NULL))
+		g_ptr_array_add(files, g_strdup(path));
+}
+
+GPtrArray *ladder_document_files(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+	char *folder = g_path_get_dirname(file_name(document));
+	GPtrArray *files = g_ptr_array_new_with_free_func(g_free);
+
+	for (int i = 0; project && i < project->pou_count; i++)
+		if (project->pou[i].included)
+			add_file(files, project->pou[i].file);
+	for (int i = 0; project && i < project->used_count; i++)
+		add_file(files, project->used[i]);
+	for (int i = 0; project && i < project->part_count; i++) {
+		const struct part *part = &project->part[i];
+		char *file = part->kind == PART_INCLUDE ?
+			     g_canonicalize_filename(project_text(project, part->text), folder) : NULL;
+
+		add_file(files, file);
+		g_free(file);
+	}
+	g_free(folder);
+	return files;
 }
 
 /* ---- the file ---- */
@@ -1625,6 +1655,7 @@ static void set_path(LadderDocument *document, const char *path)
 
 	g_free(document->path);
 	document->path = copy;
+	g_clear_pointer(&document->copied, g_free);
 	ladder_document_set_from(document, NULL);
 }
 
@@ -1672,17 +1703,30 @@ bool ladder_document_open(LadderDocument *document, const char *path, GError **e
 	return true;
 }
 
-void ladder_document_open_text(LadderDocument *document, const char *path,
-			       const char *text, gsize len, bool saved)
+static void open_text(LadderDocument *document, const char *path, const char *original, const char *text, gsize len,
+		      bool saved)
 {
 	document->repaired = 0;
 	set_path(document, path);
+	document->copied = original ? g_canonicalize_filename(original, NULL) : NULL;
 	set_sum(document, saved ? sum_of(text, len) : NULL);
 	take(document, text, len);
 	if (!saved) {
 		history_never_saved(document->history);
 		tell_state(document);
 	}
+}
+
+void ladder_document_open_text(LadderDocument *document, const char *path,
+			       const char *text, gsize len, bool saved)
+{
+	open_text(document, path, NULL, text, len, saved);
+}
+
+void ladder_document_open_copy(LadderDocument *document, const char *original, const char *text, gsize len,
+			       bool saved)
+{
+	open_text(document, NULL, original, text, len, saved);
 }
 
 bool ladder_document_needs_rung_file(LadderDocument *document)
@@ -1906,6 +1950,7 @@ static void ladder_document_finalize(GObject *object)
 	g_hash_table_unref(document->list);
 	g_free(document->text);
 	g_free(document->from);
+	g_free(document->copied);
 	g_free(document->path);
 	g_free(document->disk_sum);
 	G_OBJECT_CLASS(ladder_document_parent_class)->finalize(object);

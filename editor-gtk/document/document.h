@@ -44,6 +44,13 @@ bool ladder_document_open(LadderDocument *document, const char *path, GError **e
  * @path: the file it belongs to, NULL: none; @saved: does the file hold this text? */
 void ladder_document_open_text(LadderDocument *document, const char *path,
 			       const char *text, gsize len, bool saved);
+/** ladder_document_open_copy - the same without a file of its own: files that the text names are looked for beside
+ * @original until it is saved. */
+void ladder_document_open_copy(LadderDocument *document, const char *original, const char *text, gsize len,
+			       bool saved);
+/** ladder_document_files - the files that the project is made of beside its own: those of INCLUDE and USES, and
+ * theirs. Each once. Caller: g_ptr_array_unref(). */
+GPtrArray *ladder_document_files(LadderDocument *document);
 /** ladder_document_needs_rung_file - is it plain IEC text that has got what only a rung file can hold:
  * ladders, charts, a title, a view? */
 bool ladder_document_needs_rung_file(LadderDocument *document);

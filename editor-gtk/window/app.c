@@ -219,14 +219,14 @@ static void open_sample(AdwApplication *application, LadderWindow *window, const
 			GError **error)
 {
 	LadderDocument *document;
+	const bool folder = g_file_test(path, G_FILE_TEST_IS_DIR);
 	gsize len;
-	char *text = g_file_test(path, G_FILE_TEST_IS_DIR) ? plain_file_import(path, &len) :
-		     disk_read(path, LIMIT_TEXT, &len, error);
+	char *text = folder ? plain_file_import(path, &len) : disk_read(path, LIMIT_TEXT, &len, error);
 
 	if (!text)
 		return;
 	document = document_for(window);
-	ladder_document_open_text(document, NULL, text, len, true);
+	ladder_document_open_copy(document, folder ? NULL : path, text, len, true);
 	window = show_opened(application, window, document);
 	ladder_window_set_origin(window, path);
 	draft_of_sample(document, path);
@@ -277,8 +277,11 @@ static bool restore_document(AdwApplication *application, const struct draft *dr
 	LadderWindow *window;
 	bool kept;
 
-	ladder_document_restore(document, twice ? NULL : draft->path,
-				twice ? NULL : draft->sum, draft->text, draft->len);
+	if (draft->sample && !draft->path && g_file_test(draft->sample, G_FILE_TEST_IS_REGULAR))
+		ladder_document_open_copy(document, draft->sample, draft->text, draft->len, false);
+	else
+		ladder_document_restore(document, twice ? NULL : draft->path,
+					twice ? NULL : draft->sum, draft->text, draft->len);
 	window = show_document(application, document);
 	if (draft->sample && !draft->path) {
 		ladder_window_set_origin(window, draft->sample);

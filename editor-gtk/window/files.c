@@ -152,6 +152,7 @@ static bool save_to(struct files *files, const char *path)
 
 	if (!tabs_save_parts(files->core->tabs))
 		return false;
+	origin_will_save(files->origin, sample, path);
 	if (!ladder_document_save(document, path, &error)) {
 		warn(files, error->message, _("Save as…"), "win.save_as");
 		g_clear_error(&error);

@@ -189,11 +189,64 @@ static void tell(const struct taking *taking)
 	}
 }
 
+static void name_file(GString *names, const char *name)
+{
+	g_string_append_printf(names, "%s%s", names->len ? ", " : "", name);
+}
+
+/* @name: relative to the folder of both. */
+static void take_part(struct origin *origin, const char *from, const char *folder, const char *name)
+{
+	char *to = g_build_filename(folder, name, NULL), *in = g_path_get_dirname(to), *text = NULL;
+	GError *error = NULL;
+	gsize len;
+
+	if (g_file_test(to, G_FILE_TEST_EXISTS)) {
+		name_file(origin->left, name);
+	} else {
+		g_mkdir_with_parents(in, 0777);
+		text = disk_read(from, FILE_MOST, &len, &error);
+		if (text && disk_save(to, text, len, &error))
+			name_file(origin->taken, name);
+		else
+			messages_warn(origin->core->messages, error->message);
+	}
+	g_clear_error(&error);
+	g_free(text);
+	g_free(in);
+	g_free(to);
+}
+
+void origin_will_save(struct origin *origin, const char *sample, const char *path)
+{
+	GPtrArray *files = sample && path && g_file_test(sample, G_FILE_TEST_IS_REGULAR) ?
+			   ladder_document_files(origin->core->document) : NULL;
+	char *of = sample ? g_path_get_dirname(sample) : NULL, *to = path ? g_path_get_dirname(path) : NULL;
+	const gsize len = of ? strlen(of) : 0;
+
+	if (!origin->taken) {
+		origin->taken = g_string_new(NULL);
+		origin->left = g_string_new(NULL);
+	}
+	g_string_truncate(origin->taken, 0);
+	g_string_truncate(origin->left, 0);
+	for (guint i = 0; files && i < files->len && !disk_same(of, to); i++) {
+		const char *file = files->pdata[i];
+
+		if (g_str_has_prefix(file, of) && file[len] == '/')
+			take_part(origin, file, to, file + len + 1);
+	}
+	g_clear_pointer(&files, g_ptr_array_unref);
+	g_free(to);
+	g_free(of);
+}
+
 static void sample_saved(struct origin *origin, const char *sample)
 {
 	const char *path = ladder_document_path(origin->core->document);
 	struct taking taking = {
-		origin, stem_of(sample), stem_of(path), g_string_new(NULL), g_string_new(NULL),
+		origin, stem_of(sample), stem_of(path), g_string_new(origin->taken ? origin->taken->str : NULL),
+		g_string_new(origin->left ? origin->left->str : NULL),
 	};
 
 	if (!disk_same(sample, path)) {
@@ -250,4 +303,9 @@ void origin_clear(struct origin *origin)
 	g_clear_object(&origin->classic);
 	g_clear_pointer(&origin->path, g_free);
 	g_clear_pointer(&origin->plant, g_free);
+	if (origin->taken)
+		g_string_free(origin->taken, TRUE);
+	if (origin->left)
+		g_string_free(origin->left, TRUE);
+	origin->taken = origin->left = NULL;
 }

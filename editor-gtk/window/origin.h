@@ -5,7 +5,7 @@
  * project. Also the plant to simulate beside the program (trial/plant.h).
  *
  * A copied file gets the name of the program, by which it is found (side_file.h); so does
- * the plant in a scenario. No existing file is replaced.
+ * the plant in a scenario. A file that the program includes keeps its name. No existing file is replaced.
  */
 #ifndef EDITOR_ORIGIN_H
 #define EDITOR_ORIGIN_H
@@ -19,6 +19,7 @@ struct origin {
 	LadderOrigin *classic;  /* NULL: not made from ClassicLadder */
 	char *plant;            /* chosen by the person; NULL: none             */
 	bool plant_chosen;
+	GString *taken, *left;  /* names of files that origin_will_save() has copied, or not; NULL: none yet */
 };
 
 void origin_init(struct origin *origin, struct core *core);
@@ -30,6 +31,9 @@ const char *origin_sample(struct origin *origin);
 /** origin_name - the file name of the document, or of its origin, with @ending. Caller
  * frees. */
 char *origin_name(struct origin *origin, const char *ending);
+/** origin_will_save - to be called before the first save, to @path: copies the files that the sample includes, under
+ * their names. @sample: as of origin_saved(). */
+void origin_will_save(struct origin *origin, const char *sample, const char *path);
 /** origin_saved - to be called after the first save: copies the files beside the origin.
  * @sample: what origin_sample() returned before. */
 void origin_saved(struct origin *origin, const char *sample);

@@ -302,14 +302,23 @@ static int by_name(gconstpointer a, gconstpointer b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* A rung file, or a folder of plain IEC text. Plants are opened with their programs. */
-static bool is_sample(const char *path)
+/* The sample of an entry of the folder: a rung file, a folder of plain IEC text, or the rung file of a folder that has its
+ * name. Plants are opened with their programs. NULL: none. Caller frees. */
+static char *sample_of(const char *folder, const char *name)
 {
-	char *first = g_build_filename(path, FIRST_FILE, NULL);
-	const bool folder = g_file_test(first, G_FILE_TEST_IS_REGULAR);
+	char *path = g_build_filename(folder, name, NULL), *first = g_build_filename(path, FIRST_FILE, NULL);
+	char *file = g_strconcat(name, ".rung", NULL), *own = g_build_filename(path, file, NULL), *found = NULL;
 
+	if (g_file_test(first, G_FILE_TEST_IS_REGULAR) ||
+	    (g_str_has_suffix(path, ".rung") && !g_str_has_suffix(path, ".plant.rung")))
+		found = g_strdup(path);
+	else if (g_file_test(own, G_FILE_TEST_IS_REGULAR))
+		found = g_strdup(own);
+	g_free(own);
+	g_free(file);
 	g_free(first);
-	return folder || (g_str_has_suffix(path, ".rung") && !g_str_has_suffix(path, ".plant.rung"));
+	g_free(path);
+	return found;
 }
 
 static void add_samples(GtkWidget *groups)
@@ -321,12 +330,10 @@ static void add_samples(GtkWidget *groups)
 	const char *name;
 
 	while (dir && (name = g_dir_read_name(dir))) {
-		char *path = g_build_filename(folder, name, NULL);
+		char *path = sample_of(folder, name);
 
-		if (is_sample(path))
+		if (path)
 			g_ptr_array_add(names, path);
-		else
-			g_free(path);
 	}
 	g_ptr_array_sort(names, by_name);
 	for (guint i = 0; i < names->len; i++)

@@ -48,7 +48,8 @@ def cards(screen):
     """each sample is a card with its drawing, its title and a line; no problem is shown; a chart is begun from here, too"""
     editor = Editor(screen)
     editor.says('no problems')
-    names = sorted(name for name in os.listdir(os.path.join(ROOT, 'ladders')) if name.endswith('.rung') and '.plant' not in name)
+    names = sorted([name for name in os.listdir(os.path.join(ROOT, 'ladders')) if name.endswith('.rung') and '.plant' not in name] +
+                   ['cement-plant.rung', 'boiler-room.rung'])
     assert sorted(node.name for node in editor.all('.rung', 'label')) == names
     editor.find('Goods lift. A goods lift for three floors')
     editor.find('Packing bottles into boxes, S7-200 style: all memory by its address. Counts bottles into boxes')
@@ -101,6 +102,38 @@ def folder(screen):
     editor.find('Saved, together with the files of the sample: mine.scn', 'label')
     sh(LADDER, 'test', path, check=True)
     editor.finish()
+
+
+PARTS = 'alarms.rung', 'blocks.rung', 'hopper.rung', 'interlocks.rung', 'mixer.rung', 'signals.rung', 'weighing.rung'
+
+
+def parts(screen):
+    """a sample of several files is whole as a copy; saving it brings the files that it includes; none is replaced"""
+    for there in False, True:
+        target = os.path.join(screen.home, 'parts-%d' % there)
+        path = os.path.join(target, 'mine.rung')
+        os.mkdir(target)
+        if there:
+            with open(os.path.join(target, 'mixer.rung'), 'w') as file:
+                file.write('precious')
+        editor = Editor(screen)
+        editor.click(in_sight(editor, 'cement-plant.rung'))
+        editor.find('not saved yet')
+        editor.says('no problems')
+        editor.find('Weighing', 'label')
+        editor.shot('begin-parts-%d' % there)
+        editor.give_path(path, 'ctrl+s')
+        editor.find('Saved, together with the files of the sample: ', 'label')
+        assert sorted(os.listdir(target)) == sorted([*PARTS, 'mine.rung', 'mine.plant.rung', 'mine.scn']), os.listdir(target)
+        if there:
+            editor.find('because they already exist: mixer.rung', 'label')
+            assert read(os.path.join(target, 'mixer.rung')) == 'precious'
+        else:
+            editor.says('no problems')
+            assert all(read(os.path.join(target, name)) == read(os.path.join(ROOT, 'ladders', 'cement-plant', name)) for name in PARTS)
+            sh(LADDER, 'check', path, check=True)
+            sh(LADDER, 'test', path, check=True)
+        editor.finish()
 
 
 def belongings(screen):
@@ -369,4 +402,5 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, cards, folder, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])
+if __name__ == "__main__":
+    main([sample, cards, folder, parts, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])
