@@ -184,7 +184,7 @@ def killed(screen):
     """kill -9 with a changed sample: the next start restores the copy, and saving it saves plant and scenarios"""
     path = os.path.join(screen.home, 'mine.rung')
     editor = Editor(screen)
-    editor.click(editor.find('conveyor.rung', 'label'))
+    editor.click(in_sight(editor, 'conveyor.rung'))
     editor.element('Rung 1, ')
     editor.to_sheet()
     editor.keys('Insert')
