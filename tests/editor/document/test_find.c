@@ -266,8 +266,55 @@ static void test_chart(void)
 	g_object_unref(document);
 }
 
+/* Structured Text: statements, comments and the declarations of its program. */
+static const char statements[] =
+	"RUNGBOARD 1\n\nVAR\n  Level : INT;\nEND_VAR\n\n"
+	"FUNCTION_BLOCK Pump ST\nVAR_INPUT\n  Start : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Runs : BOOL;\nEND_VAR\n"
+	"  Runs := Start;  // not by level\nEND_FUNCTION_BLOCK\n\n"
+	"PROGRAM Main ST\nVAR\n  Levels : ARRAY[1..2] OF INT;\n  Feed   : Pump;\nEND_VAR\n"
+	"  IF Level > Levels[1] AND\n      Level < 90 THEN\n    Feed(Start := Level > 3);\n  END_IF;\n"
+	"  (* the level\n     and its limits *)\n  Level := Level + 1;\nEND_PROGRAM\n";
+
+static void test_statements(void)
+{
+	LadderDocument *document = ladder_document_new();
+	const struct find_hit *hit;
+	struct find *find;
+	char *text;
+
+	ladder_document_open_text(document, NULL, statements, strlen(statements), true);
+	CHECK(count(document, "level", FIND_EVERYWHERE, false, false) == 10);
+	CHECK(count(document, "level", FIND_EVERYWHERE, true, false) == 8);
+	CHECK(count(document, "Level", FIND_LISTS, true, true) == 5);
+	CHECK(count(document, "start", FIND_LISTS, true, false) == 3);
+	CHECK(count(document, "level", FIND_DECLARATIONS, true, false) == 1);
+	CHECK(count(document, "level", FIND_OPERANDS | FIND_COMMENTS | FIND_TITLES, false, false) == 0);
+	find = find_new(document, "Level", (struct find_options){ FIND_LISTS, true, true });
+	hit = find->hit->pdata[2];
+	CHECK(hit->pou == 1 && hit->row >= 0 && hit->col == 18);
+	CHECK_TEXT(hit->text, "    Feed(Start := Level > 3);");
+	CHECK_AS(find_next(find, hit->pou, -1, hit->row, hit->col, false) == 3, "the hit behind it is the next one");
+	CHECK_AS(find_next(find, hit->pou, -1, hit->row, hit->col, true) == 1, "and the one before it");
+	CHECK(find_replace(document, find, 2, "Levels[2]", NULL));
+	find_free(find);
+	find = find_new(document, "Level", (struct find_options){ FIND_LISTS, true, true });
+	CHECK(find->hit->len == 4 && find_replace_all(document, find, "Levels[1]", NULL) == 4);
+	find_free(find);
+	text = ladder_document_text(document, NULL);
+	CHECK(strstr(text, "    Feed(Start := Levels[2] > 3);\n") && strstr(text, "  Levels[1] := Levels[1] + 1;\n"));
+	CHECK_AS(strstr(text, "// not by level\n") && strstr(text, "(* the level\n"), "comments keep their words");
+	g_free(text);
+	ladder_document_undo(document);
+	ladder_document_undo(document);
+	text = ladder_document_text(document, NULL);
+	CHECK_TEXT(text, statements);
+	g_free(text);
+	g_object_unref(document);
+}
+
 int main(void)
 {
+	test_statements();
 	test_hits();
 	test_address();
 	test_order();
