@@ -68,6 +68,7 @@ static const char globals[] =
 	"  pt1 : Point;\n  pt2 : Point;\n  pts : ARRAY[1..3] OF Point;\n"
 	"  wait : TON;\n  late : TOF;\n  pulse : TP;\n  down : CTD;\n  latch : SR;\n  clear : RS;\n  fall : F_TRIG;\n  count : CTU;\n  edge : R_TRIG;\n  waits : ARRAY[1..2] OF TON;\n"
 	"  mix1 : Mix;\n  mix2 : Mix;\n  mixes : ARRAY[0..1, 1..2] OF Mix;\n"
+	"  roll1 : Roll;\n  roll2 : Roll;\n  rolls : ARRAY[1..2] OF Roll;\n"
 	"  k1 : INT;\n  k2 : SINT;\n  k3 : USINT;\n  k4 : DINT;\n  k5 : UINT;\n  k6 : Percent;\n  k7 : LINT;\n"
 	"  pq : REF_TO INT;\n  pr : POINTER TO REAL;\n"
 	"  pi : REF_TO INT;\n  pp : POINTER TO Point;\n  rd : REFERENCE TO DINT;\n"
@@ -776,6 +777,32 @@ static void program_of(struct maker *m)
 	say(m, "%s);\n", chance(m, 50) ? ", All => i4, Half => ad[1, 0]" : chance(m, 50) ? ", All => aj[k1]" : "");
 }
 
+/* A block with ARRAY[*]: each instance gets arrays of one size. */
+static void roll(struct maker *m)
+{
+	const char *row = NULL;
+
+	switch (below(m, 3)) {
+	case 0:
+		say(m, "roll1(");
+		row = chance(m, 50) ? "ai" : "aj";
+		break;
+	case 1:
+		say(m, "roll2(");
+		row = chance(m, 50) ? "two[1]" : "two[k1]";
+		break;
+	default:
+		say(m, "rolls[");
+		index_of(m, 1, 2, 2);
+		say(m, "](");
+		row = chance(m, 50) ? "pt1.row" : "pts[k1].row";
+		break;
+	}
+	say(m, "%sStep := ", chance(m, 30) ? "EN := b2, " : "");
+	expr(m, T_INT, 2);
+	say(m, ", Row := %s%s);\n", row, chance(m, 60) ? ", All => d1" : "");
+}
+
 static void call_of(struct maker *m)
 {
 	if (chance(m, 8)) {
@@ -834,6 +861,10 @@ static void call_of(struct maker *m)
 		say(m, "wait();\n");
 		break;
 	default:
+		if (m->room >= ROOM_ROUTINE && chance(m, 30)) {
+			roll(m);
+			break;
+		}
 		if (chance(m, 50)) {
 			say(m, "mix%d", 1 + (int)below(m, 2));
 		} else {
@@ -984,6 +1015,10 @@ size_t st_random_print(uint64_t seed, char *out, size_t size)
 		"  Both := Both + Add;\n  Kept := Kept + Fresh;\n  Fresh := Fresh + 1;\n  Half := Add / 2;\n");
 	m.room = ROOM_BLOCK;
 	statements(&m, 2, 3, 1);
+	say(&m, "END_FUNCTION_BLOCK\n\nFUNCTION_BLOCK Roll ST\nVAR_INPUT\n  Step : INT := 1;\nEND_VAR\nVAR_IN_OUT\n  Row : ARRAY[*] OF INT;\nEND_VAR\n"
+		"VAR_OUTPUT\n  All : DINT;\nEND_VAR\nVAR\n  n : DINT;\n  Calls : INT;\nEND_VAR\n"
+		"  Calls := Calls + 1;\n  All := Calls;\n  FOR n := LOWER_BOUND(Row, 1) TO UPPER_BOUND(Row, 1) DO\n"
+		"    Row[n] := Row[n] + Step * Calls;\n    All := All + Row[n];\n  END_FOR;\n");
 	say(&m, "END_FUNCTION_BLOCK\n\nSUBROUTINE Start ST\nVAR\n  Starts : INT;\nEND_VAR\n  Starts := Starts + 1;\n");
 	m.room = ROOM_ROUTINE;
 	statements(&m, 1, 3, 1);
