@@ -233,6 +233,20 @@ static void read_rungs(struct sfc_reader *in, struct sfc_body *body)
 	body->count = pou->rung_count - body->first;
 }
 
+/* Is the word a name in a statement? A pin or a variable may be called Step. */
+static bool is_operand(struct lex lex)
+{
+	static const char *const signs[] = {
+		":=", "=>", ",", ")", "]", ".", "[", ";", "+", "-", "*", "/", "<", ">", "=", "<=", ">=", "<>",
+	};
+
+	lex_next(&lex);
+	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
+		if (lex_is(&lex, signs[i]))
+			return true;
+	return false;
+}
+
 /* Do statements of Structured Text follow the colon at @lex? */
 static bool is_st(struct lex lex)
 {
@@ -241,7 +255,8 @@ static bool is_st(struct lex lex)
 	lex.newlines = lex.comments = false;
 	lex_next(&lex);
 	end = lex;
-	while (end.token.kind != TOKEN_END && !is_chart_word(&end) && !lex_is(&end, "END_PROGRAM"))
+	while (end.token.kind != TOKEN_END && (!is_chart_word(&end) || is_operand(end)) &&
+	       !lex_is(&end, "END_PROGRAM"))
 		lex_next(&end);
 	if (lex_is(&lex, "RUNG") || lex.token.text == end.token.text)
 		return false;
