@@ -562,7 +562,7 @@ bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the d
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read st code script scenario iomap retain classic ldmicro openplc link record serial peer
+FUZZ      := read st fbd plcopen code script scenario iomap retain classic ldmicro openplc link record serial peer
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential st_differential still_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear overruns trials $(FUZZ:%=fuzz_%))
@@ -632,11 +632,11 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|code|script|scenario|iomap|retain|classic|ldmicro|openplc|link|record|serial SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|st|fbd|plcopen|code|script|scenario|iomap|retain|classic|ldmicro|openplc|link|record|serial SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
-	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
-	  $(if $(filter st,$(TARGET)),tests/st/st_random.c tests/walker/random.c $(filter-out tests/walker/random_sfc%,$(wildcard tests/walker/random_*.c)) $(wildcard tests/walker/words*.c)) $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter peer,$(TARGET)),$(PEER_PLAIN) runtime/online/wire.c runtime/online/service.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
+	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(if $(XML_LIB),$(shell $(PKG_CONFIG) --cflags libxml-2.0)) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
+	  $(if $(filter st,$(TARGET)),tests/st/st_random.c tests/walker/random.c $(filter-out tests/walker/random_sfc%,$(wildcard tests/walker/random_*.c)) $(wildcard tests/walker/words*.c)) $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter peer,$(TARGET)),$(PEER_PLAIN) runtime/online/wire.c runtime/online/service.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) $(XML_LIB) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
