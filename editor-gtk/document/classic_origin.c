@@ -5,12 +5,14 @@
  */
 #include "editor-gtk/document/classic_origin.h"
 #include "engine/base/name.h"
+#include "engine/model/fbd.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 struct came {
 	const struct classic_rung *from; /* NULL: no original                  */
+	const struct drawing *drawn;     /* the same of another tool           */
 	guint text;                      /* hash of the rung's text            */
 	bool known;                      /* set while two lists are matched    */
 };
@@ -62,6 +64,7 @@ static struct came came_now(LadderOrigin *origin, int pou, int rung)
 static void take(struct came *now, struct came *was)
 {
 	now->from = was->from;
+	now->drawn = was->drawn;
 	now->known = was->known = true;
 }
 
@@ -84,7 +87,7 @@ static void take_lost(LadderOrigin *origin, struct came *now)
 static void lose(LadderOrigin *origin, GArray *was)
 {
 	for (guint i = 0; i < was->len; i++)
-		if (!came_at(was, i)->known && came_at(was, i)->from)
+		if (!came_at(was, i)->known && (came_at(was, i)->from || came_at(was, i)->drawn))
 			g_array_append_vals(origin->lost, came_at(was, i), 1);
 }
 
@@ -202,7 +205,7 @@ static void project_changed(LadderOrigin *origin)
 		GArray *rungs = ((struct origin_pou *)pous->pdata[i])->rung;
 
 		for (guint n = 0; n < rungs->len; n++)
-			if (!came_at(rungs, n)->from)
+			if (!came_at(rungs, n)->from && !came_at(rungs, n)->drawn)
 				take_lost(origin, came_at(rungs, n));
 		for (guint n = 0; n < rungs->len; n++)
 			came_at(rungs, n)->known = false;
@@ -240,6 +243,29 @@ const struct classic_rung *ladder_origin_of(LadderOrigin *origin, int pou, int r
 
 	return of && rung >= 0 && rung < (int)of->rung->len ?
 	       came_at(of->rung, (guint)rung)->from : NULL;
+}
+
+/* Networks have no list of their own here: they are known by their number while none comes or goes. */
+static const struct drawing *network_drawing(LadderOrigin *origin, int pou, int network)
+{
+	struct project *there = ladder_project(origin->ladder);
+	const struct project *here = ladder_document_project(origin->document);
+	const char *name = here && pou >= 0 && pou < here->pou_count ? name_now(origin, pou) : NULL;
+	const int from = name && there ? project_find_pou(there, name, strlen(name)) : -1;
+
+	if (from < 0 || !here->pou[pou].fbd || !there->pou[from].fbd ||
+	    here->pou[pou].fbd->count != there->pou[from].fbd->count)
+		return NULL;
+	return ladder_import_drawing(origin->ladder, from, network);
+}
+
+const struct drawing *ladder_origin_drawing(LadderOrigin *origin, int pou, int number)
+{
+	const struct origin_pou *of = pou >= 0 && pou < (int)origin->pous->len ? origin->pous->pdata[pou] : NULL;
+
+	if (of && number >= 0 && number < (int)of->rung->len)
+		return came_at(of->rung, (guint)number)->drawn;
+	return number >= 0 ? network_drawing(origin, pou, number) : NULL;
 }
 
 GArray *ladder_origin_became(LadderOrigin *origin, const struct classic_rung *from,
@@ -324,9 +350,12 @@ static void begin(LadderOrigin *origin)
 	for (guint i = 0; i < origin->pous->len; i++) {
 		GArray *rungs = ((struct origin_pou *)origin->pous->pdata[i])->rung;
 
-		for (guint n = 0; n < rungs->len; n++)
+		for (guint n = 0; n < rungs->len; n++) {
 			came_at(rungs, n)->from =
 				ladder_import_rung(origin->ladder, (int)i, (int)n);
+			came_at(rungs, n)->drawn =
+				ladder_import_drawing(origin->ladder, (int)i, (int)n);
+		}
 	}
 }
 

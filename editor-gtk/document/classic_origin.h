@@ -12,6 +12,7 @@
 
 #include "editor-gtk/document/document.h"
 
+#include "engine/exchange/drawing.h"
 #include "engine/exchange/report.h"
 
 #define LADDER_TYPE_ORIGIN (ladder_origin_get_type())
@@ -30,6 +31,9 @@ const struct classic_report *ladder_origin_report(LadderOrigin *origin);
 const char *ladder_origin_io(LadderOrigin *origin);
 /** ladder_origin_of - the original of rung @rung of POU @pou, 0-based; NULL: it has none. */
 const struct classic_rung *ladder_origin_of(LadderOrigin *origin, int pou, int rung);
+/** ladder_origin_drawing - how another tool has drawn rung or network @number, 0-based, of POU @pou; NULL: it
+ * has not. Borrowed. */
+const struct drawing *ladder_origin_drawing(LadderOrigin *origin, int pou, int number);
 /** ladder_origin_became - the rungs of @pou that come from @from, int, 0-based. @pou gets
  * the first POU with such a rung; -1: there is none. Caller: g_array_unref(). */
 GArray *ladder_origin_became(LadderOrigin *origin, const struct classic_rung *from,

@@ -424,6 +424,15 @@ static float put_ours(const struct classic_pair *pair, float y, struct picture *
 	return y;
 }
 
+float grid_classic_here(const struct classic_pair *pair, float y, struct picture *picture)
+{
+	char *text = name_ours(pair);
+
+	y += put_caption(pair, text, y, picture);
+	g_free(text);
+	return put_ours(pair, y, picture);
+}
+
 float grid_classic_pair(const struct classic_pair *pair, float y, struct picture *picture)
 {
 	char *text = g_strdup_printf(_("ClassicLadder: %s"), pair->there_name);
@@ -434,10 +443,7 @@ float grid_classic_pair(const struct classic_pair *pair, float y, struct picture
 	y += grid_classic_draw(&pair->there, picture);
 	picture_move(picture, 0, 0);
 	if (pair->rungs > 0) {
-		text = name_ours(pair);
-		y += put_caption(pair, text, y, picture);
-		g_free(text);
-		y = put_ours(pair, y, picture);
+		y = grid_classic_here(pair, y, picture);
 	} else if (pair->lost) {
 		y += put_caption(pair, pair->lost, y, picture);
 	}

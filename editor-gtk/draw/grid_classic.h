@@ -37,6 +37,8 @@ struct classic_pair {
 	const char *lost;            /* text if rungs is 0; NULL: none            */
 };
 
+/** grid_classic_here - adds the rungs of the import alone, below their name. Returns the y below them. */
+float grid_classic_here(const struct classic_pair *pair, float y, struct picture *picture);
 /** grid_classic_pair - adds both to @picture at @y. Returns the y below them. */
 float grid_classic_pair(const struct classic_pair *pair, float y, struct picture *picture);
 

@@ -8,6 +8,7 @@
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/document/report_lines.h"
 #include "editor-gtk/draw/grid_classic.h"
+#include "editor-gtk/draw/original_draw.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
@@ -28,6 +29,8 @@ struct _LadderReportView {
 	char *name;                /* name of the exported file                 */
 	char *said;
 	const struct classic_rung *shown; /* of @origin                         */
+	const struct drawing *drawn;      /* the same of another tool           */
+	int drawn_pou, drawn_number;      /* what it became                     */
 	bool filling, shared;
 };
 
@@ -39,7 +42,7 @@ static guint close_wanted;
 
 static void put_nothing(struct picture *picture, struct lettering *lettering)
 {
-	const char *text = _("This rung does not come from ClassicLadder.");
+	const char *text = _("There is no original of this place.");
 	const struct lettered fits = lettering_fit(lettering, LETTER_COMMENT, text, -1, 0);
 
 	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 24);
@@ -71,23 +74,46 @@ static void put_pair(LadderReportView *view, struct picture *picture,
 	g_free(name);
 }
 
+static void put_drawn(LadderReportView *view, struct picture *picture, struct lettering *lettering)
+{
+	char *name = g_path_get_basename(ladder_origin_path(view->origin));
+	const struct original_scene scene = {
+		.drawing = view->drawn, .lettering = lettering, .theme = theme_screen(), .name = name,
+		.project = ladder_document_project(view->document),
+		.pou = view->drawn_pou, .number = view->drawn_number,
+		.show = (enum drafting_show)settings_enum("show", SHOW_BOTH),
+	};
+
+	original_pair(&scene, picture);
+	g_free(name);
+}
+
 static void draw(gpointer data, struct picture *picture, struct lettering *lettering)
 {
 	LadderReportView *view = data;
 
 	if (view->shown && view->origin)
 		put_pair(view, picture, lettering);
+	else if (view->drawn && view->origin)
+		put_drawn(view, picture, lettering);
 	else
 		put_nothing(picture, lettering);
 }
 
 /* ---- what it tells ---- */
 
+static char *name_picture(LadderReportView *view, const struct classic_rung *rung)
+{
+	if (rung)
+		return g_strdup_printf(_("Original of the rung: %s"), *rung->comment ? rung->comment : rung->place.member);
+	if (view->drawn)
+		return g_strdup_printf(_("Original in line %d"), view->drawn->line);
+	return g_strdup(_("There is no original of this place."));
+}
+
 static void show_picture(LadderReportView *view, const struct classic_rung *rung)
 {
-	char *text = rung ? g_strdup_printf(_("Original of the rung: %s"), *rung->comment ?
-					    rung->comment : rung->place.member) :
-		     g_strdup(_("This rung does not come from ClassicLadder."));
+	char *text = name_picture(view, rung);
 
 	view->shown = rung;
 	spoken_name(view->picture, text);
@@ -124,8 +150,10 @@ static void refresh(GtkWidget *widget)
 
 void ladder_report_view_import(LadderReportView *view, LadderOrigin *origin)
 {
-	if (g_set_object(&view->origin, origin))
+	if (g_set_object(&view->origin, origin)) {
 		view->shown = NULL;
+		view->drawn = NULL;
+	}
 	g_clear_pointer(&view->lines, g_ptr_array_unref);
 	refresh(GTK_WIDGET(view));
 }
@@ -159,8 +187,14 @@ void ladder_report_view_follow(LadderReportView *view, int pou, int rung)
 {
 	const struct classic_rung *from = view->origin ?
 		ladder_origin_of(view->origin, pou, rung) : NULL;
+	const struct drawing *drawn = view->origin ? ladder_origin_drawing(view->origin, pou, rung) : NULL;
+	const bool other = from != view->shown || drawn != view->drawn || pou != view->drawn_pou ||
+			   rung != view->drawn_number;
 
-	if (view->origin && from != view->shown)
+	view->drawn = drawn;
+	view->drawn_pou = pou;
+	view->drawn_number = rung;
+	if (view->origin && other)
 		show_picture(view, from);
 	gtk_widget_set_visible(view->picture, from || rung >= 0);
 }

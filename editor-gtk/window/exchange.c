@@ -39,7 +39,13 @@ static void close_panel(struct exchange *exchange)
 static void follow(struct exchange *exchange)
 {
 	LadderGridView *sheet = front_sheet(exchange->core->front);
+	LadderFbdView *networks = front_networks(exchange->core->front);
 
+	if (networks) {
+		ladder_report_view_follow(view_of(exchange), ladder_canvas_pou(LADDER_CANVAS(networks)),
+					  ladder_fbd_view_network(networks));
+		return;
+	}
 	ladder_report_view_follow(view_of(exchange),
 		sheet ? ladder_canvas_pou(LADDER_CANVAS(sheet)) : -1,
 		sheet ? ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung : -1);
@@ -50,8 +56,8 @@ void exchange_show(struct exchange *exchange)
 	if (!below_made(exchange->core->below, "report") ||
 	    !ladder_report_view_has(view_of(exchange))) {
 		messages_tell(exchange->core->messages, _("There is no report: nothing was "
-							  "imported from ClassicLadder or "
-							  "exported for it."));
+							  "imported from another tool or "
+							  "exported for one."));
 		return;
 	}
 	show_panel(exchange);
@@ -71,7 +77,7 @@ void exchange_show_original(struct exchange *exchange)
 {
 	if (!exchange->origin->classic) {
 		messages_tell(exchange->core->messages, _("This project was not imported "
-							  "from ClassicLadder."));
+							  "from another tool."));
 		return;
 	}
 	ladder_report_view_import(view_of(exchange), exchange->origin->classic);

@@ -28,6 +28,8 @@ void ladder_free(struct ladder *ladder);
 
 /* The lines of an import's report: engine/exchange/report.h. */
 struct classic_report;
+struct drawing; /* engine/exchange/drawing.h */
+struct drawings;
 struct classic_lines;
 /**
  * ladder_take_classic - makes later loads accept projects of ClassicLadder, too
@@ -81,6 +83,9 @@ const struct classic_project *ladder_import_project(const struct ladder *ladder)
  * from; several may come from one. NULL: none. Valid until the next load. */
 const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int pou,
 					      int rung);
+/** ladder_import_drawing - how rung or network @number (0-based) of POU @pou is drawn in the imported file;
+ * NULL: it is not, or stands nowhere. Valid until the next load. */
+const struct drawing *ladder_import_drawing(struct ladder *ladder, int pou, int number);
 /** ladder_period - the scan period of an imported project, ns; 0: none is given. */
 int64_t ladder_period(const struct ladder *ladder);
 
@@ -370,6 +375,7 @@ struct foreign {
 	/* The line of the file that a line of the text comes from; 0: none. */
 	int (*line)(const struct foreign *foreign, int line);
 	struct classic_report *report; /* of the last read                    */
+	const struct drawings *drawings; /* NULL: it makes none              */
 	const char *text; /* that the last load read, @text_len bytes         */
 	size_t text_len;
 	bool task;        /* gets a CONFIGURATION with the period, for a file that is saved */

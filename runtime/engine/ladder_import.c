@@ -6,6 +6,8 @@
  */
 #include "engine/ladder.h"
 
+#include "engine/base/name.h"
+#include "engine/exchange/drawing.h"
 #include "engine/exchange/report.h"
 
 static struct foreign *loaded(const struct ladder *ladder)
@@ -41,6 +43,20 @@ const struct classic_report *ladder_import_report(const struct ladder *ladder)
 	const struct foreign *foreign = loaded(ladder);
 
 	return foreign ? foreign->report : NULL;
+}
+
+const struct drawing *ladder_import_drawing(struct ladder *ladder, int pou, int number)
+{
+	const struct foreign *foreign = loaded(ladder);
+	const struct drawings *all = foreign ? foreign->drawings : NULL;
+	const struct project *project = ladder_project(ladder);
+	const char *name = project && pou >= 0 && pou < project->pou_count ?
+			   project_text(project, project->pou[pou].name) : NULL;
+
+	for (int i = 0; all && name && i < all->count; i++)
+		if (all->one[i].number == number && name_equal(all->one[i].pou, name))
+			return &all->one[i];
+	return NULL;
 }
 
 const char *ladder_import_text(const struct ladder *ladder, size_t *len)

@@ -22,6 +22,7 @@ struct other_foreign {
 	struct arena arena;
 	struct classic_report report;
 	struct foreign_text text;
+	struct drawings drawings;
 	const char *path;         /* as the user wrote it                      */
 	const char *name;         /* the file of the text's lines; NULL: nothing was read */
 	bool folder;
@@ -54,6 +55,7 @@ static void forget(struct foreign *foreign)
 	arena_free(&other->arena);
 	report_free(&other->report);
 	memset(&other->text, 0, sizeof(other->text));
+	memset(&other->drawings, 0, sizeof(other->drawings));
 	other->name = NULL;
 }
 
@@ -80,6 +82,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path, const
 	if (!format_of(path, bytes, len)->read(&import))
 		return NULL;
 	other->text = import.text;
+	other->drawings = import.drawings;
 	foreign->period_ns = import.period_ns;
 	copy = arena_copy(&other->arena, path, strlen(path));
 	other->name = copy ? copy : path;
@@ -143,7 +146,7 @@ bool ladder_take_others(struct ladder *ladder)
 		return false;
 	other->foreign = (struct foreign){ .is = is_other, .is_folder = is_folder,
 		.read = read_foreign, .place = place_diags, .forget = forget, .free = free_foreign,
-		.line = line_of, .report = &other->report };
+		.line = line_of, .report = &other->report, .drawings = &other->drawings };
 	arena_init(&other->arena);
 	report_init(&other->report);
 	ladder_add_foreign(ladder, &other->foreign);

@@ -87,7 +87,7 @@ bool ladder_take_plcopen(struct ladder *ladder)
 		return false;
 	xml->foreign = (struct foreign){ .is = plcopen_is, .read = read_foreign,
 		.place = place_diags, .forget = forget, .free = free_foreign, .line = line_of,
-		.report = &xml->report };
+		.report = &xml->report, .drawings = &xml->text.drawings };
 	arena_init(&xml->arena);
 	report_init(&xml->report);
 	ladder_add_foreign(ladder, &xml->foreign);

@@ -9,6 +9,7 @@
 #define EXCHANGE_IMPORT_H
 
 #include "engine/base/diag.h"
+#include "engine/exchange/drawing.h"
 #include "engine/exchange/foreign_text.h"
 
 struct import {
@@ -22,6 +23,7 @@ struct import {
 	/* The result: */
 	struct foreign_text text;
 	int64_t period_ns;       /* of its scans; 0: not known                     */
+	struct drawings drawings; /* of rungs and networks, as they are drawn there */
 };
 
 struct import_format {

@@ -82,7 +82,7 @@ def keyboard(screen):
     editor.keys('Return')
     editor.find('Original of the rung: rung_1.csv')
     editor.keys('Insert')
-    editor.find('This rung does not come from ClassicLadder')
+    editor.find('There is no original of this place')
     editor.keys('Escape', 'ctrl+z', 'ctrl+Home')
     editor.find('Original of the rung: Estop chain')
     editor.command('import or export report')

@@ -591,6 +591,7 @@ static bool convert(struct openplc *c)
 	if (!good)
 		return false;
 	import->text = (struct foreign_text){ .text = out.text, .len = out.len };
+	import->drawings = out.drawings;
 	for (int i = 0; i < out.lines; i++) {
 		struct foreign_place *slot = arena_push(import->arena, &import->text.place, &import->text.lines,
 							sizeof(*slot));

@@ -248,7 +248,7 @@ static bool finish(struct plcopen *c, struct plcopen_text *out)
 	const struct diag place = { .id = DIAG_NO_MEMORY, .file = c->file };
 	const bool good = !c->arena->failed && !c->text.failed;
 
-	*out = (struct plcopen_text){ NULL, c->text.len, c->place, c->lines };
+	*out = (struct plcopen_text){ NULL, c->text.len, c->place, c->lines, c->drawings };
 	if (good)
 		out->text = arena_copy(c->arena, sink_memory_text(&c->text), c->text.len);
 	if (!out->text)

@@ -10,6 +10,7 @@
 #define PLCOPEN_H
 
 #include "engine/base/diag.h"
+#include "engine/exchange/drawing.h"
 #include "engine/exchange/report.h"
 
 struct plcopen_text {
@@ -17,6 +18,7 @@ struct plcopen_text {
 	size_t len;
 	const int *line;    /* in the XML, of each line of the text                 */
 	int lines;
+	struct drawings drawings; /* of rungs and networks, as they stand in the XML        */
 };
 
 /** plcopen_is - whether @bytes begin as such a file. Scan-safe: yes. */

@@ -132,12 +132,16 @@ static enum plcopen_language put_drawn(struct plcopen *c, struct plcopen_pou *po
 	if (!plc_graph_read(c, pou, element, &graph))
 		return language;
 	plc_groups_make(c, &graph, &groups);
-	if (language == PLCOPEN_LD && plc_ladder(c, &graph, &groups, ""))
+	c->pictures = true;
+	if (language == PLCOPEN_LD && plc_ladder(c, &graph, &groups, "")) {
+		c->pictures = false;
 		return PLCOPEN_LD;
+	}
 	if (language == PLCOPEN_LD)
 		plc_report(c, REPORT_CHANGED, element, "%s",
 			   report_said(c->report, REPORTED("not every network can be a rung: the ladder becomes a function block diagram")));
 	plc_networks(c, &graph, &groups, false, "  ");
+	c->pictures = false;
 	return PLCOPEN_FBD;
 }
 

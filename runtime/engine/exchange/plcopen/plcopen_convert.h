@@ -33,7 +33,9 @@ struct plcopen {
 	int *place, lines;      /* of the lines that are written               */
 	int at;                 /* the line of the XML that is written now     */
 	const char *pou_name;   /* for the report; NULL: outside of POUs        */
-	int rungs;              /* written in this POU                         */
+	int rungs;              /* rungs or networks written in this POU       */
+	bool pictures;          /* those that are written now get a drawing     */
+	struct drawings drawings;
 	const struct xml_node *types; /* of the project; NULL: none              */
 	struct xml_node *own;   /* the text of an export, beside the XML; NULL: none */
 	struct plcopen_pou *pou;

@@ -108,6 +108,7 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 
 	e->comment = plc_documentation(c, e->node);
 	e->name = xml_take(e->node, "typeName");
+	e->name = e->name ? e->name : "";
 	e->instance = xml_take(e->node, "instanceName");
 	e->instance = e->instance && *e->instance ? plc_renamed(c, e->instance) : NULL;
 	e->first_in = graph->pins;

@@ -146,6 +146,10 @@ void plc_groups_make(struct plcopen *c, struct plc_graph *graph, struct plc_grou
 void plc_networks(struct plcopen *c, struct plc_graph *graph, const struct plc_groups *groups,
 		  bool st, const char *indent);
 
+/* ---- plcopen_picture.c ---- */
+/** plc_picture - where the elements of @group stand, as the drawing of rung or network c->rungs of the POU. */
+void plc_picture(struct plcopen *c, const struct plc_graph *graph, const struct plc_group *group);
+
 /* ---- plcopen_ladder.c ---- */
 /** plc_ladder - all groups as rungs. false: not each of them can be one; nothing is written. */
 bool plc_ladder(struct plcopen *c, struct plc_graph *graph, const struct plc_groups *groups,

@@ -932,6 +932,7 @@ static void put_heading(struct plcopen *c, const struct plc_group *group, const 
 		plc_put(c, " \"%s is not known\"", group->missing);
 	plc_put(c, "\n");
 	c->count.rungs++;
+	c->rungs++;
 }
 
 /* The steps @first … as one rung; false: they are none. */
@@ -960,6 +961,7 @@ static bool put_rung(struct plcopen *c, struct plc_graph *graph, const struct pl
 		good = !s->odd && s->rows > 0;
 	}
 	if (good) {
+		plc_picture(c, graph, group);
 		align_outputs(s);
 		put_heading(c, group, indent, first == group->first);
 		c->at = graph->element[graph->step[first]].node->line;
@@ -991,6 +993,7 @@ static void put_unknown(struct plcopen *c, struct plc_graph *graph, const struct
 
 	if (!plc_lines_init(&lines, c, graph, false, "    "))
 		return;
+	plc_picture(c, graph, group);
 	put_heading(c, group, indent, true);
 	plc_put(c, "%s  | EXECUTE |\n%s  EXECUTE:\n", indent, indent);
 	for (int i = 0; i < group->count; i++)
@@ -1019,7 +1022,7 @@ bool plc_ladder(struct plcopen *c, struct plc_graph *graph, const struct plc_gro
 		const char *indent)
 {
 	struct plc_part before = plc_part_begin(c);
-	const int rungs = c->count.rungs, made = c->made.count;
+	const int rungs = c->count.rungs, made = c->made.count, own = c->rungs, drawings = c->drawings.count;
 	bool good = true;
 
 	for (int i = 0; i < groups->count && good; i++)
@@ -1031,6 +1034,8 @@ bool plc_ladder(struct plcopen *c, struct plc_graph *graph, const struct plc_gro
 	}
 	sink_memory_free(&before.text);
 	c->count.rungs = rungs;
+	c->rungs = own;
+	c->drawings.count = drawings;
 	c->made.count = made;
 	return false;
 }

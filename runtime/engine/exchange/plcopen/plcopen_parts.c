@@ -220,10 +220,13 @@ static void put_group(struct plc_lines *lines, const struct plc_group *group)
 {
 	struct plcopen *c = lines->c;
 
-	if (lines->networks)
+	if (lines->networks) {
+		plc_picture(c, lines->graph, group);
+		c->rungs++;
 		put_heading(c, group);
-	else
+	} else {
 		begin_statements(lines, group);
+	}
 	for (int i = 0; i < group->count && !lines->failed; i++)
 		plc_lines_step(lines, &lines->graph->element[lines->graph->step[group->first + i]]);
 	if (!lines->networks && group->missing)
