@@ -102,7 +102,7 @@ def differential(folder):
             bad = f'seed {seed}: {bad}\n{text}'
             break
         status, said, _ = run('import', os.path.join(folder, 'random.ld'))
-        found = re.search(r'taken: (\d+) rungs with (\d+) elements', said)
+        found = re.search(r'taken: rungs: (\d+), elements: (\d+)', said)
         want = len(Program(text).leaves)
         if status or not found or int(found[2]) != want:
             bad = f'seed {seed}: {want} elements, but {said}'

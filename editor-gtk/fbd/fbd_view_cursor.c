@@ -140,7 +140,9 @@ graphene_rect_t fbd_rect(LadderFbdView *view, struct fbd_pos at)
 	if (at.network < 0)
 		return GRAPHENE_RECT_INIT(16, 8, 120, FBD_ROW);
 	layout = view->strip[at.network].layout;
-	if (at.box < 0)
+	if (at.box < 0 && !layout->title.width && !layout->label.width) /* the number in the gutter */
+		rect = GRAPHENE_RECT_INIT(4, layout->title_y - 16, RUNG_GUTTER - 8, 22);
+	else if (at.box < 0)
 		rect = GRAPHENE_RECT_INIT(RUNG_LEFT - 4, layout->title_y - 16,
 					  MAX(120, layout->title_x + layout->title.width - RUNG_LEFT + 8), 22);
 	else

@@ -164,7 +164,7 @@ static void tell_all(struct ldmicro_conversion *c)
 		for (int i = 0; i < c->program->rungs; i++)
 			tell_missing(c, c->program->rung[i].first);
 	c->w.at.line = 0;
-	w_tell(&c->w, REPORT_TAKEN, "%d rungs with %d elements", c->program->rungs, done);
+	w_tell(&c->w, REPORT_TAKEN, "rungs: %d, elements: %d", c->program->rungs, done);
 	for (int i = 0; i < c->program->settings; i++) {
 		c->w.at.line = c->program->setting[i].line;
 		w_tell(&c->w, REPORT_LOST, "it has no meaning here: %s",

@@ -223,23 +223,23 @@ static void report_counts(struct plcopen *c)
 	static const struct xml_node *const nowhere = NULL;
 
 	if (c->count.types)
-		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d types")),
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("types: %d")),
 			   c->count.types);
 	plc_report(c, REPORT_TAKEN, nowhere,
-		   report_said(c->report, REPORTED("%d POUs, %d variables")), c->count.pous,
+		   report_said(c->report, REPORTED("POUs: %d, variables: %d")), c->count.pous,
 		   c->count.variables);
 	if (c->count.own)
 		plc_report(c, REPORT_TAKEN, nowhere,
-			   report_said(c->report, REPORTED("%d POUs as they were exported, by the text beside their drawing")),
+			   report_said(c->report, REPORTED("POUs as they were exported, by the text beside their drawing: %d")),
 			   c->count.own);
 	if (c->count.rungs)
-		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d rungs")),
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("rungs: %d")),
 			   c->count.rungs);
 	if (c->count.networks)
-		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d networks")),
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("networks: %d")),
 			   c->count.networks);
 	if (c->count.steps)
-		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("%d steps")),
+		plc_report(c, REPORT_TAKEN, nowhere, report_said(c->report, REPORTED("steps: %d")),
 			   c->count.steps);
 }
 
