@@ -86,15 +86,7 @@ static void copy_clear(struct copy *copy)
 
 /* ---- the languages ---- */
 
-static char *as_ladder(struct copy *copy, enum pou_language to, struct diag_list *why)
-{
-	size_t len;
-
-	(void)to;
-	return ladder_export_chart(copy->ladder, copy->pou, &len, why);
-}
-
-/* Structured Text or networks. */
+/* Structured Text, networks or ladders. */
 static char *as_written(struct copy *copy, enum pou_language to, struct diag_list *why)
 {
 	size_t len;
@@ -119,7 +111,7 @@ static const struct row {
 	unsigned from, by_ladder;
 	char *(*write)(struct copy *copy, enum pou_language to, struct diag_list *why);
 } rows[] = {
-	{ LANGUAGE_LD, FROM(SFC), 0, as_ladder },
+	{ LANGUAGE_LD, FROM(SFC) | FROM(FBD), 0, as_written },
 	{ LANGUAGE_ST, FROM(LD) | FROM(FBD), FROM(SFC), as_written },
 	{ LANGUAGE_FBD, FROM(LD), FROM(SFC), as_written },
 	{ LANGUAGE_IL, FROM(LD) | FROM(FBD) | FROM(ST), FROM(SFC), as_list },

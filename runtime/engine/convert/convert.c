@@ -60,24 +60,43 @@ static bool put_heading(const struct sink *sink, const char *text, size_t len, c
 	return true;
 }
 
+static bool is_known(enum pou_language from, enum pou_language to)
+{
+	return (from == LANGUAGE_LD && (to == LANGUAGE_ST || to == LANGUAGE_FBD)) ||
+	       (from == LANGUAGE_FBD && (to == LANGUAGE_ST || to == LANGUAGE_LD));
+}
+
+static bool refuse_language(const struct acts *acts, const struct pou *pou, enum pou_language to)
+{
+	const char *name = project_text(acts->project, pou->name);
+
+	return diag_add(acts->diags, (struct diag){ .id = DIAG_CONVERT_LANGUAGE, .file = pou->file, .line = pou->line,
+						    .pou = name },
+			"%s" DIAG_AND "%s" DIAG_AND "%s", name, pou_language_word(pou->language),
+			pou_language_word(to));
+}
+
 static bool put_pou(struct acts *acts, int number, const char *text, const struct places *places,
 		    enum pou_language to, const struct sink *sink)
 {
 	const struct pou *pou = &acts->project->pou[number];
 	const struct text_span *whole = &places->pou[number], *body = &places->body[number];
 
+	if (!is_known(pou->language, to))
+		return refuse_language(acts, pou, to);
 	return put_heading(sink, text + whole->at, body->at - whole->at,
 			   pou_language_word(pou->language), to) &&
 	       convert_one(acts, pou, to, sink);
 }
 
 /* POUs stand in the text in the order of their places, which need not be that of their numbers. */
-static int next_pou(const struct places *places, const uint8_t *wanted, size_t at)
+static int next_pou(const struct project *project, const struct places *places, const uint8_t *wanted,
+		    enum pou_language to, size_t at)
 {
 	int found = -1;
 
 	for (int i = 0; i < places->count; i++)
-		if (wanted[i] && places->body[i].len + places->pou[i].len && places->pou[i].at >= at &&
+		if (wanted[i] && project->pou[i].language != to && places->body[i].len + places->pou[i].len && places->pou[i].at >= at &&
 		    (found < 0 || places->pou[i].at < places->pou[found].at))
 			found = i;
 	return found;
@@ -91,7 +110,7 @@ static bool put_all(struct project *project, struct scope *scope, struct arena *
 	bool good = expr != NULL;
 	size_t at = 0;
 
-	for (int i; expr && (i = next_pou(places, wanted, at)) >= 0;) {
+	for (int i; expr && (i = next_pou(project, places, wanted, to, at)) >= 0;) {
 		struct acts acts = { .project = project, .scope = scope, .arena = arena, .diags = diags,
 				     .expr = expr };
 

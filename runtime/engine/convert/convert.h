@@ -15,7 +15,7 @@
 /**
  * convert_to - the text of @project with POUs in another language
  * @project: without errors; its table of names grows
- * @wanted:  a byte a POU: 1 for those that are converted
+ * @wanted:  a byte a POU: 1 for those that are converted; one in the language @to stays as it is
  * @to:      LANGUAGE_ST: ladders and networks; LANGUAGE_FBD: ladders; LANGUAGE_LD: networks
  * @sink:    gets the text, which is not canonical
  * @diags:   gets LD780 to LD787 with their places

@@ -108,7 +108,7 @@ static void test_one(const char *name, enum pou_language to, bool should)
 static void test_all(void)
 {
 	static const struct { const char *name, *to; } pous[] = {
-		{ "Rungs", "ISF" }, { "Nets", "IS" }, { "Chart", "LISF" }, { "Lines", "I" }, { "List", "" },
+		{ "Rungs", "ISF" }, { "Nets", "LIS" }, { "Chart", "LISF" }, { "Lines", "I" }, { "List", "" },
 	};
 	static const char letters[] = "LICSF";
 

@@ -168,5 +168,23 @@ def dark(screen):
     editor.finish()
 
 
+def networks(screen):
+    """a ladder as networks and back: the same one"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+1')
+    says(editor, '“Main” as FBD, read-only')
+    editor.shot('show-networks')
+    editor.find('Convert to networks', 'push button').press()
+    says(editor, '“Main” is in FBD now')
+    text = editor.save(path)
+    assert 'PROGRAM Main FBD\n' in text and 'Motor := (Start OR Motor) AND NOT Stop\n' in text, text
+    editor.command('Convert to ladder')
+    says(editor, '“Main” is in LD now')
+    assert editor.save(path) == PROGRAM
+    editor.finish()
+
+
 if __name__ == '__main__':
-    main([shown, converted, refused, chinese, dark])
+    main([shown, converted, refused, networks, chinese, dark])
