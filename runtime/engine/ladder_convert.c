@@ -61,8 +61,9 @@ static uint8_t *wanted_again(const struct project *was, const uint8_t *wanted, c
 		const char *name = project_text(is, pou->name);
 		const int at = project_find_pou(was, name, strlen(name));
 
-		again[i] = pou->language != to && pou->language != LANGUAGE_SFC && !pou->included &&
-			   (at >= 0 ? wanted[at] : 1);
+		/* A condition or a body that was a list of the chart stays one. */
+		again[i] = (pou->language == LANGUAGE_LD || pou->language == LANGUAGE_FBD) && pou->language != to &&
+			   !pou->included && (at >= 0 ? wanted[at] : 1);
 	}
 	return again;
 }
