@@ -297,9 +297,21 @@ static GtkWidget *cards_new(void)
 	return cards;
 }
 
+static int depth(const char *path)
+{
+	int count = 0;
+
+	for (; *path; path++)
+		count += *path == G_DIR_SEPARATOR;
+	return count;
+}
+
+/* Samples in folders of their own come last. */
 static int by_name(gconstpointer a, gconstpointer b)
 {
-	return strcmp(*(char *const *)a, *(char *const *)b);
+	const char *x = *(char *const *)a, *y = *(char *const *)b;
+
+	return depth(x) != depth(y) ? depth(x) - depth(y) : strcmp(x, y);
 }
 
 /* The sample of an entry of the folder: a rung file, a folder of plain IEC text, or the rung file of a folder that has its
@@ -361,7 +373,7 @@ static GtkWidget *scrolled(GtkWidget *groups)
 GtkWidget *welcome_new(void)
 {
 	GtkWidget *page = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	GtkWidget *groups = gtk_box_new(GTK_ORIENTATION_VERTICAL, 24);
+	GtkWidget *groups = gtk_box_new(GTK_ORIENTATION_VERTICAL, 14);
 	GtkWidget *begin = add_group(groups, _("Begin"), ROWS_WIDE);
 
 	add_row(begin, _("New project"), _("An empty sheet. Type a name to make a contact."),
@@ -370,6 +382,8 @@ GtkWidget *welcome_new(void)
 		"win.begin-chart", NULL);
 	add_row(begin, _("New project in Structured Text"), _("Statements and expressions as text."),
 		"win.begin-statements", NULL);
+	add_row(begin, _("New project with networks"), _("Boxes and wires: a Function Block Diagram."),
+		"win.begin-networks", NULL);
 	add_row(begin, _("Open a file…"), _("Rung files; IEC text: .st, .iec, .il, .EXP, .TcPOU"),
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),

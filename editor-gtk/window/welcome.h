@@ -9,7 +9,7 @@
 
 #include <gtk/gtk.h>
 
-/** welcome_new - its rows activate win.begin, win.begin-chart, win.open, win.import-project,
+/** welcome_new - its rows activate win.begin, win.begin-chart, win.begin-statements, win.begin-networks, win.open, win.import-project,
  * win.open-path and win.open-sample. */
 GtkWidget *welcome_new(void);
 

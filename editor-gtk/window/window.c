@@ -53,8 +53,9 @@
 
 #include <string.h>
 
-/* New projects with a chart, or with statements. */
+/* New projects with a chart, with networks, or with statements. */
 #define CHART "RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n"
+#define NETWORKS "RUNGBOARD 1\n\nPROGRAM Main FBD\nNETWORK\nEND_PROGRAM\n"
 #define STATEMENTS "RUNGBOARD 1\n\nPROGRAM Main ST\nEND_PROGRAM\n"
 #define ABOVE_SIDE 80 /* px of heading and status bar                              */
 #define DISK_SECONDS 2 /* between checks for changed files                     */
@@ -725,12 +726,13 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 				      strcmp(name, "win.open-sample") == 0);
 }
 
-/* From the welcome page to the empty sheet, or to an empty chart or text in its place. */
+/* From the welcome page to the empty sheet, or to an empty chart, network or text in its place. */
 static void begin(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderWindow *window = LADDER_WINDOW(widget);
 	AdwTabPage *page = front_tab(&window->front);
 	const char *text = strcmp(action, "win.begin-chart") == 0 ? CHART :
+			   strcmp(action, "win.begin-networks") == 0 ? NETWORKS :
 			   strcmp(action, "win.begin-statements") == 0 ? STATEMENTS : NULL;
 
 	(void)unused;
@@ -832,6 +834,7 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-statements", NULL, begin);
+	gtk_widget_class_install_action(class, "win.begin-networks", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.place-part", "i", place_part);

@@ -16,6 +16,7 @@
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/kit/memory.h"
 #include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/fbd/fbd_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/bench/editor_ground.h"
@@ -450,7 +451,7 @@ static void past(GtkWidget *window, LadderSim *sim)
 	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
 }
 
-/* ---- a chart, a list ---- */
+/* ---- a chart, networks, a list ---- */
 
 #define SOME_ROUNDS 40
 
@@ -466,6 +467,12 @@ static void edit_chart(GtkWidget *chart, int round)
 {
 	(void)round;
 	ladder_canvas_do(LADDER_CANVAS(chart), VERB_step_below);
+}
+
+static void edit_networks(GtkWidget *networks, int round)
+{
+	(void)round;
+	ladder_canvas_do(LADDER_CANVAS(networks), VERB_network_below);
 }
 
 static void measure_one(GtkWidget *widget, const char *name,
@@ -619,7 +626,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	const gint64 begin = g_get_monotonic_time(), begun = worked();
 	LadderDocument *document = ladder_document_new();
 	LadderWindow *window;
-	GtkWidget *sheet, *chart;
+	GtkWidget *sheet, *chart, *networks;
 
 	if (!ladder_document_open(document, path, NULL))
 		exit(2);
@@ -637,6 +644,13 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	if (chart) {
 		measure_one(chart, "Scrolling", scroll_chart);
 		measure_one(chart, "A step more", edit_chart);
+		g_object_unref(document);
+		return;
+	}
+	networks = find(GTK_WIDGET(window), LADDER_TYPE_FBD_VIEW);
+	if (networks) {
+		measure_one(networks, "Scrolling", scroll_chart);
+		measure_one(networks, "A network more", edit_networks);
 		g_object_unref(document);
 		return;
 	}

@@ -304,6 +304,23 @@ def statements(screen):
     check(path)
 
 
+def networks(screen):
+    """a project with networks is begun from the welcome page; what is typed next is its first box"""
+    path = os.path.join(screen.home, 'fill.rung')
+    editor = Editor(screen)
+    editor.click(editor.find('New project with networks', 'label'))
+    until(lambda: not editor.all('Samples, opened as copies'), 'the page to be gone')
+    until(lambda: [node for node in editor.all('Networks') if node.name == 'Networks' and node.has(12)], 'the keys in the networks')
+    editor.type('A')
+    editor.opened()
+    editor.entry('ND')
+    until(lambda: editor.all('AND, executed as number 1'), 'the box')
+    editor.shot('begin-networks')
+    editor.give_path(path, 'ctrl+s')
+    until(lambda: os.path.exists(path) and 'PROGRAM Main FBD' in open(path).read(), 'the network in the file')
+    editor.finish()
+
+
 def searched(screen):
     """the palette finds an element by its word or its description; Return puts it at the cursor, Escape ends the search"""
     path = new_file(screen, PROGRAM)
@@ -403,4 +420,4 @@ def tables(screen):
 
 
 if __name__ == "__main__":
-    main([sample, cards, folder, parts, belongings, killed, lately, only_projects, empty, statements, searched, folded, tables])
+    main([sample, cards, folder, parts, belongings, killed, lately, only_projects, empty, statements, networks, searched, folded, tables])
