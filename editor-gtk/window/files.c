@@ -43,6 +43,8 @@ static void add_all(GtkFileChooser *chooser)
 	gtk_file_filter_add_pattern(filter, "*.clprjz");
 	gtk_file_filter_add_pattern(filter, "*.clp");
 	gtk_file_filter_add_pattern(filter, "*.ld");
+	gtk_file_filter_add_pattern(filter, "*.xml");
+	gtk_file_filter_add_pattern(filter, "project.json");
 	for (int i = 0; plain_file_patterns[i]; i++)
 		gtk_file_filter_add_pattern(filter, plain_file_patterns[i]);
 	gtk_file_chooser_add_filter(chooser, filter);

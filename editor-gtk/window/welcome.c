@@ -386,7 +386,7 @@ GtkWidget *welcome_new(void)
 		"win.begin-networks", NULL);
 	add_row(begin, _("Open a file…"), _("Rung files; IEC text: .st, .iec, .il, .EXP, .TcPOU"),
 		"win.open", NULL);
-	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
+	add_row(begin, _("Import…"), _("Projects of ClassicLadder, OpenPLC and LDmicro; PLCopen XML"),
 		"win.import-project", NULL);
 	add_row(begin, _("Compare files…"), _("What differs between two versions of a project."),
 		"win.compare_files", NULL);
