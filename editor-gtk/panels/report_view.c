@@ -76,7 +76,9 @@ static void put_pair(LadderReportView *view, struct picture *picture,
 
 static void put_drawn(LadderReportView *view, struct picture *picture, struct lettering *lettering)
 {
-	char *name = g_path_get_basename(ladder_origin_path(view->origin));
+	char *file = g_path_get_basename(ladder_origin_path(view->origin));
+	/* A project of OpenPLC Editor has a file for each POU. */
+	const char *name = g_str_has_suffix(file, ".xml") ? file : view->drawn->pou;
 	const struct original_scene scene = {
 		.drawing = view->drawn, .lettering = lettering, .theme = theme_screen(), .name = name,
 		.project = ladder_document_project(view->document),
@@ -85,7 +87,7 @@ static void put_drawn(LadderReportView *view, struct picture *picture, struct le
 	};
 
 	original_pair(&scene, picture);
-	g_free(name);
+	g_free(file);
 }
 
 static void draw(gpointer data, struct picture *picture, struct lettering *lettering)

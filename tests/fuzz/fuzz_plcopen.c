@@ -7,6 +7,7 @@
  * is a drawing: four bytes an element, its kind, its localId, and two that say what leads to it. So there are
  * circles, numbers that stand twice, connections to nothing, pins that nobody has.
  */
+#include "engine/exchange/plcopen/xml_tree.h"
 #include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -154,7 +155,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 		fuzz_expect(ladder_diags(ladder)->errors > 0, "a refused file has an error");
 	else if (!ladder_build(ladder))
 		fuzz_expect(ladder_diags(ladder)->errors > 0, "no program, no error");
-	else if (ladder_project(ladder) && is_printable(text, size))
+	else if (xml_is_built() && ladder_project(ladder) && is_printable(text, size))
 		come_back(ladder);
 	free(drawing);
 	ladder_free(ladder);

@@ -3,6 +3,7 @@
 """foreign - projects of other tools: PLCopen XML, LDmicro, OpenPLC Editor: the report, where its lines lead, the
 original beside the result, dropping, choosing, saving."""
 import os
+import re
 import shutil
 import sys
 
@@ -11,6 +12,7 @@ from classic import can_drag, source  # noqa: E402
 from desk import LADDER, ROOT, Editor, check, main, new_file, sh, until  # noqa: E402
 
 XML = os.path.join(ROOT, 'tests', 'editor', 'person', 'foreign.xml')
+LDMICRO = os.path.join(ROOT, 'tests', 'fuzz', 'corpus', 'ldmicro', 'pump.ld'), 'pump.ld'
 LOST = 'the element unheard "of" is left out'
 
 
@@ -27,6 +29,17 @@ def opened(screen, path=XML, **env):
     editor = Editor(screen, own, **env)
     until(lambda: editor.all(os.path.basename(path) + ': '), 'the message')
     return editor
+
+
+def plant(screen):
+    """The project of docs/from-openplc.md."""
+    with open(os.path.join(ROOT, 'docs', 'from-openplc.md')) as page:
+        files = re.findall(r'^```text (\S+)\n(.*?)^```', page.read(), re.M | re.S)
+    for name, text in files:
+        path = os.path.join(screen.home, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        new_file(screen, text, name)
+    return os.path.join(screen.home, files[0][0])
 
 
 def original(screen):
@@ -64,5 +77,28 @@ def saved(screen):
     assert sh(LADDER, 'trace', '--changes', path, script) == sh(LADDER, 'trace', '--changes', XML, script)
 
 
+def chosen(screen):
+    """a program of LDmicro and a project of OpenPLC Editor, chosen in Open: their reports, a line that leads to its place"""
+    for path, name in LDMICRO, (plant(screen), 'project.json'):
+        editor = Editor(screen)
+        editor.give_path(path, 'ctrl+o')
+        until(lambda: editor.all(name + ': '), 'the message')
+        editor.click(editor.find('Show report', 'push button'))
+        line = editor.find('Taken: ', 'table row')
+        assert line
+        editor.shot('foreign-' + name)
+        editor.finish()
+
+
+def dropped(screen):
+    """dropped XML opens in this window, as a file of another tool"""
+    path = shutil.copy(XML, screen.home)
+    editor = Editor(screen)
+    start = source(screen, path)
+    editor.drag(start, editor.centre(editor.find('Project')))
+    until(lambda: editor.all('foreign.xml: '), 'the message')
+    until(lambda: any('Stop' in name for name in editor.cells()), 'the sheet')
+
+
 if __name__ == '__main__':
-    main([original, saved] if reads_xml() else [])
+    main([original, saved, chosen] + ([dropped] if can_drag() else []) if reads_xml() else [])

@@ -592,6 +592,8 @@ static bool convert(struct openplc *c)
 		return false;
 	import->text = (struct foreign_text){ .text = out.text, .len = out.len };
 	import->drawings = out.drawings;
+	for (int i = 0; i < out.drawings.count; i++)
+		out.drawings.one[i].line = place_of(c, out.drawings.one[i].line).line;
 	for (int i = 0; i < out.lines; i++) {
 		struct foreign_place *slot = arena_push(import->arena, &import->text.place, &import->text.lines,
 							sizeof(*slot));

@@ -2,8 +2,8 @@
  *
  * plcopen_picture - what stands where in a network, for whoever shows it beside the result.
  *
- * Coordinates are read for this alone. A network whose elements all stand at one place has no picture: its
- * tool lays it out anew each time.
+ * Coordinates are read for this alone. A network with two elements at one place has no picture: its tool
+ * lays it out anew each time.
  */
 #include "engine/exchange/plcopen/plcopen_graph.h"
 
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIN_STEP = 20, PIN_FIRST = 30, MOST_POINTS = 200 };
+enum { PIN_STEP = 20, PIN_FIRST = 30, MOST_POINTS = 200, MOST_SHAPES = 2000 };
 
 struct sketch {
 	struct plcopen *c;
@@ -199,15 +199,31 @@ static void reach(int *least, int *most, int from, int to)
 	*most = to > *most ? to : *most;
 }
 
-/* To the left top; false: all stand at one place, or too far from one another. */
+/* Two elements at one place: nobody has placed them. */
+static bool is_placed(const struct drawing *to)
+{
+	int drawn = 0;
+
+	if (to->shapes > MOST_SHAPES)
+		return false;
+	for (int i = 0; i < to->shapes; i++) {
+		drawn += to->shape[i].kind != DRAWN_RAIL;
+		for (int k = 0; k < i && to->shape[i].kind != DRAWN_RAIL; k++)
+			if (to->shape[k].kind != DRAWN_RAIL && to->shape[k].x == to->shape[i].x &&
+			    to->shape[k].y == to->shape[i].y)
+				return false;
+	}
+	return drawn > 1;
+}
+
+/* To the left top; false: the elements are too far from one another. */
 static bool settle(struct drawing *to)
 {
-	int left = INT_MAX, top = INT_MAX, right = INT_MIN, bottom = INT_MIN, places = 0;
+	int left = INT_MAX, top = INT_MAX, right = INT_MIN, bottom = INT_MIN;
 
 	for (int i = 0; i < to->shapes; i++) {
 		const struct drawn_shape *shape = &to->shape[i];
 
-		places += shape->x != to->shape[0].x || shape->y != to->shape[0].y;
 		reach(&left, &right, shape->x, shape->x + shape->width);
 		reach(&top, &bottom, shape->y, shape->y + shape->height);
 	}
@@ -217,7 +233,7 @@ static bool settle(struct drawing *to)
 		reach(&left, &right, to->wire[i].x2, to->wire[i].x1);
 		reach(&top, &bottom, to->wire[i].y2, to->wire[i].y1);
 	}
-	if (!places || right - left > 20000 || bottom - top > 20000)
+	if (right - left > 20000 || bottom - top > 20000)
 		return false;
 	for (int i = 0; i < to->shapes; i++) {
 		to->shape[i].x -= left;
@@ -259,7 +275,7 @@ void plc_picture(struct plcopen *c, const struct plc_graph *graph, const struct 
 	for (int i = 0; i < graph->elements; i++)
 		if (graph->element[i].kind == PLC_LEFT)
 			add_rail(&s, i);
-	if (!drawing.shapes || !settle(&drawing))
+	if (!is_placed(&drawing) || !settle(&drawing))
 		return;
 	added = arena_push(c->arena, &c->drawings.one, &c->drawings.count, sizeof(*added));
 	if (added)
