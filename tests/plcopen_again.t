@@ -101,6 +101,18 @@ for my $sample (@samples) {
 	is(slurp('bare3.rung'), slurp('bare.rung'), "$name: and stays the same from then on");
 }
 
+# VAR_CONFIG is in the format itself.
+{
+	system("$ladder export --as plcopen '$tests/golden/config-located/main.rung' -o located.xml 2>trouble");
+	is(PlcopenShape::wrong(slurp('located.xml')), '', 'VAR_CONFIG: the XML is as TC6 2.01 has it');
+	spew('bare.xml', bare(slurp('located.xml')));
+	system("$ladder import bare.xml -o bare.rung >trouble 2>&1");
+	my ($was) = slurp("$tests/golden/config-located/main.rung") =~ /^\s*VAR_CONFIG\n(.*?)^\s*END_VAR/ms;
+	my ($is) = slurp('bare.rung') =~ /^VAR_CONFIG\n(.*?)^END_VAR/ms;
+	# Each comment in its own form.
+	is($is =~ s/\s+/ /gr =~ s/\(\* (.*?) \*\)/\/\/ $1/gr, $was =~ s/\s+/ /gr, 'VAR_CONFIG comes back from the XML alone');
+}
+
 # The look at the XML notices what is wrong: each of these changes of a good one.
 my $good = slurp('first.xml');
 for ([qr/ localId="\d+"/, ''], [qr/ (?:x|y)="\d+"\/>/, '/>'], [qr/<position [^>]*>/, ''], [qr/<connectionPointOut\/>/, '<connectionPointOut/><connectionPointOut/>'],

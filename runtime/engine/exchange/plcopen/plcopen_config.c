@@ -129,9 +129,11 @@ static void put_access(struct plcopen *c, struct xml_node *list)
 		each->taken = true;
 		c->at = each->line;
 		direction = xml_take(each, "direction");
-		plc_put(c, "  %s : %s : %s%s;\n", xml_take(each, "alias"),
+		plc_put(c, "  %s : %s : %s%s;", xml_take(each, "alias"),
 			xml_take(each, "instancePathAndName"), plc_type(c, xml_child(each, "type")),
 			direction && !strcmp(direction, "readWrite") ? " READ_WRITE" : " READ_ONLY");
+		plc_comment(c, plc_documentation(c, each));
+		plc_put(c, "\n");
 	}
 	plc_put(c, "END_VAR\n");
 }
@@ -151,10 +153,12 @@ static void put_located(struct plcopen *c, struct xml_node *list)
 		c->at = each->line;
 		address = xml_take(each, "address");
 		value = plc_value(c, each);
-		plc_put(c, "  %s%s%s : %s%s%s;\n", xml_take(each, "instancePathAndName"),
+		plc_put(c, "  %s%s%s : %s%s%s;", xml_take(each, "instancePathAndName"),
 			address && *address ? " AT " : "", address ? address : "",
 			plc_type(c, xml_child(each, "type")), value ? " := " : "",
 			value ? value : "");
+		plc_comment(c, plc_documentation(c, each));
+		plc_put(c, "\n");
 	}
 	plc_put(c, "END_VAR\n");
 }

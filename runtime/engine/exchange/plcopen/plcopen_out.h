@@ -58,6 +58,8 @@ const char *plco_print(struct out *out, const char *format, ...)
 /* ---- plcopen_write_types.c ---- */
 /** plco_type - <name>…</name> with the type of @var. */
 void plco_type(struct out *out, const char *name, const struct var *var);
+/** plco_initial - its initial value; nothing if it has none. */
+void plco_initial(struct out *out, const struct var *var);
 /** plco_variables - all blocks of a table, as lists of an interface. */
 void plco_variables(struct out *out, const struct var_table *table);
 /** plco_block - one block as the list @element. */

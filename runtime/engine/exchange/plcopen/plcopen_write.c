@@ -237,9 +237,35 @@ static void put_access(struct out *out)
 		put_attribute(out, "direction", access->writes ? "readWrite" : "readOnly");
 		sink_text(&out->sink, ">\n");
 		plco_type(out, "type", &access->var);
+		plco_documentation(out, plco_id(out, access->var.comment));
 		plco_close(out, "accessVariable");
 	}
 	plco_close(out, "accessVars");
+}
+
+/* VAR_CONFIG: places and values of variables of instances. */
+static void put_located(struct out *out)
+{
+	const struct var_table *located = &out->project->located;
+
+	if (!located->count)
+		return;
+	plco_open(out, "configVars");
+	for (int i = 0; i < located->count; i++) {
+		const struct var *var = &located->var[i];
+
+		sink_repeat(&out->sink, "  ", out->depth++);
+		sink_text(&out->sink, "<configVariable");
+		put_attribute(out, "instancePathAndName", plco_id(out, var->name));
+		if (var->at_text)
+			put_attribute(out, "address", plco_id(out, var->at_text));
+		sink_text(&out->sink, ">\n");
+		plco_type(out, "type", var);
+		plco_initial(out, var);
+		plco_documentation(out, plco_id(out, var->comment));
+		plco_close(out, "configVariable");
+	}
+	plco_close(out, "configVars");
 }
 
 static void report_config(struct out *out, const struct config *config)
@@ -250,9 +276,6 @@ static void report_config(struct out *out, const struct config *config)
 		if (entry->kind == CONFIG_AREA)
 			plco_lost(out, REPORT_LOST, entry->line, 0, "%s", report_said(out->report,
 				 REPORTED("the format has no sizes of memory areas: AREA is left out")));
-		else if (entry->kind == CONFIG_LOCATED)
-			plco_lost(out, REPORT_LOST, entry->line, 0, "%s", report_said(out->report,
-				 REPORTED("VAR_CONFIG is left out")));
 	}
 }
 
@@ -268,6 +291,7 @@ static void put_configuration(struct out *out)
 		put_resource(out, config);
 		put_globals(out);
 		put_access(out);
+		put_located(out);
 		plco_close(out, "configuration");
 	}
 	report_config(out, config);

@@ -335,7 +335,7 @@ void plco_type(struct out *out, const char *name, const struct var *var)
 	put_inner_type(out, name, type_text(out, var), 0);
 }
 
-static void put_initial(struct out *out, const struct var *var)
+void plco_initial(struct out *out, const struct var *var)
 {
 	struct sink_memory memory;
 	struct sink sink;
@@ -365,7 +365,7 @@ static void put_variable(struct out *out, const struct var *var)
 	sink_text(&out->sink, "\">\n");
 	out->depth++;
 	plco_type(out, "type", var);
-	put_initial(out, var);
+	plco_initial(out, var);
 	if (var->edge)
 		plco_lost(out, REPORT_LOST, var->line, 0, report_said(out->report,
 			 REPORTED("the format has no inputs with edges: \"%s\" is a plain one")), plco_id(out, var->name));
@@ -427,7 +427,7 @@ void plco_types(struct out *out)
 			continue;
 		plco_named(out, "dataType", "name", plco_id(out, project->named[i].name), false);
 		plco_type(out, "baseType", var);
-		put_initial(out, var);
+		plco_initial(out, var);
 		plco_documentation(out, plco_id(out, var->comment));
 		plco_close(out, "dataType");
 	}
