@@ -81,7 +81,7 @@ def in_sight(editor, name):
     """A card of the welcome page; the wheel brings it into sight."""
     def look():
         card = editor.find(name, 'label')
-        if editor.centre(card)[1] < 750:
+        if editor.centre(card)[1] < 850:
             return card
         sh('xdotool', 'mousemove', '800', '400', 'click', '5')
         return None
