@@ -27,7 +27,7 @@ runtime/engine/exchange/classic engine/base engine/model engine/check engine/tex
 runtime/engine/exchange/iec_file engine/base engine/text
 runtime/engine/exchange/ldmicro engine/base engine/exchange
 runtime/engine/exchange/openplc engine/base engine/exchange engine/exchange/plcopen
-runtime/engine/exchange/plcopen engine/base engine/model engine/exchange engine/check engine/text
+runtime/engine/exchange/plcopen engine/base engine/model engine/exchange engine/check engine/text engine/xref
 runtime/engine/exchange/image engine/base engine/scan engine/exchange
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def
 runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/convert engine/exchange engine/exchange/classic engine/exchange/iec_file engine/exchange/plcopen engine/trial

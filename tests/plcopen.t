@@ -213,6 +213,48 @@ for my $name (qw(types kinds boxes chart config)) {
 	is("@missing", '', "$name: all variables are there");
 }
 
+# ---- the interface tells the globals that a body uses ----
+spew('globals.rung', <<'END');
+RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Level : INT;
+  Never : BOOL;
+  Delay : TON;
+  Odd   : INT (0..9);
+END_VAR
+VAR CONSTANT
+  Most : INT := 7;
+END_VAR
+
+PROGRAM Main LD
+VAR
+  Own : BOOL;
+END_VAR
+RUNG
+  | NO Start | [ Level > Most ] | TON Delay PT:=T#1s | COIL Own |
+RUNG
+  | NO Own | [ Odd := Odd + 1 ] |
+END_PROGRAM
+
+PROGRAM Other ST
+VAR_EXTERNAL
+  Start : BOOL;
+END_VAR
+  IF Start AND Delay.Q THEN
+    Level := 1;
+  END_IF;
+END_PROGRAM
+END
+my ($told, $exported) = answer("$ladder export --as plcopen globals.rung -o globals.xml");
+is($exported, 0, 'globals are exported') or diag $told;
+my %uses = slurp('globals.xml') =~ m{<pou name="(\w+)".*?<interface>(.*?)</interface>}gs;
+my %lists = map { my $pou = $_; $pou => join ' ', map { my ($constant, $list) = /^( constant="true")?>(.*)/s;
+	($constant ? 'constant:' : ()), $list =~ /<variable name="(\w+)"/g } $uses{$pou} =~ m{<externalVars(.*?)</externalVars>}gs } keys %uses;
+is($lists{Main}, 'Start Level Delay constant: Most', 'each once; none that it does not use; none whose type has no name');
+is($lists{Other}, 'Start Level Delay', 'beside those that it tells itself');
+
 # ---- hostile files ----
 for my $name (qw(kinds chart)) {
 	my $xml = slurp("$name.xml");

@@ -881,13 +881,7 @@ char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
 
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags)
 {
-	return ladder_export_chart(ladder, -1, len, diags);
-}
-
-char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct diag_list *diags)
-{
 	struct project *project = ladder_project(ladder);
-	uint8_t *wanted = project ? calloc((size_t)project->pou_count + 1, 1) : NULL;
 	struct sink_memory memory;
 	struct sink sink;
 	bool good;
@@ -896,11 +890,7 @@ char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct di
 		return NULL;
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	memory.failed = !wanted;
-	if (wanted && pou >= 0)
-		wanted[pou] = 1;
-	good = wanted && sfc_ladder(project, pou >= 0 ? wanted : NULL, &sink, diags);
-	free(wanted);
+	good = sfc_ladder(project, NULL, &sink, diags);
 	if (good && !memory.failed) {
 		*len = memory.len;
 		return memory.text;

@@ -233,8 +233,6 @@ char *ladder_write_source(struct ladder *ladder, int number, size_t *len);
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
-/** ladder_export_chart - the same with the chart of POU @pou alone; -1: all. Owns and fails likewise. */
-char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct diag_list *diags);
 /**
  * ladder_export_as - the project with POUs in another language (convert/convert.h)
  * @wanted: a byte a POU: 1 for one that is converted
@@ -247,8 +245,6 @@ char *ladder_export_chart(struct ladder *ladder, int pou, size_t *len, struct di
  */
 char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_language to, size_t *len,
 		       struct diag_list *diags);
-/** ladder_export_st - the same with LANGUAGE_ST. */
-char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags);
 /**
  * ladder_export_lists - the project with the lists that run, in canonical form
  * @wanted: a byte a POU; NULL: all of them, with those of files that the project names

@@ -139,11 +139,6 @@ char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_la
 	return project ? convert_bodies(ladder, wanted, to, len, diags) : NULL;
 }
 
-char *ladder_export_st(struct ladder *ladder, const uint8_t *wanted, size_t *len, struct diag_list *diags)
-{
-	return ladder_export_as(ladder, wanted, LANGUAGE_ST, len, diags);
-}
-
 char *ladder_export_lists(struct ladder *ladder, const uint8_t *wanted, size_t *len)
 {
 	struct project *project = ladder_project(ladder);

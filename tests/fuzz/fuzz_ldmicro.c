@@ -23,10 +23,10 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 static long told(const struct classic_report *report)
 {
 	for (int i = 0; i < report->count; i++) {
-		const char *with = strstr(report->line[i].text, " rungs with ");
+		const char *with = strstr(report->line[i].text, ", elements: ");
 
 		if (report->line[i].kind == REPORT_TAKEN && with)
-			return strtol(with + strlen(" rungs with "), NULL, 10);
+			return strtol(with + strlen(", elements: "), NULL, 10);
 	}
 	return -1;
 }

@@ -19,7 +19,9 @@ import time
 import traceback
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'online'))
 from board import MODBUS, Board, crc, free_port, until  # noqa: E402
+from link import in_front  # noqa: E402
 if not os.access(MODBUS, os.X_OK):
     print('1..0 # SKIP ladder-modbus is not built: it needs libmodbus')
     sys.exit(0)
@@ -787,6 +789,7 @@ def main():
         tests = [(name, test) for name, test in tests if name in sys.argv[1:]]
     print(f'1..{len(tests)}', flush=True)
     failed = 0
+    in_front()
     for number, (name, test) in enumerate(tests, 1):
         began = time.monotonic()
         try:

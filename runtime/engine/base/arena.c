@@ -27,8 +27,8 @@ struct arena_chunk {
 #ifndef MADV_HUGEPAGE
 #define MADV_HUGEPAGE MADV_NORMAL
 #endif
-#ifdef RUNGBOARD_SMALL
-#define MAPS 0 /* no MMU, or nothing so large                              */
+#if defined(RUNGBOARD_SMALL) || defined(__SANITIZE_ADDRESS__)
+#define MAPS 0 /* no MMU, or nothing so large; a sanitizer follows pointers from the heap alone */
 #else
 #define MAPS 1
 #endif

@@ -136,7 +136,7 @@ def over_an_edit(screen):
     # The past accepts no edits and no values.
     editor.click(editor.beside(editor.element('NO', 'Start')))
     editor.keys('space')
-    editor.says('This is the program before an edit')
+    editor.says('This page is read-only')
     editor.keys('Delete', 'a')
     editor.element('NO', 'Start', 'closed')
     editor.keys('alt+Right', 'alt+Right', 'alt+Right', 'alt+Right')

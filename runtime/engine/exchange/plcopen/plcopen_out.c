@@ -100,6 +100,21 @@ void plco_text(struct out *out, const char *name, const char *text)
 	sink_printf(&out->sink, "</%s>\n", name);
 }
 
+/* XML has no control characters. */
+static void put_allowed(struct out *out, const char *text, size_t len)
+{
+	const char *plain = text, *end = text + len;
+
+	for (; text < end; text++) {
+		if ((unsigned char)*text >= ' ' || *text == '\n' || *text == '\t' || *text == '\r')
+			continue;
+		sink_write(&out->sink, plain, (size_t)(text - plain));
+		sink_text(&out->sink, "?");
+		plain = text + 1;
+	}
+	sink_write(&out->sink, plain, (size_t)(end - plain));
+}
+
 void plco_formatted(struct out *out, const char *name, const char *text)
 {
 	const char *end;
@@ -108,11 +123,11 @@ void plco_formatted(struct out *out, const char *name, const char *text)
 	sink_repeat(&out->sink, "  ", out->depth);
 	sink_text(&out->sink, "<xhtml:p><![CDATA[");
 	while ((end = strstr(text, "]]>"))) {
-		sink_write(&out->sink, text, (size_t)(end - text) + 2);
+		put_allowed(out, text, (size_t)(end - text) + 2);
 		sink_text(&out->sink, "]]><![CDATA[");
 		text = end + 2;
 	}
-	sink_text(&out->sink, text);
+	put_allowed(out, text, strlen(text));
 	sink_text(&out->sink, "]]></xhtml:p>\n");
 	plco_close(out, name);
 }

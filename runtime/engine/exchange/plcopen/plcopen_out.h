@@ -24,6 +24,7 @@ struct out {
 	int order;              /* executionOrderIds given in this body           */
 	bool numbered;          /* the elements of this body have their numbers     */
 	int y;                  /* where the next rung or network begins          */
+	uint8_t *used;          /* by POU and global variable: does its body name it? */
 	uint64_t *digest;       /* of each POU: that of its element; 0: it has none */
 };
 
@@ -58,6 +59,9 @@ const char *plco_print(struct out *out, const char *format, ...)
 /* ---- plcopen_write_types.c ---- */
 /** plco_type - <name>…</name> with the type of @var. */
 void plco_type(struct out *out, const char *name, const struct var *var);
+/** plco_type_is_named - has its type no list of values and no range of its own? Another declaration can have the
+ * same type then. */
+bool plco_type_is_named(struct out *out, const struct var *var);
 /** plco_initial - its initial value; nothing if it has none. */
 void plco_initial(struct out *out, const struct var *var);
 /** plco_variables - all blocks of a table, as lists of an interface. */

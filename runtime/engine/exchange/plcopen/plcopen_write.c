@@ -6,9 +6,11 @@
 #include "engine/exchange/plcopen/plcopen_out.h"
 
 #include "engine/text/text.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char *or_else(const char *text, const char *otherwise)
 {
@@ -133,6 +135,64 @@ static const char *type_word(const struct pou *pou)
 	return pou->kind == POU_FUNCTION ? "function" : pou->kind == POU_BLOCK ? "functionBlock" : "program";
 }
 
+/* ---- globals that a POU uses: most tools want them in its interface ---- */
+
+static void find_used(struct out *out)
+{
+	const size_t globals = (size_t)out->project->globals.count;
+	struct xref xref;
+
+	out->used = arena_alloc(out->arena, globals * (size_t)out->project->pou_count + 1);
+	if (xref_make(&xref, out->project) && out->used)
+		for (int i = 0; i < xref.count; i++) {
+			const struct xref_use *use = &xref.use[i];
+
+			if (use->pou >= 0 && use->target.what == XREF_VARIABLE && use->target.table == 0 &&
+			    use->target.index >= 0 && use->kind != XREF_DECLARED)
+				out->used[(size_t)use->pou * globals + (size_t)use->target.index] = 1;
+		}
+	xref_free(&xref);
+}
+
+static bool is_constant(const struct var_table *table, int index)
+{
+	for (int i = 0; i < table->block_count; i++)
+		if (index >= table->block[i].first && index < table->block[i].first + table->block[i].count)
+			return table->block[i].flags & (VAR_CONSTANT | VAR_FIXED);
+	return false;
+}
+
+static bool is_told(const struct out *out, const struct pou *pou, uint32_t name)
+{
+	for (int i = 0; i < pou->external.count; i++)
+		if (strcasecmp(plco_id(out, pou->external.var[i].name), plco_id(out, name)) == 0)
+			return true;
+	return false;
+}
+
+static void put_used(struct out *out, const struct pou *pou, bool constant)
+{
+	const struct var_table *globals = &out->project->globals;
+	const uint8_t *used = out->used + (size_t)(pou - out->project->pou) * (size_t)globals->count;
+	bool open = false;
+
+	for (int i = 0; i < globals->count; i++) {
+		const struct var *var = &globals->var[i];
+
+		if (!used[i] || is_constant(globals, i) != constant || is_told(out, pou, var->name) ||
+		    !plco_type_is_named(out, var))
+			continue;
+		if (!open)
+			plco_open(out, "externalVars%s", constant ? " constant=\"true\"" : "");
+		open = true;
+		plco_named(out, "variable", "name", plco_id(out, var->name), false);
+		plco_type(out, "type", var);
+		plco_close(out, "variable");
+	}
+	if (open)
+		plco_close(out, "externalVars");
+}
+
 static void put_pou(struct out *out, const struct pou *pou)
 {
 	const struct var *result = result_of(pou);
@@ -154,6 +214,10 @@ static void put_pou(struct out *out, const struct pou *pou)
 		plco_type(out, "returnType", result);
 	plco_variables(out, &pou->vars);
 	plco_variables(out, &pou->external);
+	if (out->used) {
+		put_used(out, pou, false);
+		put_used(out, pou, true);
+	}
 	plco_close(out, "interface");
 	if (pou->language == LANGUAGE_SFC)
 		plco_chart_actions(out, pou);
@@ -308,6 +372,7 @@ char *plcopen_write(struct project *project, size_t *len, struct classic_report 
 	arena_init(&arena);
 	out.arena = &arena;
 	out.digest = arena_alloc(&arena, sizeof(*out.digest) * ((size_t)project->pou_count + 1));
+	find_used(&out);
 	sink_memory_init(&out.text);
 	out.sink = sink_to_memory(&out.text);
 	sink_text(&out.sink, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"

@@ -335,6 +335,11 @@ void plco_type(struct out *out, const char *name, const struct var *var)
 	put_inner_type(out, name, type_text(out, var), 0);
 }
 
+bool plco_type_is_named(struct out *out, const struct var *var)
+{
+	return !strchr(type_text(out, var), '(');
+}
+
 void plco_initial(struct out *out, const struct var *var)
 {
 	struct sink_memory memory;

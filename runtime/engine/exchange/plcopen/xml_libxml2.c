@@ -293,6 +293,8 @@ struct xml_node *xml_read(struct arena *arena, const char *file, const void *byt
 		if (!reader->failed && (!reader->root || reader->open))
 			fail(reader, DIAG_XML_CUT, line_now(reader),
 			     reader->open ? reader->open->name : "");
+		xmlFreeDoc(reader->context->myDoc); /* libxml2 makes one for the declarations of a DTD */
+		reader->context->myDoc = NULL;
 		xmlFreeParserCtxt(reader->context);
 	}
 	if (!reader->context || arena->failed)
