@@ -255,6 +255,39 @@ my %lists = map { my $pou = $_; $pou => join ' ', map { my ($constant, $list) = 
 is($lists{Main}, 'Start Level Delay constant: Most', 'each once; none that it does not use; none whose type has no name');
 is($lists{Other}, 'Start Level Delay', 'beside those that it tells itself');
 
+# ---- power before and behind a block without a BOOL pin goes through EN and ENO ----
+spew('power.rung', <<'END');
+RUNGBOARD 1
+
+VAR
+  Go AT %IX0.0 : BOOL;
+  Lamp AT %QX0.0 : BOOL;
+  One : Count;
+END_VAR
+
+FUNCTION_BLOCK Count ST
+VAR_INPUT
+  By : INT := 1;
+END_VAR
+VAR_OUTPUT
+  Sum : INT;
+END_VAR
+  Sum := Sum + By;
+END_FUNCTION_BLOCK
+
+PROGRAM Main LD
+RUNG
+  | NO Go | Count One By:=2 | COIL Lamp |
+END_PROGRAM
+END
+answer("$ladder export --as plcopen power.rung -o power.xml");
+(my $alone = slurp('power.xml')) =~ s{<addData>.*?</addData>}{}s; # the text beside the drawing
+my ($again) = imported('powered', $alone);
+spew('power.script', "\@print Lamp One.Sum\n.\n. Go=1\n.\n. Go=0\n.\n");
+my @traces = map { scalar `$ladder trace $_ power.script 2>warnings` } qw(power.rung powered.rung);
+like($traces[0], qr/Lamp=1 One.Sum=/, 'the block runs');
+is($traces[1], $traces[0], 'the drawing alone does the same');
+
 # ---- hostile files ----
 for my $name (qw(kinds chart)) {
 	my $xml = slurp("$name.xml");

@@ -120,12 +120,11 @@ static char *export_copy(LadderDocument *document, enum classic_dialect dialect,
 			 size_t *len, GPtrArray *lines)
 {
 	struct ladder *ladder = ladder_document_reader(document);
-	const char *path = ladder_document_path(document);
 	char *text, *out = NULL;
 	gsize text_len;
 
 	text = ladder_document_text(document, &text_len);
-	if (!ladder_load_text(ladder, path ? path : "", text, text_len) ||
+	if (!ladder_load_text(ladder, ladder_document_file(document), text, text_len) ||
 	    !ladder_build(ladder))
 		add_diags(lines, ladder_diags(ladder));
 	else if (ladder_sfc_fits_classic(ladder))

@@ -63,7 +63,7 @@ static const char EMPTY_PROJECT[] =
 
 /* ---- what there is ---- */
 
-static const char *file_name(const LadderDocument *document)
+const char *ladder_document_file(const LadderDocument *document)
 {
 	return document->path ? document->path : document->copied ? document->copied : "";
 }
@@ -300,7 +300,7 @@ static void check_lists(LadderDocument *document, const struct project *read,
 	const int pou = first_list(document);
 	const bool fewer = project && read->pou_count < project->pou_count;
 	const bool more = project && read->pou_count > project->pou_count;
-	struct diag place = { .file = g_intern_string(file_name(document)) };
+	struct diag place = { .file = g_intern_string(ladder_document_file(document)) };
 
 	if (pou < 0 || !project)
 		return;
@@ -393,7 +393,7 @@ static struct ladder *read_text(LadderDocument *document, const char *text, gsiz
 			     struct diag_list *why)
 {
 	struct ladder *ladder = ladder_document_reader(document);
-	const char *file = g_intern_string(file_name(document));
+	const char *file = g_intern_string(ladder_document_file(document));
 
 	if (ladder_load_text(ladder, file, text, len) && ladder_project(ladder))
 		return ladder;
@@ -1583,7 +1583,7 @@ void ladder_document_note(LadderDocument *document, int file, const char *name,
 bool ladder_document_includes(LadderDocument *document, const char *path)
 {
 	const struct project *project = ladder_document_project(document);
-	char *folder = g_path_get_dirname(file_name(document));
+	char *folder = g_path_get_dirname(ladder_document_file(document));
 	bool is = false;
 
 	for (int i = 0; project && i < project->pou_count && !is; i++)
@@ -1613,7 +1613,7 @@ static void add_file(GPtrArray *files, const char *path)
 GPtrArray *ladder_document_files(LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
-	char *folder = g_path_get_dirname(file_name(document));
+	char *folder = g_path_get_dirname(ladder_document_file(document));
 	GPtrArray *files = g_ptr_array_new_with_free_func(g_free);
 
 	for (int i = 0; project && i < project->pou_count; i++)
@@ -1901,7 +1901,7 @@ static void copy_text(gpointer owner, struct checker_text *to)
 
 	to->reader = ladder_document_reader(document);
 	to->text = ladder_document_text(document, &to->len);
-	to->file = g_intern_string(file_name(document));
+	to->file = g_intern_string(ladder_document_file(document));
 	to->version = document->version;
 }
 

@@ -88,6 +88,9 @@ int ladder_document_repaired(LadderDocument *document);
 
 /** ladder_document_path - NULL: none yet. Borrowed. */
 const char *ladder_document_path(LadderDocument *document);
+/** ladder_document_file - the file beside which those are that its text names: its own, or that of the original of a
+ * copy that is not saved yet; "": neither. Borrowed. */
+const char *ladder_document_file(const LadderDocument *document);
 /** ladder_document_folder - of its path, else of the original that it was imported from;
  * NULL: neither. Caller frees. */
 char *ladder_document_folder(LadderDocument *document);

@@ -669,10 +669,9 @@ struct init_node *init_form_root(struct init_form *form)
 
 static bool load(struct init_form *form, LadderDocument *document)
 {
-	const char *path = ladder_document_path(document);
 	gsize len;
 	char *text = ladder_document_outline(document, &len, NULL, NULL);
-	bool good = text && ladder_load_text(form->ladder, g_intern_string(path ? path : ""),
+	bool good = text && ladder_load_text(form->ladder, g_intern_string(ladder_document_file(document)),
 					     text, len);
 
 	g_free(text);

@@ -35,9 +35,7 @@ static void take_reasons(struct diag_list *why, const struct diag_list *from)
 
 static const char *file_of(LadderDocument *document)
 {
-	const char *path = ladder_document_path(document);
-
-	return g_intern_string(path ? path : "");
+	return g_intern_string(ladder_document_file(document));
 }
 
 /* Reads and builds @text. NULL: it has errors, which @why gets. */
@@ -202,7 +200,7 @@ static char *convert_text(LadderDocument *document, const char *text, const char
 	pou = &project_of(&copy)->pou[copy.pou];
 	*first = row && row->by_ladder & 1u << pou->language;
 	if (!row || pou->included || !((row->from | row->by_ladder) & 1u << pou->language) ||
-	    (to == LANGUAGE_IL && is_run_by_itself(project_of(&copy), pou)))
+	    (to == LANGUAGE_IL && (is_run_by_itself(project_of(&copy), pou) || pou_has_any_bounds(pou))))
 		refuse(&copy, name, to, why);
 	else
 		out = write_row(document, &copy, *first ? row_of(LANGUAGE_LD) : row, name, why);

@@ -378,11 +378,10 @@ char *pou_import_needs(struct ladder *from, const bool *chosen)
 /* A copy of the document, whose parts may be renamed. NULL: it cannot be read. */
 static struct ladder *copy_of(LadderDocument *document)
 {
-	const char *path = ladder_document_path(document);
 	struct ladder *copy = ladder_document_reader(document);
 	gsize len;
 	char *text = ladder_document_text(document, &len);
-	const bool good = ladder_load_text(copy, g_intern_string(path ? path : ""), text,
+	const bool good = ladder_load_text(copy, g_intern_string(ladder_document_file(document)), text,
 						   len) && ladder_project(copy);
 
 	g_free(text);

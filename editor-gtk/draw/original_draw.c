@@ -178,7 +178,7 @@ void original_pair(const struct original_scene *scene, struct picture *picture)
 	picture_move(picture, 0, y);
 	y += original_draw(scene, picture);
 	picture_move(picture, 0, 0);
-	if (scene->project)
+	if (scene->project && scene->pou < scene->project->pou_count)
 		y = put_ours(scene, y, picture);
 	picture->height = MAX(picture->height, y + 4);
 }

@@ -13,16 +13,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The next name that is called, `Delay(`. False: there is none. */
+/* The next name that is called, `Delay(`, but not a member, as in `Line[1].Delay(`. False: there is none. */
 static bool next_call(struct lex *lex, struct token *name)
 {
 	struct token last = { .kind = TOKEN_END };
+	bool behind_dot = false;
 
 	while (lex_next(lex) != TOKEN_END) {
-		if (last.kind == TOKEN_NAME && lex_is(lex, "(")) {
+		if (last.kind == TOKEN_NAME && !behind_dot && lex_is(lex, "(")) {
 			*name = last;
 			return true;
 		}
+		behind_dot = last.kind != TOKEN_END && last.len == 1 && *last.text == '.';
 		last = lex->token;
 	}
 	return false;

@@ -443,8 +443,13 @@ static char *with_instances(LadderFbdView *view, const char *text, GString *told
 		fbd_instance_stem(name, stem);
 		entry_fresh_name(&place, NULL, stem, fresh, sizeof(fresh));
 		renamed = fbd_instance_renamed(out, name, fresh);
+		if (!renamed || strcmp(renamed, out) == 0) { /* it stays as it is */
+			free(renamed);
+			g_free(word);
+			break;
+		}
 		g_free(out);
-		out = g_strdup(renamed ? renamed : "");
+		out = g_strdup(renamed);
 		free(renamed);
 		if (ladder_document_declare(document, view->canvas->pou, fresh, word, NULL, NULL))
 			g_string_append_printf(told, "%s%s : %s", told->len ? ", " : "", fresh, word);

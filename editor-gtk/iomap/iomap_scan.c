@@ -132,7 +132,7 @@ static char *found_text(const char *bus, const GArray *units)
 		g_string_append_printf(list, "%s%d", i ? ", " : "",
 				       g_array_index(units, struct iomap_unit, i).unit);
 	text = units->len ? g_strdup_printf(_("Units that answer on “%s”: %s"), bus, list->str) :
-			    g_strdup_printf(_("No unit answers on “%s”. Are speed, parity and the two wires right?"), bus);
+			    g_strdup_printf(_("No unit answers on “%s”. Check the power of the devices and the address; on a serial line also speed, parity and the two wires."), bus);
 	g_string_free(list, TRUE);
 	return text;
 }

@@ -509,11 +509,18 @@ static void look_for_devices(LadderIomapView *view)
 	g_object_unref(task);
 }
 
+static void look(LadderIomapView *view);
+
 static void devices_came(gpointer owner, struct board_devices *came)
 {
 	LadderIomapView *view = owner;
 
-	if (view->connected && view->watch) {
+	if (!came) { /* the board does not tell: the table offers what this machine has, as without it */
+		if (view->connected && view->watch) {
+			view->connected = false;
+			look(view);
+		}
+	} else if (view->connected && view->watch) {
 		io_machine_free(&view->machine);
 		io_devices_free(&view->devices);
 		view->machine = came->machine;

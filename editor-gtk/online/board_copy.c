@@ -403,11 +403,11 @@ static bool gather(struct board_program *program, struct sim_program *built,
 
 struct board_program *board_program_new(LadderDocument *document, const char *map, GError **error)
 {
-	const char *path = ladder_document_path(document);
+	const char *file = ladder_document_file(document);
 	gsize len;
 	char *text = ladder_document_text(document, &len);
 	struct sim_program *built = sim_program_read(ladder_document_reader(document),
-		g_intern_string(path ? path : "-"), text, len, error);
+		g_intern_string(*file ? file : "-"), text, len, error);
 	struct board_program *program = NULL;
 
 	if (built) {

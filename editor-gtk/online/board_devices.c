@@ -121,8 +121,8 @@ static void answered(gpointer data, struct board_answer *answer)
 	} else if (good && ready && asking->next) {
 		send(asking, false);
 	} else {
-		if (good && ready)
-			asking->came(owner, g_steal_pointer(&asking->devices));
+		if (owner)
+			asking->came(owner, good && ready ? g_steal_pointer(&asking->devices) : NULL);
 		asking_free(asking);
 	}
 	g_clear_object(&owner);

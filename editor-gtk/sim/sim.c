@@ -437,8 +437,12 @@ static LadderDocument *older_document(LadderSim *sim, const struct sim_program *
 {
 	LadderDocument *document = ladder_document_new();
 
-	ladder_document_open_text(document, ladder_document_path(sim->document),
-				  program->text, strlen(program->text), true);
+	if (ladder_document_path(sim->document))
+		ladder_document_open_text(document, ladder_document_path(sim->document), program->text,
+					  strlen(program->text), true);
+	else
+		ladder_document_open_copy(document, ladder_document_file(sim->document), program->text,
+					  strlen(program->text), true);
 	ladder_document_fix(document);
 	return document;
 }
@@ -689,9 +693,9 @@ static struct sim_program *build(LadderSim *sim,
 {
 	gsize len;
 	char *text = ladder_document_text(sim->document, &len);
-	const char *path = ladder_document_path(sim->document);
+	const char *file = ladder_document_file(sim->document);
 	struct sim_program *program = read_program(ladder_document_reader(sim->document),
-		g_intern_string(path ? path : "-"), text, len, error);
+		g_intern_string(*file ? file : "-"), text, len, error);
 
 	/* A list that cannot be read would run differently from its text. */
 	if (program && !ladder_document_is_whole(sim->document)) {
@@ -1035,8 +1039,8 @@ static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, b
 	rebuild->reader = ladder_document_reader(sim->document);
 	rebuild->text = text;
 	rebuild->len = len;
-	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
-					ladder_document_path(sim->document) : "-");
+	rebuild->file = g_intern_string(*ladder_document_file(sim->document) ?
+					ladder_document_file(sim->document) : "-");
 	rebuild->version = version;
 	rebuild->foreseen = foreseen;
 	rebuild->life = sim->life;

@@ -314,9 +314,9 @@ static char *first_error(const struct diag_list *diags, int line, int *column)
 
 static const char *file_of(LadderDocument *document)
 {
-	const char *path = ladder_document_path(document);
+	const char *file = ladder_document_file(document);
 
-	return g_intern_string(path ? path : "-");
+	return g_intern_string(*file ? file : "-");
 }
 
 static bool reads(LadderDocument *document, int pou, const char *condition)

@@ -240,8 +240,9 @@ bool front_older_by(struct front *front, int by)
 /* The POU in front if the older program has it, else the first. */
 static int pou_before(struct front *front, const struct project *project)
 {
-	AdwTabPage *tab = front_tab(front);
-	const char *name = tab ? adw_tab_page_get_title(tab) : "";
+	const struct project *now = ladder_document_project(front->core->document);
+	const int pou = front_pou(front);
+	const char *name = now && pou >= 0 && pou < now->pou_count ? project_text(now, now->pou[pou].name) : "";
 
 	return MAX(project_find_pou(project, name, strlen(name)), 0);
 }
@@ -250,15 +251,15 @@ static void fill_pous(struct front *front)
 {
 	const struct project *project = ladder_document_project(front->older);
 	GPtrArray *names = g_ptr_array_new();
-	const int pou = pou_before(front, project);
+	const int pou = project ? pou_before(front, project) : 0;
 
-	for (int i = 0; i < project->pou_count; i++)
+	for (int i = 0; project && i < project->pou_count; i++)
 		g_ptr_array_add(names, (gpointer)project_text(project, project->pou[i].name));
 	front->filling = true;
 	drop_fill(front->pous, names);
 	gtk_drop_down_set_selected(front->pous, (guint)pou);
 	front->filling = false;
-	gtk_widget_set_visible(GTK_WIDGET(front->pous), project->pou_count > 1);
+	gtk_widget_set_visible(GTK_WIDGET(front->pous), names->len > 1);
 	g_ptr_array_unref(names);
 	show_pou(front, pou);
 }

@@ -170,6 +170,31 @@ static void say(LadderShownPage *page)
 	g_free(said);
 }
 
+/* A document of its own with this text. NULL: a file that it names cannot be read, as one that is not saved yet;
+ * @why gets the reason. */
+static LadderDocument *made_of(LadderShownPage *page, const char *text, struct diag_list *why)
+{
+	LadderDocument *made = ladder_document_new();
+	const struct diag *first;
+
+	if (ladder_document_path(page->document))
+		ladder_document_open_text(made, ladder_document_path(page->document), text, strlen(text), true);
+	else
+		ladder_document_open_copy(made, ladder_document_file(page->document), text, strlen(text), true);
+	ladder_document_fix(made);
+	if (ladder_document_project(made))
+		return made;
+	ladder_document_check_now(made);
+	first = ladder_document_diags(made)->count ? &ladder_document_diags(made)->diag[0] : NULL;
+	if (first) {
+		const struct diag place = { .id = first->id, .file = g_intern_string(first->file), .line = first->line };
+
+		diag_add(why, place, "%s", first->arg);
+	}
+	g_object_unref(made);
+	return NULL;
+}
+
 static void show_now(LadderShownPage *page)
 {
 	const int pou = ladder_shown_page_pou(page);
@@ -183,12 +208,8 @@ static void show_now(LadderShownPage *page)
 	why = g_new0(struct diag_list, 1);
 	text = pou_converted(page->document, pou, page->to, why);
 	g_clear_object(&page->made);
-	if (text) {
-		page->made = ladder_document_new();
-		ladder_document_open_text(page->made, ladder_document_path(page->document), text, strlen(text),
-					  true);
-		ladder_document_fix(page->made);
-	}
+	if (text)
+		page->made = made_of(page, text, why);
 	say(page);
 	if (page->made)
 		fill_parts(page);

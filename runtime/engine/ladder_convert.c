@@ -132,11 +132,17 @@ char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_la
 		       struct diag_list *diags)
 {
 	const struct project *project = ladder_project(ladder);
+	bool charts = false;
+	char *out;
 
-	for (int i = 0; project && i < project->pou_count; i++)
-		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC)
-			return convert_both(ladder, wanted, to, len, diags);
-	return project ? convert_bodies(ladder, wanted, to, len, diags) : NULL;
+	if (!project)
+		return NULL;
+	for (int i = 0; i < project->pou_count; i++)
+		charts |= wanted[i] && project->pou[i].language == LANGUAGE_SFC;
+	out = charts ? convert_both(ladder, wanted, to, len, diags) : convert_bodies(ladder, wanted, to, len, diags);
+	if (!out && !diags->errors)
+		diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = project->file }, "%s", "");
+	return out;
 }
 
 char *ladder_export_lists(struct ladder *ladder, const uint8_t *wanted, size_t *len)

@@ -41,6 +41,7 @@ static int write_one(const struct guard_file *file)
 	for (int i = 0; fd >= 0 && i < 2 && error == -EINVAL; i++) {
 		const int len = snprintf(text, sizeof(text), "%lld\n", (long long)file->number - i);
 
+		errno = 0;
 		error = write(fd, text, (size_t)len) == len ? 0 : errno ? -errno : -EIO;
 		if (file->number <= 0)
 			break;

@@ -36,7 +36,7 @@ void control_tell_fault(const struct cycle *cycle);
  * in a signal handler. */
 void control_trace(void *context, const struct io_point *point, bool value);
 /** control_trace_values - of the points with channels: "%AQW0 1200", "%AIW2 0 stale". After a scan;
- * nothing without --trace-io. Scan-safe: as control_trace(). */
+ * nothing without --trace-io. Scan-safe: yes, but not in a signal handler. */
 #ifdef RUNGBOARD_SMALL
 #define control_trace_values(cycle) ((void)0)
 #else

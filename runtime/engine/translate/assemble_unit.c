@@ -6,6 +6,7 @@
  * variable that they read is written; then they are stored (list_protect). The types were
  * checked; nothing is judged here.
  */
+#include "engine/base/ascii.h"
 #include "engine/translate/assembler.h"
 
 #include "engine/model/st.h"
@@ -13,7 +14,6 @@
 
 #include <limits.h>
 #include <string.h>
-#include <strings.h>
 
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
 
@@ -895,6 +895,11 @@ static bool is_argument(const struct il_line *line)
 	return line->kind == IL_ARG_IN || line->kind == IL_ARG_OUT;
 }
 
+static const char *pin_text(const struct list *list, int line)
+{
+	return names_text(&list->as->translation->project->names, list->il->line[line].pin);
+}
+
 /* The variable at OUT of a box, after the last line of its call; NULL: no such line, or its value is of no plain type. */
 static const struct meaning *made_out(struct list *list)
 {
@@ -906,7 +911,7 @@ static const struct meaning *made_out(struct list *list)
 		return NULL;
 	for (; call > 0 && is_argument(&il->line[call]); call--)
 		if (il->line[call].kind == IL_ARG_OUT &&
-		    strcasecmp(names_text(&list->as->translation->project->names, il->line[call].pin), "OUT") == 0)
+		    ascii_is("OUT", pin_text(list, call), strlen(pin_text(list, call))))
 			out = call;
 	if (out < 0 || il->line[call].kind != IL_CALL || !il->line[call].made || il->line[call].mark & IL_INDEX ||
 	    !is_listed(list, &il->line[call]))

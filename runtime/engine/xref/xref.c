@@ -377,7 +377,6 @@ static bool is_operator(const struct token *token)
 	       word_find(token->text, token->len) == FN_MOD;
 }
 
-/* The function of a call: `Twice(`. */
 /* PREVIOUS, R_EDGE and F_EDGE of networks (model/fbd.h) are no functions. */
 static bool is_of_networks(const struct scan *scan, const struct token *token)
 {
@@ -389,6 +388,7 @@ static bool is_of_networks(const struct scan *scan, const struct token *token)
 	return false;
 }
 
+/* The function of a call: `Twice(`. */
 static void scan_function(struct scan *scan, const struct token *token)
 {
 	struct word_table *words = &scan->walk->project->words;

@@ -401,7 +401,10 @@ static struct value output_value(struct plc_lines *l, struct plc_element *e, int
 		return value;
 	if (is_both(l, e, pin->name))
 		return value_of(l, plc_input(l->graph, e, pin->name), depth + 1);
-	if (!is_function(l, e))
+	if (!is_function(l, e) && plc_same(pin->name, "ENO")) { /* an instance has run if EN let it */
+		value.text = "TRUE";
+		value = has_enable(l, e) ? value_of(l, plc_input(l->graph, e, "EN"), depth + 1) : value;
+	} else if (!is_function(l, e))
 		value.text = plc_print(l->c, "%s.%s", e->instance ? e->instance : plc_renamed(l->c, e->name), pin->name);
 	else if (l->called[e - l->graph->element] && l->wire[e->first_out + output])
 		value.text = l->wire[e->first_out + output];

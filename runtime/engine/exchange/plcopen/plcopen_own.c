@@ -8,6 +8,7 @@
 #include "engine/exchange/plcopen/plcopen_convert.h"
 
 #include "engine/base/lex.h"
+#include "engine/base/sink.h"
 #include "engine/exchange/plcopen/plcopen_digest.h"
 
 #include <stdlib.h>
@@ -20,23 +21,42 @@ static bool has_digest(const struct xml_node *node, const struct xml_node *of)
 	return digest && strlen(digest) == 16 && strtoull(digest, NULL, 16) == plcopen_digest(of);
 }
 
-static bool names_files(const char *text)
+/* Of all parts, as they are read one behind another. */
+static bool names_files(const struct xml_node *own)
 {
+	struct sink_memory memory;
+	struct sink sink;
 	struct lex lex;
-	bool names = false;
+	bool names = false, found = false;
 
-	lex_init(&lex, text, strlen(text));
-	while (lex_next(&lex) != TOKEN_END) {
-		if (names && lex.token.kind == TOKEN_STRING)
-			return true;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	for (const struct xml_node *part = own->first; part; part = part->next)
+		sink_text(&sink, part->text);
+	lex_init(&lex, sink_memory_text(&memory), memory.len);
+	while (!memory.failed && !found && lex_next(&lex) != TOKEN_END) {
+		found = names && lex.token.kind == TOKEN_STRING;
 		names = lex_is(&lex, "INCLUDE") || lex_is(&lex, "USES");
 	}
-	return false;
+	found |= memory.failed;
+	sink_memory_free(&memory);
+	return found;
 }
 
+/* A part ends with its line, so that no word or comment goes on in the next one. */
 static bool is_part(const struct xml_node *node)
 {
-	return xml_is(node, "part") && node->text;
+	const size_t len = node->text ? strlen(node->text) : 0;
+
+	return xml_is(node, "part") && len && node->text[len - 1] == '\n';
+}
+
+static bool are_parts(const struct xml_node *own)
+{
+	for (const struct xml_node *part = own->first; part; part = part->next)
+		if (!is_part(part))
+			return false;
+	return true;
 }
 
 void plc_find_own(struct plcopen *c, struct xml_node *project)
@@ -48,13 +68,11 @@ void plc_find_own(struct plcopen *c, struct xml_node *project)
 				add->taken = true;
 				xml_take_all(data);
 			}
-	for (struct xml_node *part = c->own ? c->own->first : NULL; part; part = part->next)
-		if (!is_part(part) || names_files(part->text)) {
-			plc_report(c, REPORT_LOST, part, "%s",
-				   report_said(c->report, REPORTED("the text beside the drawing is damaged and is not read")));
-			c->own = NULL;
-			return;
-		}
+	if (c->own && (!are_parts(c->own) || names_files(c->own))) {
+		plc_report(c, REPORT_LOST, c->own, "%s",
+			   report_said(c->report, REPORTED("the text beside the drawing is damaged and is not read")));
+		c->own = NULL;
+	}
 }
 
 static void put_part(struct plcopen *c, const struct xml_node *part)

@@ -17,7 +17,8 @@ struct sketch {
 	struct plcopen *c;
 	const struct plc_graph *graph;
 	struct drawing *to;
-	bool *shown;             /* of each element                                */
+	bool *shown;             /* by component: it is in the group               */
+	bool *hangs;             /* by element: a rail on which something of it hangs */
 };
 
 static int number_of(const struct xml_node *node, const char *name, int otherwise)
@@ -111,6 +112,7 @@ static void add_connection(struct sketch *s, const struct plc_element *e, int pi
 	const struct plc_element *other = &s->graph->element[from->element];
 	int x1, y1, x2, y2, middle;
 
+	s->hangs[from->element] |= other->kind == PLC_LEFT;
 	place_of(e, plc_in(s->graph, e, pin), pin, false, &x2, &y2);
 	if (from->output < 0 || (connection && add_points(s, connection)))
 		return;
@@ -262,10 +264,13 @@ void plc_picture(struct plcopen *c, const struct plc_graph *graph, const struct 
 
 	if (!c->pictures)
 		return;
-	s.shown = arena_alloc(c->arena, (size_t)graph->elements + 1);
-	for (int i = 0; s.shown && i < group->count; i++)
+	s.shown = calloc(2 * ((size_t)graph->elements + 1), sizeof(*s.shown));
+	if (!s.shown)
+		return;
+	s.hangs = s.shown + graph->elements + 1;
+	for (int i = 0; i < group->count; i++)
 		s.shown[graph->element[graph->step[group->first + i]].component] = true;
-	for (int i = 0; s.shown && i < graph->elements; i++) {
+	for (int i = 0; i < graph->elements; i++) {
 		const struct plc_element *e = &graph->element[i];
 
 		if (s.shown[e->component] && e->kind < PLC_STEP && e->kind != PLC_LEFT && e->kind != PLC_RIGHT &&
@@ -273,8 +278,9 @@ void plc_picture(struct plcopen *c, const struct plc_graph *graph, const struct 
 			add_shape(&s, e);
 	}
 	for (int i = 0; i < graph->elements; i++)
-		if (graph->element[i].kind == PLC_LEFT)
+		if (s.hangs[i])
 			add_rail(&s, i);
+	free(s.shown);
 	if (!is_placed(&drawing) || !settle(&drawing))
 		return;
 	added = arena_push(c->arena, &c->drawings.one, &c->drawings.count, sizeof(*added));

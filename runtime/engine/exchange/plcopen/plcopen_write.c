@@ -5,12 +5,12 @@
 #include "engine/exchange/plcopen/plcopen_digest.h"
 #include "engine/exchange/plcopen/plcopen_out.h"
 
+#include "engine/base/name.h"
 #include "engine/text/text.h"
 #include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static const char *or_else(const char *text, const char *otherwise)
 {
@@ -165,7 +165,7 @@ static bool is_constant(const struct var_table *table, int index)
 static bool is_told(const struct out *out, const struct pou *pou, uint32_t name)
 {
 	for (int i = 0; i < pou->external.count; i++)
-		if (strcasecmp(plco_id(out, pou->external.var[i].name), plco_id(out, name)) == 0)
+		if (name_equal(plco_id(out, pou->external.var[i].name), plco_id(out, name)))
 			return true;
 	return false;
 }

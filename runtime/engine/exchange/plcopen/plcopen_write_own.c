@@ -130,6 +130,9 @@ void plco_own(struct out *out)
 
 	if (!from || !out->digest)
 		return;
+	for (int i = 0; i < out->project->source_count; i++)
+		if (out->project->source[i].plain) /* it says more than a rung file can */
+			return;
 	/* As if it ended here. */
 	sink_text(&out->sink, "</project>\n");
 	if (out->text.failed)

@@ -335,12 +335,14 @@ static void put_block(struct drawing *d, const struct network_element *e)
 	const char *args = plco_id(d->out, cell->args);
 	const int power = word_first_bool(row, PIN_IN), first = word_first_bool(row, PIN_OUT);
 
-	if (first >= 0)
-		d->ref[e - d->net.element].pin = word_pins(row)[first].name;
+	/* Without an input or an output of type BOOL the power goes through EN and ENO. */
+	d->ref[e - d->net.element].pin = first >= 0 ? word_pins(row)[first].name : "ENO";
 	give_arguments(d, e, args);
 	open_box(d, e, row->word, plco_id(d->out, cell->operand));
-	put_inputs(d, e, power < 0 ? NULL : word_pins(row)[power].name, args);
+	put_inputs(d, e, power >= 0 ? word_pins(row)[power].name : e->in != NET_RAIL ? "EN" : NULL, args);
 	plco_open(d->out, "outputVariables");
+	if (first < 0)
+		put_output(d, "ENO");
 	for (int i = 0; i < row->pin_count; i++)
 		if (word_pins(row)[i].dir == PIN_OUT || word_pins(row)[i].dir == PIN_IN_OUT)
 			put_output(d, word_pins(row)[i].name);
