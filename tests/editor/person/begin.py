@@ -122,6 +122,11 @@ def parts(screen):
         editor.says('no problems')
         editor.find('Weighing', 'label')
         editor.shot('begin-parts-%d' % there)
+        if there:  # the copy runs before it is saved
+            editor.keys('ctrl+m')
+            editor.says('SIMULATION')
+            editor.keys('ctrl+m')
+            editor.says('EDIT')
         editor.give_path(path, 'ctrl+s')
         editor.find('Saved, together with the files of the sample: ', 'label')
         assert sorted(os.listdir(target)) == sorted([*PARTS, 'mine.rung', 'mine.plant.rung', 'mine.scn']), os.listdir(target)
