@@ -38,7 +38,7 @@ LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- 
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 # XML=libxml2|none: PLCopen XML is read by libxml2 if it is installed for the target, or not read.
-XML      ?= $(if $(filter 1,$(STATIC)$(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libxml-2.0 2>/dev/null && echo libxml2)))
+XML      ?= $(if $(filter 1,$(STATIC) $(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libxml-2.0 2>/dev/null && echo libxml2)))
 override XML := $(or $(XML),none)
 XML_LIB  := $(if $(filter libxml2,$(XML)),$(shell $(PKG_CONFIG) --libs libxml-2.0))
 ENGINE   := $(filter-out %_small.c %/xml_$(if $(filter libxml2,$(XML)),none,libxml2).c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
@@ -139,7 +139,7 @@ GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none)
 GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
 GPIO_LIB = $(IIO_LIB) $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 # IIO=libiio|none: the driver iio uses libiio if it is installed for the target, or is left out.
-IIO      ?= $(if $(filter 1,$(STATIC)$(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libiio 2>/dev/null && echo libiio)))
+IIO      ?= $(if $(filter 1,$(STATIC) $(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libiio 2>/dev/null && echo libiio)))
 override IIO := $(or $(IIO),none)
 CHANNELS_C := $(addprefix hal/,channel_rows.c channel_scale.c channels.c channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c)
 IIO_LIB  := $(if $(filter libiio,$(IIO)),$(shell $(PKG_CONFIG) --libs libiio))
