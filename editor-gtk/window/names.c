@@ -453,7 +453,6 @@ void names_show_uses_of(struct core *core, const char *name)
 
 /* ---- another name ---- */
 
-/* A name that can be changed. */
 /* A wire of a network (model/fbd.h)? */
 static bool is_wire(const struct xref *xref, const struct xref_target *target)
 {
