@@ -82,9 +82,8 @@ struct channels {
 	_Atomic int lines;         /* the worst of the lines of chips           */
 };
 
-/** channel_number, channel_typed - a value of any type as a number, and back to the nearest. Scan-safe: yes. */
+/** channel_number - a value of any type as a number. Scan-safe: yes. */
 double channel_number(enum iec_type type, union iec_value value);
-union iec_value channel_typed(enum iec_type type, double x);
 
 /** cell_put - a thread has read, or written. Scan-safe: yes. */
 void cell_put(struct cell *cell, uint64_t value, bool good, int64_t now_ns);

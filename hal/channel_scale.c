@@ -63,6 +63,13 @@ bool channel_value(const struct io_channel *channel, double raw, union iec_value
 	return !isnan(raw) && (!channel->limited || (raw >= channel->least && raw <= channel->most));
 }
 
+static union iec_value typed(enum iec_type type, double x)
+{
+	if (type == IEC_BOOL)
+		return (union iec_value){ .i = x != 0 };
+	return nearest(type, x);
+}
+
 double channel_raw(const struct io_channel *channel, union iec_value value)
 {
 	const double span = channel->value_high - channel->value_low;
@@ -77,7 +84,7 @@ double channel_raw(const struct io_channel *channel, union iec_value value)
 union iec_value channel_wanted(const struct io_channel *channel, union iec_value value)
 {
 	return channel->raw != channel->type || channel->scaled ?
-	       channel_typed(channel->raw, channel_raw(channel, value)) : value;
+	       typed(channel->raw, channel_raw(channel, value)) : value;
 }
 
 double channel_number(enum iec_type type, union iec_value value)
@@ -85,9 +92,3 @@ double channel_number(enum iec_type type, union iec_value value)
 	return value_double(type, value);
 }
 
-union iec_value channel_typed(enum iec_type type, double x)
-{
-	if (type == IEC_BOOL)
-		return (union iec_value){ .i = x != 0 };
-	return nearest(type, x);
-}

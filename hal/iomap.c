@@ -66,7 +66,8 @@ bool complain(struct reader *reader, enum diag_id id, const struct map_word *wor
 			word->text);
 }
 
-enum driver_id driver_find(const char *word, size_t len)
+/* The driver of that name, in any case; DRIVER_COUNT: none. */
+static enum driver_id driver_find(const char *word, size_t len)
 {
 	int id = 0;
 

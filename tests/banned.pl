@@ -9,7 +9,7 @@ use warnings;
 use File::Find;
 use FindBin;
 
-chdir "$FindBin::Bin/.." or die;
+chdir($ENV{BANNED_ROOT} // "$FindBin::Bin/..") or die;
 my (@files, $n, $failed);
 find({ no_chdir => 1, wanted => sub {
 	push @files, $_ if -f && /\.(c|h|def)$/;
@@ -120,6 +120,44 @@ say_rule("no unnamed TODO",
 	 map { my $f = $_; my $l = 0;
 	       map { $l++; /\b(?:TODO|FIXME|XXX)\b/ ? "$f:$l" : () }
 	       split /\n/, $text{$f} } @files);
+
+# A public function is one that is defined without static. The program must use it: a test
+# alone does not count. It is static if only its own file and no test names it. Names that
+# macros make of rows (fn_##id) count as used, and so do those that the linker calls (__wrap_…).
+my (%public, %pasted, %named);
+sub read_head {
+	my ($file, $before, $name, $behind, $end) = @_;
+
+	$public{$name} = $file if $house->($file) && $file =~ /\.c\z/ && $end eq '{';
+	return $before . $behind . $end;
+}
+for my $file (@files) {
+	my $rest = $code{$file};
+	my %static = map { ($_ => 1) } $rest =~ /^static\b[^;{}()=]*?\b(\w+)\s*\([^;{}]*\)\s*[;{]/gm;
+
+	if ($house->($file)) {
+		$pasted{$1 . '\w+' . ($2 // '')} = 1 while $rest =~ /\b([a-z]\w\w+)##\w+(?:##(\w+))?/g;
+	}
+	# Heads of functions, and declarations, name a function but do not use it.
+	$rest =~ s/(?<!\)\n)^(?!static\b|typedef\b|return\b|else\b|#)([A-Za-z_]\w*\b[^;{}()=]*?)\b(\w+)(\s*\([^;{}]*?\)\s*)([;{])/
+		read_head($file, $1, $2, $3, $4)/gsme;
+	while ($rest =~ /\b([A-Za-z_]\w+)\b/g) {
+		$named{$1}{$file} = 1 if !$static{$1};
+	}
+}
+my $made = join '|', sort keys %pasted;
+my (@unused, @lone);
+for my $name (grep { !/^(?:main|__wrap_\w+|$made)$/ } sort keys %public) {
+	my @by = keys %{ $named{$name} // {} };
+
+	if (!grep { $house->($_) } @by) {
+		push @unused, "$public{$name}: $name";
+	} elsif (!grep { $_ ne $public{$name} } @by) {
+		push @lone, "$public{$name}: $name";
+	}
+}
+say_rule("the program uses every public function", @unused);
+say_rule("what one file uses is static", @lone);
 
 # A function begins with a line at the margin, followed by `{` at the margin.
 my @long;

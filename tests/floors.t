@@ -46,6 +46,33 @@ while read -r line; do
 done <"$copy/expected"
 n=$((n + 1))
 if [ $status -ne 0 ]; then echo "ok $n - floors.sh fails"; else echo "not ok $n - it fails"; fi
+# banned.pl finds a public function that nobody calls, and one that only its own file calls. A test
+# does not count; its own test may name a function that its file uses.
+mkdir "$copy/tests"
+{
+	echo '/* SPDX-License-Identifier: MIT'
+	echo ' *'
+	echo ' * test_sink - calls functions. */'
+	echo 'int main(void) { return only_tests() + own_and_test(); }'
+} >"$copy/tests/test_sink.c"
+{
+	echo 'int only_tests(void)' && echo '{' && echo '	return 0;' && echo '}'
+	echo 'int own_and_test(void)' && echo '{' && echo '	return 0;' && echo '}'
+	echo 'int only_here(void)' && echo '{' && echo '	return own_and_test();' && echo '}'
+	echo 'static int calls(void)' && echo '{' && echo '	return only_here() + calls();' && echo '}'
+} >>"$copy/runtime/engine/base/sink.c"
+BANNED_ROOT=$copy perl tests/banned.pl >"$copy/said" 2>/dev/null
+# told RULE: which of these functions are listed below the rule.
+told() {
+	sed -n "/- $1\$/,/^[on]/p" "$copy/said" | sed -n 's|^#   runtime/engine/base/sink.c: ||p' | tr '\n' ' '
+}
+n=$((n + 1))
+if [ "$(told 'the program uses every public function')" = 'only_tests ' ] &&
+	[ "$(told 'what one file uses is static')" = 'only_here ' ]; then
+	echo "ok $n - told: functions without a caller"
+else
+	echo "not ok $n - told: functions without a caller"
+fi
 # The unchanged tree has no mistake, so the messages above come from the changes.
 n=$((n + 1))
 if sh tests/floors.sh >"$copy/clean"; then echo "ok $n - nothing is told of the tree as it is"

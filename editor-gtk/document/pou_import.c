@@ -346,7 +346,9 @@ static void add_name(GString *out, const struct project *project, uint32_t name)
 	g_string_append_printf(out, "%s%s", out->len ? ", " : "", project_text(project, name));
 }
 
-char *pou_import_needs(struct ladder *from, const bool *chosen)
+/* The names of all that these POUs of @from need, themselves included:
+ * "Motor, Seal, Lamp". Caller frees. */
+static char *pou_import_needs(struct ladder *from, const bool *chosen)
 {
 	struct project *project = ladder_project(from);
 	struct wanted wanted = { .pous = project->pou_count, .globals = project->globals.count,

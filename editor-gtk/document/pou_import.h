@@ -23,9 +23,6 @@
  */
 bool pou_import(LadderDocument *document, struct ladder *from, const bool *chosen,
 		GString *told);
-/** pou_import_needs - the names of all that these POUs of @from need, themselves included:
- * "Motor, Seal, Lamp". Caller frees. */
-char *pou_import_needs(struct ladder *from, const bool *chosen);
 /** pou_export - copies POU @pou, with what it needs, into the rung file @path, which is saved.
  * @told: as in pou_import(). Fails: false, the file is as before. A file of the project itself,
  * also by another path, is refused. */

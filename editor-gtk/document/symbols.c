@@ -1354,6 +1354,15 @@ static bool is_access_name(struct project *project, const struct symbol_row *sym
 	       refuse(why, g_strdup_printf(_("“%s” is declared already"), name));
 }
 
+/* The name that operators have for it; "": none. Owns: the caller. */
+static char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol)
+{
+	struct project *project = ladder_document_project(document);
+
+	return g_strdup(symbol->line < 0 || !project || symbol->line >= project->access_count ? "" :
+			project_text(project, project->access[symbol->line].var.name));
+}
+
 bool symbol_set_access_text(LadderDocument *document, int table, int index, const char *text,
 			    char **why)
 {
@@ -1394,14 +1403,6 @@ char *symbol_access_text(LadderDocument *document, const struct symbol_row *symb
 		text = g_strdup_printf(_("%s: %s"), access_word(access == SYMBOL_WRITE), name);
 	g_free(name);
 	return text;
-}
-
-char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol)
-{
-	struct project *project = ladder_document_project(document);
-
-	return g_strdup(symbol->line < 0 || !project || symbol->line >= project->access_count ? "" :
-			project_text(project, project->access[symbol->line].var.name));
 }
 
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,

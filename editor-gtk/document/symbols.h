@@ -90,8 +90,6 @@ bool symbol_set_access_text(LadderDocument *document, int table, int index, cons
  * that is its own. Owns: the caller. */
 char *symbol_access_text(LadderDocument *document, const struct symbol_row *symbol,
 			 enum symbol_access access);
-/** symbol_access_name - the name that operators have for it; "": none. Owns: the caller. */
-char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol);
 /** symbol_add - adds a declaration behind those of its kind.
  * @flags: of its block, apart from RETAIN and CONSTANT, which @text has: 0: VAR */
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,

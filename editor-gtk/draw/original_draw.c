@@ -111,7 +111,9 @@ static void put_pin(const struct nib *nib, const struct drawn_pin *pin)
 			    (float)pin->y + MARGIN, SMALL, 0, (float)(2 * G_PI));
 }
 
-float original_draw(const struct original_scene *scene, struct picture *picture)
+/* The original alone, added to @picture at its origin. Returns the height.
+ * Units: px at 100 %. */
+static float original_draw(const struct original_scene *scene, struct picture *picture)
 {
 	const struct nib nib = { picture, scene };
 	const struct drawing *drawing = scene->drawing;

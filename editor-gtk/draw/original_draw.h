@@ -23,9 +23,6 @@ struct original_scene {
 	enum drafting_show show;
 };
 
-/** original_draw - the original alone, added to @picture at its origin. Returns the height.
- * Units: px at 100 %. */
-float original_draw(const struct original_scene *scene, struct picture *picture);
 /** original_pair - it, and what the import made of it below. */
 void original_pair(const struct original_scene *scene, struct picture *picture);
 

@@ -250,17 +250,6 @@ int fbd_edit_statements(const struct fbd_edit *edit)
 	return count;
 }
 
-int fbd_edit_boxes(const struct fbd_edit *edit, int statement)
-{
-	const int at = line_of(edit, statement);
-	struct boxes boxes = { .count = 0 };
-
-	if (at < 0)
-		return 0;
-	collect(edit->net.line[at]->value, &boxes);
-	return boxes.count + has_end(edit, edit->net.line[at]);
-}
-
 int fbd_edit_made(const struct fbd_edit *edit)
 {
 	int statement = 0;
@@ -1400,13 +1389,6 @@ bool fbd_edit_rename(struct fbd_edit *edit, const char *wire, const char *name)
 		return refuse(edit, N_("Another wire of this network has this name."));
 	rename_lines(edit, 0, wire, new);
 	return finish(edit, edit->made);
-}
-
-const char *fbd_edit_wire(const struct fbd_edit *edit, int statement)
-{
-	const int at = line_of(edit, statement);
-
-	return at >= 0 && gives_wire(edit, edit->net.line[at]) ? edit->net.line[at]->target : NULL;
 }
 
 bool fbd_edit_move(struct fbd_edit *edit, int statement, bool down)

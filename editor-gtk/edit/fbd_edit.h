@@ -41,8 +41,6 @@ void fbd_edit_free(struct fbd_edit *edit);
 char *fbd_edit_text(const struct fbd_edit *edit);
 /** fbd_edit_statements - how many there are, comments not counted. */
 int fbd_edit_statements(const struct fbd_edit *edit);
-/** fbd_edit_boxes - how many boxes a statement has. */
-int fbd_edit_boxes(const struct fbd_edit *edit, int statement);
 /** fbd_edit_made - the statement of what was made or changed last; -1: none. */
 int fbd_edit_made(const struct fbd_edit *edit);
 
@@ -81,8 +79,6 @@ bool fbd_edit_drop_input(struct fbd_edit *edit, const struct fbd_spot *pin);
 bool fbd_edit_type(struct fbd_edit *edit, const struct fbd_spot *box, const char *word);
 /** fbd_edit_rename - a wire of the network. */
 bool fbd_edit_rename(struct fbd_edit *edit, const char *wire, const char *name);
-/** fbd_edit_wire - the name of the wire that a statement gives; NULL: it gives none. */
-const char *fbd_edit_wire(const struct fbd_edit *edit, int statement);
 /** fbd_edit_move - the statement is executed before the one above it, or after the one below it. */
 bool fbd_edit_move(struct fbd_edit *edit, int statement, bool down);
 /** fbd_edit_place - the hint of a box, from 1; 0: none. A nested box gets a line of its own. */

@@ -275,7 +275,8 @@ static bool is_taken(const struct sfc_edit *edit, const char *name)
 	return words_is_taken(name);
 }
 
-const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base)
+/* "Step3": a name that is not used. Lives as long as the edit. */
+static const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base)
 {
 	char name[64];
 

@@ -62,8 +62,6 @@ bool sfc_edit_move(struct sfc_edit *edit, int step, int transition, bool right);
 
 /* ---- names, conditions, actions, comments ---- */
 
-/** sfc_edit_free_name - "Step3": a name that is not used. Lives as long as the edit. */
-const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base);
 /** sfc_edit_name_step - renames a step wherever the chart names it, Name.X and Name.T too. */
 bool sfc_edit_name_step(struct sfc_edit *edit, int step, const char *name);
 bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char *name);

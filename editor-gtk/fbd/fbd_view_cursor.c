@@ -151,7 +151,8 @@ graphene_rect_t fbd_rect(LadderFbdView *view, struct fbd_pos at)
 	return rect;
 }
 
-int fbd_strip_at(LadderFbdView *view, float y)
+/* The network at @y, px at 100 %; -1: none. */
+static int fbd_strip_at(LadderFbdView *view, float y)
 {
 	for (int i = 0; i < view->count; i++)
 		if (y < view->strip[i].y + view->strip[i].layout->height + APART)

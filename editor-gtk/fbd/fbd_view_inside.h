@@ -79,8 +79,6 @@ const struct fbd_box *fbd_box_at(LadderFbdView *view, struct fbd_pos at);
 const struct fbd_pin *fbd_pin_at(LadderFbdView *view, struct fbd_pos at);
 /** fbd_rect - of a place, px at 100 %. */
 graphene_rect_t fbd_rect(LadderFbdView *view, struct fbd_pos at);
-/** fbd_strip_at - the network at @y, px at 100 %; -1: none. */
-int fbd_strip_at(LadderFbdView *view, float y);
 /** fbd_hit_at - the part at a point, px at 100 %; @part: gets what it is. */
 struct fbd_pos fbd_hit_at(LadderFbdView *view, graphene_point_t point, float slack, enum fbd_part *part);
 void fbd_reveal(LadderFbdView *view);

@@ -85,7 +85,8 @@ static bool word_is(const struct io_text *io, int row, enum io_word word, const 
 	return ascii_is(text, io->text + span->at, span->len);
 }
 
-bool iomap_values(const struct io_text *io, int row, struct io_values *out)
+/* The addresses of a point or of a WINDOW; false: they cannot be read. */
+static bool iomap_values(const struct io_text *io, int row, struct io_values *out)
 {
 	const enum io_word word = io->row[row].kind == IO_KIND_WINDOW ? IO_WORD_SHOWN : IO_WORD_ADDRESS;
 	const struct io_span *span = &io->row[row].word[word];
@@ -687,8 +688,9 @@ static void line_set(struct iomap_line *out, int behind, const char *first, cons
 	*out = (struct iomap_line){ g_strdup(first), g_strdup(second), words, behind };
 }
 
-bool iomap_next(const struct io_text *io, const struct io_check *check, struct iec_addr from,
-		struct iec_addr *out)
+/* The first address of this kind at or behind @from that is not in the map. */
+static bool iomap_next(const struct io_text *io, const struct io_check *check, struct iec_addr from,
+		       struct iec_addr *out)
 {
 	const uint32_t most = 8 * iec_area_row(from.area)->usual;
 	uint32_t bit = 8 * from.byte + from.bit;

@@ -25,8 +25,6 @@ enum { IOMAP_KIND = PANEL_TEXTS - 4, IOMAP_SYMBOL, IOMAP_VALUE, IOMAP_STATE };
 
 /** iomap_page_name - translated. */
 const char *iomap_page_name(enum iomap_page page);
-/** iomap_values - the addresses of a point or of a WINDOW; false: they cannot be read. */
-bool iomap_values(const struct io_text *io, int row, struct io_values *out);
 /** iomap_page_of - where a row is shown. */
 enum iomap_page iomap_page_of(const struct io_text *io, int row);
 /** iomap_column - field of a column of a page; IO_FIELDS: there are no more. */
@@ -82,9 +80,6 @@ bool iomap_line_make(struct iomap_line *out, const struct io_uses *uses, const s
 void iomap_line_for(struct iomap_line *out, const struct io_text *io,
 		    const struct io_machine *machine, struct iec_addr addr);
 void iomap_line_clear(struct iomap_line *line);
-/** iomap_next - the first address of this kind at or behind @from that is not in the map. */
-bool iomap_next(const struct io_text *io, const struct io_check *check, struct iec_addr from,
-		struct iec_addr *out);
 
 /** iomap_new_text - a map with a point for every input and output of @document, on lines of
  * this machine if it has any, else simulated. Caller: g_free. */

@@ -240,8 +240,3 @@ void ladder_entry_row_say(LadderEntryRow *row, const char *text, const char *add
 	forget_layouts(row);
 	gtk_widget_queue_resize(GTK_WIDGET(row));
 }
-
-const char *ladder_entry_row_mark(LadderEntryRow *row)
-{
-	return row->text[MARK];
-}

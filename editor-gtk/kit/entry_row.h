@@ -19,7 +19,5 @@ GtkWidget *ladder_entry_row_new(void);
  * behind the text in a frame; "": no mark. */
 void ladder_entry_row_say(LadderEntryRow *row, const char *text, const char *address,
 			  const char *note, const char *mark);
-/** ladder_entry_row_mark - the text of the mark; "": none. Borrowed until the next text. */
-const char *ladder_entry_row_mark(LadderEntryRow *row);
 
 #endif

@@ -122,7 +122,6 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	scene.mark = (const struct grid_mark *)(void *)marks->data;
 	scene.mark_count = (int)marks->len;
 	strip->node = grid_draw_node(&scene);
-	view->live.drawn++;
 	g_array_unref(marks);
 	g_free(unknown);
 	g_free(takes);

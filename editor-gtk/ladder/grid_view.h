@@ -79,11 +79,5 @@ struct grid_blocker {
 void ladder_grid_view_set_blockers(LadderGridView *view, int rung,
 				   const struct grid_blocker *cells, int count);
 
-/** ladder_grid_view_drawn - number of rungs drawn since the view was made, for tests. */
-guint ladder_grid_view_drawn(LadderGridView *view);
-/** ladder_grid_view_live - the LIVE_… bits (grid_draw.h) of a cell as shown, and the text of
- * its value, or ""; false: none is shown. @text: 48 bytes. For tests. */
-bool ladder_grid_view_live(LadderGridView *view, int rung, int row, int col,
-			   unsigned int *bits, char *text);
 
 #endif

@@ -37,7 +37,6 @@ struct sheet_live {
 	guint stamp;                /* counts changes of values                 */
 	guint timer;                /* ends the marks of new values             */
 	guint say, say_values;      /* timers: rename the accessible children   */
-	guint drawn;                /* rungs drawn since the view was made      */
 	bool still;                 /* SIM_STOP: no power is drawn              */
 	guint ordered;              /* stamp of the last act; 0: none           */
 	struct location ordered_at;

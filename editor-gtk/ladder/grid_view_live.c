@@ -335,27 +335,6 @@ const char *live_note(void *context, int row, int column)
 	return NULL;
 }
 
-/* ---- for tests and measurements ---- */
-
-guint ladder_grid_view_drawn(LadderGridView *view)
-{
-	return view->live.drawn;
-}
-
-bool ladder_grid_view_live(LadderGridView *view, int rung, int row, int col,
-			   unsigned int *bits, char *text)
-{
-	const struct live_rung *live = live_rung_of(view, rung);
-	struct live_value value = { .text = "" };
-
-	if (!live || row < 0 || row >= live->rows || col < 0 || col >= live->cols)
-		return false;
-	*bits = live->bits[row * live->cols + col];
-	live_rung_value((void *)live, row, col, &value);
-	g_strlcpy(text, value.text, sizeof(value.text));
-	return true;
-}
-
 /* ---- life ---- */
 
 void live_init(LadderGridView *view)

@@ -186,7 +186,9 @@ const struct twin *ladder_sim_twin(LadderSim *sim)
 
 bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
 {
-	return sim->thread && sim_thread_lateness(sim->thread, out);
+	if (sim->thread)
+		sim_thread_lateness(sim->thread, out);
+	return sim->thread != NULL;
 }
 
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)

@@ -179,10 +179,15 @@ struct sim_played {
 bool ladder_sim_play(LadderSim *sim, gint64 period_ns, guint64 speed, GArray *acts,
 		     guint64 scans, GError **error);
 
-/* How late scans were in real time. For measurements. */
-struct sim_lateness { guint64 scans; double median_us, p99_us, worst_us; };
-/** ladder_sim_lateness - since the last call. Fails: false: off, or no scan since. */
+#define SIM_LATE_STEPS 320 /* up to hours */
+/* How many scans began how late in real time, in steps of 6 %. */
+struct sim_lateness { guint count[SIM_LATE_STEPS]; };
+/** ladder_sim_lateness - of all scans in RUN since the program was started. Fails: false: it is off. */
 bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out);
+/** sim_lateness_scans - how many scans that were. */
+guint64 sim_lateness_scans(const struct sim_lateness *late);
+/** sim_lateness_us - the lateness that @part of the scans, up to 1, do not exceed; 0: there are none. */
+double sim_lateness_us(const struct sim_lateness *late, double part);
 
 /* ---- the scan that is shown ---- */
 

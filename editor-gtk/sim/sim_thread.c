@@ -10,7 +10,6 @@
 #include <string.h>
 
 #define FRAME_US G_GINT64_CONSTANT(16000)
-#define LATE_STEPS 320 /* of the table of lateness: up to hours              */
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* a longer delay is not caught up      */
 
 enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_FAULT_ON_ERROR, ORDER_ACT,
@@ -67,7 +66,7 @@ struct sim_thread {
 	struct sim_events out_events;
 	/* Atomic: */
 	int notified;
-	guint late[LATE_STEPS];  /* scans by lateness, late_step()             */
+	struct sim_lateness late; /* counted atomically, by late_step()        */
 };
 
 static gsize areas_size(const struct sim_thread *thread)
@@ -198,7 +197,7 @@ static guint late_step(double us)
 	const guint64 late = us > 0 ? (guint64)us : 0;
 	const guint power = late < 16 ? 0 : g_bit_storage(late) - 5;
 
-	return MIN(power * 16 + (guint)(late >> power), LATE_STEPS - 1);
+	return MIN(power * 16 + (guint)(late >> power), SIM_LATE_STEPS - 1);
 }
 
 static double late_us(guint step)
@@ -222,7 +221,7 @@ static void scan_or_fault(struct sim_thread *thread)
 
 static void scan_in_time(struct sim_thread *thread)
 {
-	g_atomic_int_inc((gint *)&thread->late[late_step(
+	g_atomic_int_inc((gint *)&thread->late.count[late_step(
 		(double)g_get_monotonic_time() - thread->due_us)]);
 	scan_or_fault(thread);
 	thread->due_us += wall_period_us(thread);
@@ -702,31 +701,30 @@ void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
 
 /* ---- lateness ---- */
 
-/* The lateness that @part of all scans do not exceed. */
-static double late_of(const guint *late, guint64 scans, double part)
+void sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
 {
-	const double wanted = part * (double)scans;
+	for (guint i = 0; i < SIM_LATE_STEPS; i++)
+		out->count[i] = (guint)g_atomic_int_get((gint *)&thread->late.count[i]);
+}
+
+guint64 sim_lateness_scans(const struct sim_lateness *late)
+{
+	guint64 scans = 0;
+
+	for (guint i = 0; i < SIM_LATE_STEPS; i++)
+		scans += late->count[i];
+	return scans;
+}
+
+double sim_lateness_us(const struct sim_lateness *late, double part)
+{
+	const double wanted = part * (double)sim_lateness_scans(late);
 	guint64 seen = 0;
 
-	for (guint i = 0; i < LATE_STEPS; i++) {
-		seen += late[i];
-		if (late[i] && (double)seen >= wanted)
+	for (guint i = 0; i < SIM_LATE_STEPS; i++) {
+		seen += late->count[i];
+		if (late->count[i] && (double)seen >= wanted)
 			return late_us(i);
 	}
 	return 0;
-}
-
-bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
-{
-	guint late[LATE_STEPS];
-
-	*out = (struct sim_lateness){ .scans = 0 };
-	for (guint i = 0; i < LATE_STEPS; i++) {
-		late[i] = g_atomic_int_and(&thread->late[i], 0);
-		out->scans += late[i];
-	}
-	out->median_us = late_of(late, out->scans, 0.5);
-	out->p99_us = late_of(late, out->scans, 0.99);
-	out->worst_us = late_of(late, out->scans, 1);
-	return out->scans > 0;
 }

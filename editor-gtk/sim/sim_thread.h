@@ -40,6 +40,6 @@ void sim_thread_step(struct sim_thread *thread, enum stops_step step);
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program);
 
 /** sim_thread_lateness - as ladder_sim_lateness(). */
-bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
+void sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
 
 #endif

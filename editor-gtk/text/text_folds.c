@@ -270,14 +270,16 @@ void text_folds_open_all(struct text_folds *folds)
 	changed(folds);
 }
 
-int text_folds_hidden(const struct text_folds *folds, int line)
+/* Lines that are hidden behind line @line; 0: none. */
+static int text_folds_hidden(const struct text_folds *folds, int line)
 {
 	if (line >= row_count(folds) || !row_at(folds, line)->folded || row_at(folds, line)->hidden)
 		return 0;
 	return shown_below(folds, line) - line - 1;
 }
 
-bool text_folds_is_hidden(const struct text_folds *folds, int line)
+/* Is line @line hidden? */
+static bool text_folds_is_hidden(const struct text_folds *folds, int line)
 {
 	return line < row_count(folds) && row_at(folds, line)->hidden;
 }

@@ -28,10 +28,6 @@ bool text_folds_open(struct text_folds *folds, int line);
 /** text_folds_close_all - folds all blocks, without the one that is the whole text; open_all unfolds all. */
 void text_folds_close_all(struct text_folds *folds);
 void text_folds_open_all(struct text_folds *folds);
-/** text_folds_hidden - lines that are hidden behind line @line; 0: none. */
-int text_folds_hidden(const struct text_folds *folds, int line);
-/** text_folds_is_hidden - is line @line hidden? */
-bool text_folds_is_hidden(const struct text_folds *folds, int line);
 /** text_folds_say - what a screen reader says about it; NULL: nothing. Caller frees. */
 char *text_folds_say(const struct text_folds *folds, int line);
 #endif

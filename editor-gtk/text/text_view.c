@@ -295,9 +295,12 @@ static void take_soon(LadderTextView *view, guint ms)
 static gboolean foresee(gpointer data)
 {
 	LadderTextView *view = data;
-	char *text = list_of_buffer(view);
+	char *text;
 
 	view->foreseeing = 0;
+	if (ladder_sim_is_building(view->sim))
+		return G_SOURCE_REMOVE;
+	text = list_of_buffer(view);
 	ladder_sim_foresee(view->sim, ladder_document_with_list(view->document, view->pou, text));
 	g_free(text);
 	return G_SOURCE_REMOVE;
@@ -705,16 +708,6 @@ void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
 	name_pou(view);
 }
 
-const char *ladder_text_view_value(LadderTextView *view, int line)
-{
-	return line_values_text(view->values, line - 1);
-}
-
-const char *ladder_text_view_result(LadderTextView *view, int line)
-{
-	return line_values_result(view->values, line - 1);
-}
-
 static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 			     GtkTooltip *tooltip, LadderTextView *view)
 {
@@ -864,12 +857,6 @@ void ladder_text_view_fold_all(LadderTextView *view, bool fold)
 		text_folds_close_all(view->folds);
 	else
 		text_folds_open_all(view->folds);
-}
-
-int ladder_text_view_hidden(LadderTextView *view, int line)
-{
-	return text_folds_is_hidden(view->folds, line - 1) ? -1 :
-	       text_folds_hidden(view->folds, line - 1);
 }
 
 bool ladder_text_view_run_here(LadderTextView *view)

@@ -36,11 +36,6 @@ char *ladder_text_view_part(LadderTextView *view);
 /** ladder_text_view_set_sim - the values beside the lines and in their tooltips come from @sim;
  * keeps a reference. NULL: none. */
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
-/** ladder_text_view_value - what is shown beside line @line, 1-based; NULL: nothing. Borrowed until
- * the text, the program or the scan changes. */
-const char *ladder_text_view_value(LadderTextView *view, int line);
-/** ladder_text_view_result - the current result after it, likewise: "TRUE", "not run". */
-const char *ladder_text_view_result(LadderTextView *view, int line);
 /** ladder_text_view_tip - the tooltip of line @line, 1-based, of the shown text: errors and
  * values; NULL: none. Caller frees. */
 char *ladder_text_view_tip(LadderTextView *view, int line);
@@ -76,8 +71,6 @@ bool ladder_text_view_run_here(LadderTextView *view);
 bool ladder_text_view_fold(LadderTextView *view, bool fold);
 /** ladder_text_view_fold_all - folds all blocks, or unfolds them. */
 void ladder_text_view_fold_all(LadderTextView *view, bool fold);
-/** ladder_text_view_hidden - how many lines are hidden behind line @line, 1-based; -1: it is itself. */
-int ladder_text_view_hidden(LadderTextView *view, int line);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);

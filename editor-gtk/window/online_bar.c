@@ -359,7 +359,7 @@ static void order(struct online_bar *bar, enum mode_wish wish)
 
 /* ---- connecting ---- */
 
-void online_bar_connect(struct online_bar *bar, const char *where)
+static void online_bar_connect(struct online_bar *bar, const char *where)
 {
 	char *why = NULL;
 

@@ -96,6 +96,26 @@ static void show_when(struct sim_bar *bar)
 	g_free(text);
 }
 
+/* A machine that is too slow, or busy, shows here. */
+static gboolean tell_lateness(GtkWidget *title, int x, int y, gboolean keys, GtkTooltip *tooltip,
+			      struct sim_bar *bar)
+{
+	struct sim_lateness late;
+	char most[32], worst[32], *text;
+	gboolean told;
+
+	(void)title, (void)x, (void)y, (void)keys;
+	if (!ladder_sim_lateness(bar->core->sim, &late) || !sim_lateness_scans(&late))
+		return FALSE;
+	live_time_print((int64_t)(sim_lateness_us(&late, 0.99) * 1000), most, sizeof(most));
+	live_time_print((int64_t)(sim_lateness_us(&late, 1) * 1000), worst, sizeof(worst));
+	text = g_strdup_printf(_("99 of 100 scans began at most %s late, all of them at most %s late"),
+			       most, worst);
+	told = tip_show(tooltip, text);
+	g_free(text);
+	return told;
+}
+
 static void show_forces(struct sim_bar *bar)
 {
 	const int forces = ladder_sim_forces(bar->core->sim);
@@ -466,6 +486,8 @@ void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin)
 	gtk_box_append(bar->right, panel);
 	tip_set(GTK_WIDGET(bar->forces_button), _("Release all forces"));
 	size_panel(bar);
+	gtk_widget_set_has_tooltip(GTK_WIDGET(bar->title), TRUE);
+	core_connect(core, bar->title, "query-tooltip", G_CALLBACK(tell_lateness), bar, 0);
 	core_connect(core, gtk_settings_get_default(), "notify::gtk-xft-dpi",
 		     G_CALLBACK(size_panel), bar, G_CONNECT_SWAPPED);
 	gtk_menu_button_set_popover(bar->pace_button, ladder_sim_pace_new(sim));

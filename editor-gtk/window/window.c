@@ -99,11 +99,6 @@ LadderDocument *ladder_window_document(LadderWindow *window)
 	return window->core.document;
 }
 
-LadderSim *ladder_window_sim(LadderWindow *window)
-{
-	return window->core.sim;
-}
-
 bool ladder_window_is_untouched(LadderWindow *window)
 {
 	LadderDocument *document = window->core.document;

@@ -30,8 +30,6 @@ G_DECLARE_FINAL_TYPE(LadderWindow, ladder_window, LADDER, WINDOW, AdwApplication
 /** ladder_window_new - shows @document; keeps a reference. */
 LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *document);
 LadderDocument *ladder_window_document(LadderWindow *window);
-/** ladder_window_sim - for measurements. Borrowed. */
-LadderSim *ladder_window_sim(LadderWindow *window);
 /** ladder_window_is_untouched - a new project without changes: a file may be opened in its
  * place. */
 bool ladder_window_is_untouched(LadderWindow *window);

@@ -82,9 +82,6 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog);
  */
 int cycle_run(struct cycle *cycle);
 struct options;
-/** cycle_configure - period, limits and name of the board from now on. Scan-safe: between
- * scans, a system call. */
-void cycle_configure(struct cycle *cycle, const struct options *options);
 /** cycle_name - the name of the board is @name; "": @of_map. It borrows them. Scan-safe: yes. */
 void cycle_name(struct cycle *cycle, const char *name, const char *of_map);
 /** cycle_board - the name of the board, for the scan thread. Scan-safe: yes. */

@@ -83,11 +83,6 @@ int guarded_again(unsigned *count)
 	return how;
 }
 
-bool guarded(void)
-{
-	return to.fd;
-}
-
 static void say(const void *packet, size_t len)
 {
 	send(to.fd - 1, packet, len, MSG_NOSIGNAL | MSG_DONTWAIT);

@@ -22,8 +22,6 @@ struct guard_page *guarded_page(void);
 /** guarded_again - once: how the ladderd before ended abnormally, as in guard/say.h, and how many did
  * since the guard began; 0: this is the first start, or there is no guard. */
 int guarded_again(unsigned *count);
-/** guarded - whether a guard watches. */
-bool guarded(void);
 /**
  * guarded_beat - a sign of life; the next comes within @next_ms and the heartbeat of the guard
  *

@@ -20,11 +20,6 @@ struct guard_page *guarded_page(void)
 	return &page;
 }
 
-bool guarded(void)
-{
-	return false;
-}
-
 void guarded_beat(int64_t next_ms, bool now)
 {
 	(void)next_ms, (void)now;

@@ -139,7 +139,7 @@ static int64_t clock_now(void)
 
 /* ---- the scan thread ---- */
 
-void cycle_configure(struct cycle *cycle, const struct options *options)
+static void cycle_configure(struct cycle *cycle, const struct options *options)
 {
 	cycle->late_limit = options->late;
 	memcpy(cycle->given, options->name, sizeof(cycle->given));

@@ -21,6 +21,8 @@
 #include "editor-gtk/text/text_view.h"
 #include "tests/bench/editor_ground.h"
 #include "tests/bench/editor_start.h"
+#include "tests/editor/sim_seen.h"
+#include "tests/editor/strips.h"
 
 #include <gtksourceview/gtksource.h>
 #include <stdio.h>
@@ -347,7 +349,8 @@ static void idle(void)
  * time of this thread and of the whole editor. */
 static void simulate(GtkWidget *window, LadderGridView *sheet)
 {
-	guint drawn;
+	StripsSeen *seen_last = NULL;
+	guint drawn = 0;
 	gint64 begun, process, draws = 0, work[SIM_FRAMES];
 	int frames = 0, worst = 0;
 	gint64 end;
@@ -356,13 +359,14 @@ static void simulate(GtkWidget *window, LadderGridView *sheet)
 	settle(3000);
 	begun = worked();
 	process = process_worked();
-	drawn = ladder_grid_view_drawn(sheet);
+	strips_redrawn(sheet, &seen_last);
 	end = g_get_monotonic_time() + SIM_S * G_USEC_PER_SEC;
 	for (int seen = frame.frames; g_get_monotonic_time() < end;) {
 		g_main_context_iteration(NULL, TRUE);
 		if (frame.frames == seen)
 			continue;
 		seen = frame.frames;
+		drawn += strips_redrawn(sheet, &seen_last);
 		draws += frame.worked;
 		worst = MAX(worst, (int)frame.worked);
 		if (frames < SIM_FRAMES)
@@ -374,10 +378,11 @@ static void simulate(GtkWidget *window, LadderGridView *sheet)
 	printf("Simulating: %.0f frames and %.0f rungs drawn a second; of the thread a frame takes %.2f ms, the "
 	       "worst %.2f (2); thread %.1f %%, frames alone %.1f %%, the whole editor "
 	       "%.1f %% of a processor.\n", (double)frames / SIM_S,
-	       (double)(ladder_grid_view_drawn(sheet) - drawn) / SIM_S,
+	       (double)drawn / SIM_S,
 	       median(work, MIN(frames, SIM_FRAMES)), (double)worst / 1000,
 	       (double)(worked() - begun) / (SIM_S * 1e4), (double)draws / (SIM_S * 1e4),
 	       (double)(process_worked() - process) / (SIM_S * 1e4));
+	g_ptr_array_unref(seen_last);
 	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
 }
 
@@ -385,35 +390,36 @@ static void simulate(GtkWidget *window, LadderGridView *sheet)
 
 static void print_late(LadderSim *sim, const char *what)
 {
-	struct sim_lateness late;
+	struct sim_lateness before, late;
 
 	settle(1000);
-	ladder_sim_lateness(sim, &late); /* ignores the frames until here */
+	ladder_sim_lateness(sim, &before);
 	settle(SIM_S * 1000);
-	if (ladder_sim_lateness(sim, &late))
-		printf("Lateness of the scan thread, %s: median %.2f ms, 99 %% %.2f ms, "
-		       "worst %.2f ms, of %llu scans.\n", what, late.median_us / 1000,
-		       late.p99_us / 1000, late.worst_us / 1000,
-		       (unsigned long long)late.scans);
+	ladder_sim_lateness(sim, &late);
+	for (int i = 0; i < SIM_LATE_STEPS; i++)
+		late.count[i] -= before.count[i];
+	printf("Lateness of the scan thread, %s: median %.2f ms, 99 %% %.2f ms, "
+	       "worst %.2f ms, of %llu scans.\n", what, sim_lateness_us(&late, 0.5) / 1000,
+	       sim_lateness_us(&late, 0.99) / 1000, sim_lateness_us(&late, 1) / 1000,
+	       (unsigned long long)sim_lateness_scans(&late));
 	fflush(stdout);
 }
 
 /* Drawing must not delay scans: the same with a hidden window. */
 static void late(GtkWidget *window)
 {
-	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
-
 	gtk_widget_activate_action(window, verb_row(VERB_sim_run)->action, NULL);
-	print_late(sim, "while it is drawn");
+	print_late(sim_seen, "while it is drawn");
 	gtk_widget_set_visible(window, FALSE);
-	print_late(sim, "while nothing is drawn");
+	print_late(sim_seen, "while nothing is drawn");
 	gtk_widget_set_visible(window, TRUE);
-	print_late(sim, "while it is drawn again");
+	print_late(sim_seen, "while it is drawn again");
 }
 
 /* Any scan of a record of 100,000: from ladder_sim_show() until its frame is drawn. */
-static void past(GtkWidget *window, LadderSim *sim)
+static void past(GtkWidget *window)
 {
+	LadderSim *sim = sim_seen;
 	gint64 clock[ROUNDS], shown[ROUNDS], thread[ROUNDS];
 	guint64 first, last, scan = 1;
 	double known, seen, spent;
@@ -583,7 +589,7 @@ static void measure_folding(GtkWidget *window, GtkWidget *text)
 }
 
 /* From a letter in the middle of Structured Text until the simulation runs it, by the clock. */
-static void measure_change(GtkWidget *window, LadderSim *sim, GtkWidget *text)
+static void measure_change(GtkWidget *window, GtkWidget *text)
 {
 	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
 	gint64 clock[SOME_ROUNDS];
@@ -598,7 +604,7 @@ static void measure_change(GtkWidget *window, LadderSim *sim, GtkWidget *text)
 	gtk_text_buffer_place_cursor(buffer, &at);
 	gtk_widget_grab_focus(text);
 	settle(3000);
-	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_runs), &runs);
+	g_signal_connect_swapped(sim_seen, "program-changed", G_CALLBACK(program_runs), &runs);
 	for (int i = 0; i < SOME_ROUNDS; i++) {
 		const gint64 begin = g_get_monotonic_time(), last = begin + 5 * G_USEC_PER_SEC;
 
@@ -633,6 +639,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	printf("Reading: %.1f ms by the clock, %.1f ms of the processor.\n",
 	       (double)(g_get_monotonic_time() - begin) / 1000,
 	       (double)(worked() - begun) / 1000);
+	sim_watch();
 	window = ladder_window_new(application, document);
 	gtk_window_present(GTK_WINDOW(window));
 	watch_frames(GTK_WIDGET(window));
@@ -657,8 +664,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	if (find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW)) {
 		measure_folding(GTK_WIDGET(window),
 				find(find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
-		measure_change(GTK_WIDGET(window), ladder_window_sim(window),
-			       find(find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
+		measure_change(GTK_WIDGET(window), find(find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
 		g_object_unref(document);
 		return;
 	}
@@ -679,7 +685,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	simulate(GTK_WIDGET(window), LADDER_GRID_VIEW(sheet));
 	if (*word) {
 		late(GTK_WIDGET(window));
-		past(GTK_WIDGET(window), ladder_window_sim(window));
+		past(GTK_WIDGET(window));
 	}
 	measure_list(GTK_WIDGET(window), document);
 	g_object_unref(document);

@@ -88,6 +88,22 @@ static void seek(const struct record *record, double *took)
 	qsort(took, SEEKS, sizeof(*took), by_time);
 }
 
+/* Scans from one frame to the next, now. */
+static uint64_t apart(const struct record *record)
+{
+	struct replay replay;
+	uint64_t last;
+
+	if (!replay_init(&replay, record) || !replay_jump(&replay, record, record_last(record)))
+		exit(2);
+	last = replay.twin.scan;
+	if (last > record_first(record) && !replay_jump(&replay, record, last - 1))
+		exit(2);
+	last -= replay.twin.scan;
+	replay_free(&replay);
+	return last;
+}
+
 int main(int argc, char **argv)
 {
 	const uint64_t scans = argc > 3 ? strtoull(argv[3], NULL, 10) : KEPT;
@@ -114,7 +130,7 @@ int main(int argc, char **argv)
 	       record_last(record) - record_first(record) >= (scans < KEPT ? scans : KEPT);
 	printf("| %s | %zu | %llu | %.1f | %.1f | %.1f | %.1f | %.2f | %.2f |\n", argv[1],
 	       twin.memory_size, (unsigned long long)(record_last(record) - record_first(record)),
-	       (double)record_bytes(record) / 1e6, (double)record_apart(record),
+	       (double)record_bytes(record) / 1e6, (double)apart(record),
 	       bare_ns / 1e3, scan_ns / 1e3, took[SEEKS / 2], took[SEEKS - 1]);
 	record_free(record);
 	twin_free(&twin);

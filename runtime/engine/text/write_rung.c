@@ -57,8 +57,9 @@ static void write_element(const struct sink *sink, const struct project *project
 	}
 }
 
-void write_cell(const struct sink *sink, const struct project *project,
-		const struct cell *cell)
+/* An element, without comment. */
+static void write_cell(const struct sink *sink, const struct project *project,
+		       const struct cell *cell)
 {
 	if (cell->word != ELEM_EMPTY)
 		write_element(sink, project, cell,

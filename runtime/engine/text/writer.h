@@ -29,9 +29,6 @@ void write_string(const struct sink *sink, const char *text, size_t len);
 /** write_rung - comments, RUNG line, rows, and the statements of its EXECUTE boxes. */
 void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung);
-/** write_cell - an element, without comment. */
-void write_cell(const struct sink *sink, const struct project *project,
-		const struct cell *cell);
 /** write_item - a statement or a line of a network without the sign that ends it; a comment as it is. */
 void write_item(const struct sink *sink, const struct project *project, const struct st_item *item);
 /** write_sfc - a chart: declarations and items, up to the comments before its end. */

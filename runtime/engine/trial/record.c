@@ -388,11 +388,6 @@ size_t record_bytes(const struct record *record)
 	       record->scratch_size;
 }
 
-uint64_t record_apart(const struct record *record)
-{
-	return record->count ? apart(record, last_frame(record)) : APART_LEAST;
-}
-
 /* ---- reading ---- */
 
 bool replay_init(struct replay *replay, const struct record *record)

@@ -34,10 +34,6 @@ uint64_t record_last(const struct record *record);
 /** record_bytes - memory in use. */
 size_t record_bytes(const struct record *record);
 
-/** record_apart - scans between frames at present: the most that must be computed to
- * show one. */
-uint64_t record_apart(const struct record *record);
-
 /* A view of a record. */
 struct replay {
 	struct twin twin;         /* the state right after a scan; its programs are those of

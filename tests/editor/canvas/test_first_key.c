@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/entry_row.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
+#include "tests/editor/nodes.h"
 #include "tests/editor/sheet_window.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -193,11 +194,11 @@ static void test_conditions(void)
 	canvas_close_entry(canvas);
 }
 
-/* A candidate that would be made is marked. */
+/* A candidate that would be made is marked: by a word in a frame. */
 static bool is_marked(GtkWidget *widget)
 {
 	return LADDER_IS_ENTRY_ROW(widget) && gtk_widget_get_mapped(widget) &&
-	       *ladder_entry_row_mark(LADDER_ENTRY_ROW(widget));
+	       widget_has(widget, "border {");
 }
 
 /* @new: a name that the project does not have; @old: one that it has. */

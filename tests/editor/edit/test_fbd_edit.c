@@ -78,14 +78,6 @@ static void check_lines(void)
 	begin(text);
 	CHECK_TEXT(now, text);
 	CHECK(fbd_edit_statements(edit) == 8);
-	CHECK(fbd_edit_boxes(edit, 0) == 1);
-	CHECK(fbd_edit_boxes(edit, 1) == 2);
-	CHECK(fbd_edit_boxes(edit, 2) == 1);
-	CHECK(fbd_edit_boxes(edit, 3) == 3);
-	CHECK(fbd_edit_boxes(edit, 4) == 2);
-	CHECK(fbd_edit_boxes(edit, 5) == 1);
-	CHECK(fbd_edit_boxes(edit, 6) == 1);
-	CHECK(fbd_edit_boxes(edit, 7) == 0);
 	CHECK(edit->net.line[2]->column == 3 && edit->net.line[2]->row == 1);
 	begin("Low := A; Valve := Low; // both\n");
 	CHECK(fbd_edit_statements(edit) == 2);
@@ -349,8 +341,6 @@ static void check_names(void)
 	spot = out(2, 0, "");
 	EDIT(fbd_edit_place(edit, &spot, 0, 0),
 	     "  Low := A\n  V := B\n  Wire1 := Low AND NOT Low\n  Valve := Wire1  { at 5,1 }\n");
-	CHECK_TEXT(fbd_edit_wire(edit, 2), "Wire1");
-	CHECK(!fbd_edit_wire(edit, 3));
 }
 
 static void check_copies(void)
@@ -397,7 +387,7 @@ static struct fbd_spot any_spot(bool output)
 	struct fbd_spot spot = { .statement = dice(fbd_edit_statements(edit)), .number = dice(3),
 				 .output = output };
 
-	spot.box = dice(fbd_edit_boxes(edit, spot.statement) + 1);
+	spot.box = dice(3);
 	spot.pin = pins[dice(9)];
 	return spot;
 }

@@ -8,6 +8,7 @@
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/nodes.h"
 #include "tests/editor/screen.h"
+#include "tests/editor/strips.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -47,6 +48,7 @@ static LadderDocument *document;
 static LadderSim *sim;
 static LadderGridView *view, *body;
 static GtkWidget *window, *stack;
+static StripsSeen *seen; /* drawings of the rungs of view */
 
 /* ---- waiting ---- */
 
@@ -145,7 +147,7 @@ static unsigned int bits_of(LadderGridView *of, int rung, int row, int col)
 	unsigned int bits = 0;
 	char text[48];
 
-	CHECK(ladder_grid_view_live(of, rung, row, col, &bits, text));
+	CHECK(strip_live(of, rung, row, col, &bits, text));
 	return bits;
 }
 
@@ -160,7 +162,7 @@ static const char *text_of(int rung, int row, int col)
 	static char text[48];
 	unsigned int bits;
 
-	CHECK(ladder_grid_view_live(view, rung, row, col, &bits, text));
+	CHECK(strip_live(view, rung, row, col, &bits, text));
 	return text;
 }
 
@@ -183,7 +185,7 @@ static int differences(void)
 				unsigned int bits = 0;
 				char text[48];
 
-				ladder_grid_view_live(view, r, row, col, &bits, text);
+				strip_live(view, r, row, col, &bits, text);
 				wrong += known != !!(bits & LIVE_KNOWN) ||
 					 in != !!(bits & LIVE_IN) ||
 					 out != !!(bits & LIVE_OUT);
@@ -308,24 +310,17 @@ static void test_bodies(void)
 /* Only visible rungs that changed are redrawn. */
 static void test_drawn(void)
 {
-	guint before;
-
 	g_usleep(1100000); /* the marks of new values have ended */
 	draw();
-	before = ladder_grid_view_drawn(view);
+	strips_redrawn(view, &seen);
 	scan(1);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1,
-		 "at most the rung of the timer is redrawn");
-	before = ladder_grid_view_drawn(view);
+	CHECK_AS(strips_redrawn(view, &seen) <= 1, "at most the rung of the timer is redrawn");
 	set("Level", 3);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before + 1,
-		 "only the rung with Level is redrawn");
-	before = ladder_grid_view_drawn(view);
+	CHECK_AS(strips_redrawn(view, &seen) == 1, "only the rung with Level is redrawn");
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before,
-		 "no rung is redrawn without a change");
+	CHECK_AS(strips_redrawn(view, &seen) == 0, "no rung is redrawn without a change");
 }
 
 static bool tells(LadderTextView *of, int line, const char *want)
@@ -478,7 +473,7 @@ static bool has_aged(void)
 	unsigned int bits;
 	char text[48];
 
-	return ladder_grid_view_live(view, 2, 0, 1, &bits, text) && !(bits & LIVE_FRESH);
+	return strip_live(view, 2, 0, 1, &bits, text) && !(bits & LIVE_FRESH);
 }
 
 /* A changed value is marked for a second, unless animations are off. */
@@ -501,16 +496,15 @@ static void test_fresh(void)
 static void test_blockers(void)
 {
 	static const struct grid_blocker cells[] = { { 0, 0, "must be on" }, { 1, 0, NULL } };
-	guint before;
 
 	draw();
-	before = ladder_grid_view_drawn(view);
+	strips_redrawn(view, &seen);
 	ladder_grid_view_set_blockers(view, 0, cells, 2);
 	draw();
-	CHECK(ladder_grid_view_drawn(view) == before + 1);
+	CHECK(strips_redrawn(view, &seen) == 1);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	draw();
-	CHECK(ladder_grid_view_drawn(view) == before + 2);
+	CHECK(strips_redrawn(view, &seen) == 1);
 	/* Cells that do not exist are ignored. */
 	ladder_grid_view_set_blockers(view, 99, cells, 2);
 	ladder_grid_view_set_blockers(view, 3, cells, 2);
@@ -557,7 +551,7 @@ static void test_end(void)
 
 	ladder_sim_end(sim);
 	settle();
-	CHECK(!ladder_grid_view_live(view, 0, 0, 0, &bits, text));
+	CHECK(!strip_live(view, 0, 0, 0, &bits, text));
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force); /* only a message */
 }
 
@@ -668,6 +662,7 @@ int main(void)
 	test_blockers();
 	test_edit();
 	test_end();
+	g_clear_pointer(&seen, g_ptr_array_unref);
 	gtk_window_destroy(GTK_WINDOW(window));
 	settle();
 	g_object_unref(sim);

@@ -71,14 +71,8 @@ def tip(screen):
     editor = Editor(screen, new_file(screen, PROJECT.replace('主程序', name), '水泵站.rung'))
     editor.to_sheet()
     row = until(lambda: [node for node in editor.all(name, 'label') if node.name == name], 'the program')[0]
-    x, y = editor.centre(row)
-    sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
-
-    def shown():
-        seen = sh('xdotool', 'search', '--onlyvisible', '--pid', str(editor.pid)).split()
-        known = editor.windows()
-        return [size(window) for window in seen if window not in known and size(window)[0] < 400]
-    width, height = until(shown, 'the tooltip')[0]
+    editor.hover(row)
+    width, height = until(lambda: [size(window) for window in editor.tips() if size(window)[0] < 400], 'the tooltip')[0]
     editor.shot('chinese-tip')
     assert width > height, 'the tooltip is %d x %d' % (width, height)
 

@@ -271,6 +271,17 @@ class Finder:
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * bar + by, y + rung_y
 
+    def hover(self, node):
+        """Moves the pointer over a widget, as for its tooltip."""
+        x, y = self.centre(node)
+        sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
+
+    def tips(self):
+        """Tooltips and popups: the visible windows that the window manager does not know."""
+        known = self.windows()
+        return [window for window in sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split()
+                if window not in known]
+
     def shot(self, name):
         """Takes a picture for a person to look at, if PICTURES names a folder."""
         if os.environ.get('PICTURES'):

@@ -62,12 +62,15 @@ static void open_text(const char *text)
 
 static void test_states(void)
 {
+	struct sim_lateness late;
+
 	CHECK(!ladder_sim_is_on(sim) && ladder_sim_state(sim) == SIM_OFF);
 	CHECK(!ladder_sim_twin(sim) && !ladder_sim_lock_record(sim));
 	ladder_sim_run(sim);
 	ladder_sim_scan(sim, 3);
 	CHECK_AS(ladder_sim_state(sim) == SIM_OFF,
 		 "no scan runs while the simulation is off");
+	CHECK(!ladder_sim_lateness(sim, &late));
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(ladder_sim_state(sim) == SIM_STOP && states > 0);
 	ladder_sim_scan(sim, 5);
@@ -79,6 +82,10 @@ static void test_states(void)
 	CHECK(ladder_sim_state(sim) == SIM_RUN);
 	ladder_sim_pause(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
+	CHECK_AS(ladder_sim_lateness(sim, &late) &&
+		 sim_lateness_scans(&late) == ladder_sim_twin(sim)->scan - 5,
+		 "the lateness of each scan in RUN is counted");
+	CHECK(sim_lateness_us(&late, 0.5) <= sim_lateness_us(&late, 1));
 	ladder_sim_reset(sim, false);
 	CHECK_SOON(value("Count") == 0);
 	ladder_sim_stop(sim);

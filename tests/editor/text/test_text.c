@@ -11,6 +11,7 @@
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/values.h"
 #include "tests/tap.h"
 #include "engine/model/sfc.h"
 
@@ -440,7 +441,7 @@ static bool has_beside(const char *line, const char *value)
 
 	for (int i = 0; lines[i]; i++)
 		if (g_str_has_prefix(g_strchug(lines[i]), line)) {
-			beside = ladder_text_view_value(view, i + 1);
+			beside = line_values_text(values_in(GTK_WIDGET(view)), i);
 			found = true;
 		}
 	if (!found || g_strcmp0(beside, value) != 0)
@@ -458,7 +459,7 @@ static bool has_result(const char *line, const char *value)
 
 	for (int i = 0; lines[i]; i++)
 		if (g_str_has_prefix(g_strchug(lines[i]), line))
-			after = ladder_text_view_result(view, i + 1);
+			after = line_values_result(values_in(GTK_WIDGET(view)), i);
 	if (g_strcmp0(after, value) != 0)
 		printf("# %s: %s\n", line, after ? after : "nothing");
 	g_strfreev(lines);
@@ -678,7 +679,7 @@ static void test_values(void)
 	ladder_text_view_take(view);
 	ladder_document_check_now(document);
 	ladder_text_view_set_sim(view, sim);
-	CHECK(ladder_text_view_value(view, 5) == NULL);
+	CHECK(line_values_text(values_in(GTK_WIDGET(view)), 4) == NULL);
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(has_beside("LD    Start", "FALSE") && has_beside("ST    Motor", "FALSE"));
 	start.at = live_value_find(live_image(sim, false), "Start");

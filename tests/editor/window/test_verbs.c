@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/verbs.h"
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"
+#include "tests/editor/sim_seen.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -254,12 +255,13 @@ static void check_keys(void)
 
 static void check_simulated(void)
 {
-	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
 	struct sim_edited edit;
+	LadderSim *sim;
 	guint64 last;
 
-	CHECK(ladder_sim_begin(sim, NULL));
-	ladder_sim_run(sim);
+	sim_watch();
+	do_action("win.sim_run");
+	CHECK(sim = sim_seen);
 	CHECK_SOON(ladder_sim_last(sim) > 5 && can(VERB_sim_cold));
 	ladder_sim_pause(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);

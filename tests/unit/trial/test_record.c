@@ -355,30 +355,44 @@ static void run_scans(struct record *record, struct twin *twin, uint64_t count)
 	}
 }
 
-/* A new frame follows exactly record_apart() scans behind the last one; with room for none, only
- * the last frame is kept. */
+/* The scan of the frame at or before @scan. */
+static uint64_t frame_of(const struct record *record, uint64_t scan)
+{
+	struct replay replay;
+	uint64_t found;
+
+	CHECK(replay_init(&replay, record) && replay_jump(&replay, record, scan));
+	found = replay.twin.scan;
+	replay_free(&replay);
+	return found;
+}
+
+/* Frames are equally far apart while their size stays; with room for none, only the last frame is
+ * kept. */
 static void test_frames(void)
 {
 	struct rig rig;
 	struct twin twin;
-	struct replay replay;
 	struct record *record;
-	uint64_t apart;
+	uint64_t apart, begin;
 
 	CHECK(rig_open(&rig, "VAR\n  N : INT;\nEND_VAR\nPROGRAM Main LD\nRUNG\n"
 			     "  | [ N := N + 1 ] |\nEND_PROGRAM\n", false));
 	CHECK(twin_init(&twin, ladder_program(rig.ladder), NULL, 1000000) &&
 	      twin_restart(&twin.resource, false));
 	record = record_new(&twin, 100, 1 << 20);
-	apart = record_apart(record);
-	run_scans(record, &twin, apart + 1);
-	CHECK(replay_init(&replay, record) && replay_jump(&replay, record, apart + 1));
-	CHECK_AS(replay.twin.scan == apart, "a frame follows as many scans behind the last as said");
-	replay_free(&replay);
+	run_scans(record, &twin, 1000);
+	for (apart = 1; frame_of(record, apart) == 0; apart++)
+		;
+	CHECK(apart > 1 && apart < 100);
+	CHECK(frame_of(record, apart) == apart && frame_of(record, 2 * apart - 1) == apart &&
+	      frame_of(record, 2 * apart) == 2 * apart && frame_of(record, 1000) == 1000 / apart * apart);
 	record_free(record);
 	record = record_new(&twin, 100, 1);
-	run_scans(record, &twin, 3 * record_apart(record));
-	CHECK_AS(record_last(record) - record_first(record) < record_apart(record),
+	begin = record_first(record);
+	for (int i = 0; i < 1000 && record_first(record) == begin; i++)
+		run_scans(record, &twin, 1000);
+	CHECK_AS(record_first(record) > begin && frame_of(record, record_last(record)) == record_first(record),
 		 "without room only the last frame is kept");
 	record_free(record);
 	twin_free(&twin);

@@ -101,8 +101,6 @@ enum {
 };
 /** memory_numbers - one more than the highest number that a rung file can hold. */
 int memory_numbers(const struct classic_memory_row *row);
-/** is_word - true for memory of 32 bits. */
-bool is_word(int type);
 /** address_of - "%IX0.3", "%VD4" */
 const char *address_of(struct conversion *c, const struct classic_memory_row *row,
 		       int number);
@@ -125,8 +123,6 @@ int used_numbers(const struct conversion *c, const struct classic_memory_row *me
 int block_cells(const struct conversion *c, enum classic_kind kind, int number);
 /** is_jumped_to - true if a jump of any section leads to rung number @rung. */
 bool is_jumped_to(const struct conversion *c, int rung);
-/** has_step - true if a step has this number. */
-bool has_step(const struct conversion *c, int number);
 
 /* ---- names: classic_names.c ---- */
 /** symbol_is_none - true if it is empty or the own name of its variable. */

@@ -51,7 +51,8 @@ int memory_numbers(const struct classic_memory_row *row)
 	return row->size == 1 || row->type == 200 ? CLASSIC_LIMIT : LIMIT_AREA * 8 / row->size;
 }
 
-bool is_word(int type)
+/* True for memory of 32 bits. */
+static bool is_word(int type)
 {
 	const struct classic_memory_row *row = classic_memory_of(type);
 
@@ -367,7 +368,8 @@ const char *address_of(struct conversion *c, const struct classic_memory_row *ro
 	return text_of(c, "%%%sD%ld", row->area, bit / 8);
 }
 
-bool has_step(const struct conversion *c, int number)
+/* True if a step has this number. */
+static bool has_step(const struct conversion *c, int number)
 {
 	return number >= 0 && number < CLASSIC_LIMIT && c->uses->step[number];
 }

@@ -137,8 +137,6 @@ bool lad_needs_st(struct lad *e, const char *text);
 bool lad_is_in_order(const struct lad *e);
 
 /* ---- the two programs ---- */
-/** lad_arc - writes the rungs that tell if an arc fires. @label: of the first one. */
-void lad_arc(struct lad *e, int arc, const char *label);
 void lad_steps(struct lad *e);
 void lad_outputs(struct lad *e);
 #endif

@@ -345,7 +345,8 @@ static bool lad_has_modes(const struct lad *e)
 	return e->sfc->control[CONTROL_SEMI] || e->sfc->control[CONTROL_MANUAL];
 }
 
-void lad_arc(struct lad *e, int arc, const char *label)
+/* Writes the rungs that tell if an arc fires. @label: of the first one. */
+static void lad_arc(struct lad *e, int arc, const char *label)
 {
 	const bool modes = lad_has_modes(e);
 	struct lad_rung *r = lad_begin(e);

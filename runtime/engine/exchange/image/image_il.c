@@ -2206,8 +2206,14 @@ static void put_file(struct maker *m)
 	put_lists(m, true);
 }
 
-bool image_il_write(const struct program *program, const struct sink *sink,
-		    struct image_il_report *report)
+/* Writes a rung file
+ * @program: verified
+ * @report:  `lost` is called for each instruction that has no list; its place has a comment
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false: no memory.
+ */
+static bool image_il_write(const struct program *program, const struct sink *sink,
+			   struct image_il_report *report)
 {
 	struct maker *m = calloc(1, sizeof(*m));
 	bool good = false;

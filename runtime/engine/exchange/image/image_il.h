@@ -20,15 +20,6 @@ struct image_il_report {
 };
 
 /**
- * image_il_write - writes a rung file
- * @program: verified
- * @report:  `lost` is called for each instruction that has no list; its place has a comment
- *
- * Owns: nothing.   Scan-safe: no.   Fails: false: no memory.
- */
-bool image_il_write(const struct program *program, const struct sink *sink,
-		    struct image_il_report *report);
-/**
  * image_il_text - the same in memory
  * @lost: gets a line for each instruction that has no list, "Main: …"; NULL: none
  *

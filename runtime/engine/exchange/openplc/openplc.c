@@ -81,6 +81,8 @@ static const char *upper(struct openplc *c, const char *text)
 	return copy ? copy : "";
 }
 
+static void put_type(struct openplc *c, const char *type);
+
 /* `ARRAY [0..3, 1..2] OF INT` */
 static void put_array(struct openplc *c, const char *type)
 {
@@ -108,7 +110,8 @@ static void put_array(struct openplc *c, const char *type)
 	w_put(&c->w, "</baseType></array>");
 }
 
-void put_type(struct openplc *c, const char *type)
+/* An element of a type. */
+static void put_type(struct openplc *c, const char *type)
 {
 	if (ascii_prefix("ARRAY", type, strlen(type)) && strstr(type, "[") && !c->w.arena->failed)
 		put_array(c, type);
@@ -120,8 +123,9 @@ void put_type(struct openplc *c, const char *type)
 		w_put(&c->w, "<derived name=\"%s\"/>", xml_written(c, type));
 }
 
-void put_variable(struct openplc *c, const char *name, const char *type, const char *address,
-		  const char *initial, const char *note)
+/* A declaration; "" for what it does not have. */
+static void put_variable(struct openplc *c, const char *name, const char *type, const char *address,
+			 const char *initial, const char *note)
 {
 	struct writing *w = &c->w;
 

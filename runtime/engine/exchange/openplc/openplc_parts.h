@@ -21,11 +21,6 @@ struct openplc {
 bool openplc_fail(struct openplc *c, enum diag_id id, const char *what);
 /** xml_written - @text with the five entities of XML, as an attribute or a text. */
 const char *xml_written(struct openplc *c, const char *text);
-/** put_type - an element of a type. */
-void put_type(struct openplc *c, const char *type);
-/** put_variable - a declaration; "" for what it does not have. */
-void put_variable(struct openplc *c, const char *name, const char *type, const char *address,
-		  const char *initial, const char *note);
 /** put_body - the body that a drawing has. @ld: a ladder, else FBD. */
 void put_drawing(struct openplc *c, const struct json *body, bool ld);
 #endif

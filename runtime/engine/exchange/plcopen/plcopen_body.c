@@ -99,7 +99,8 @@ static const char *flat_comments(struct plcopen *c, const struct xml_node *eleme
 	return flat;
 }
 
-void plc_put_text(struct plcopen *c, struct xml_node *element)
+/* The text of a body in ST or IL. */
+static void plc_put_text(struct plcopen *c, struct xml_node *element)
 {
 	int line = element->line;
 	const char *text = xml_text(c->arena, element, &line);

@@ -93,8 +93,6 @@ struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
 /* ---- plcopen_declare.c ---- */
 /** plc_type - the text of a type: of the first element in @node. */
 const char *plc_type(struct plcopen *c, struct xml_node *node);
-/** plc_data_type - whether the project has a type of this name. */
-bool plc_data_type(const struct plcopen *c, const char *name);
 /** plc_value - the text of an initialValue; NULL: it has none. */
 const char *plc_value(struct plcopen *c, struct xml_node *node);
 /** plc_types - all types of the project. */
@@ -137,8 +135,6 @@ struct plc_part plc_part_begin(struct plcopen *c);
 void plc_part_swap(struct plcopen *c, struct plc_part *part);
 /** plc_part_append - writes all of @part, which ends. */
 void plc_part_append(struct plcopen *c, struct plc_part *part);
-/** plc_put_text - the text of a body in ST or IL. */
-void plc_put_text(struct plcopen *c, struct xml_node *element);
 /** plc_put_inner - the body of an action: text, rungs or statements. false: it has none of these. */
 bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body,
 		   const char *indent);

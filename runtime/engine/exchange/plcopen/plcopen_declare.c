@@ -112,7 +112,8 @@ static const struct { const char *name, *means; } added_types[] = {
 	{ "HMI_BOOL", "BOOL" }, { "HMI_NODE", "BOOL" }, { "HMI_LABEL", "STRING" },
 };
 
-bool plc_data_type(const struct plcopen *c, const char *name)
+/* Whether the project has a type of this name. */
+static bool plc_data_type(const struct plcopen *c, const char *name)
 {
 	for (const struct xml_node *each = c->types ? c->types->first : NULL; each; each = each->next)
 		if (xml_is(each, "dataType") && xml_value(each, "name") &&

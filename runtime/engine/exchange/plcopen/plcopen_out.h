@@ -71,7 +71,6 @@ void plco_block(struct out *out, const struct var_table *table, int block, const
 void plco_types(struct out *out);
 
 /* ---- plcopen_write_body.c ---- */
-void plco_body(struct out *out, const struct pou *pou);
 /** plco_rungs - rungs of a POU as elements of a drawing. */
 void plco_rungs(struct out *out, const struct pou *pou, int first, int count);
 /* ---- plcopen_write_fbd.c ---- */

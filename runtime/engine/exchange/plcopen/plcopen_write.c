@@ -91,7 +91,7 @@ static void write_il(struct out *out)
 	text_write_il(out->project, &out->pou->il, &out->sink);
 }
 
-void plco_body(struct out *out, const struct pou *pou)
+static void plco_body(struct out *out, const struct pou *pou)
 {
 	out->ids = out->y = 0;
 	plco_open(out, "body");
