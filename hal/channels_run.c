@@ -4,6 +4,7 @@
  */
 #define _GNU_SOURCE /* eventfd, PTHREAD_STACK_MIN */
 #include "hal/channel_cell.h"
+#include "hal/clock.h"
 #include "hal/group.h"
 #include "hal/sysfs.h"
 
@@ -24,14 +25,6 @@
 #define RETRY_NS    100000000     /* … two tries to write                    */
 #define FIRST_NS    1000000000    /* for the first values                    */
 #define END_NS      2000000000    /* for a thread to end                     */
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
-}
 
 static void nap(void)
 {

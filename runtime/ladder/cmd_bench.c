@@ -7,6 +7,7 @@
 #include "ladder/tty.h"
 
 #include "engine/scan/still.h"
+#include "hal/clock.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -162,10 +163,10 @@ static double take_sample(struct bench *bench, bool body, int64_t batch)
 
 	if (body)
 		image_begin(&bench->resource->image);
-	start = tty_now();
+	start = clock_now();
 	for (int64_t i = 0; i < batch; i++)
 		good = run_once(bench, body) && good;
-	took = tty_now() - start;
+	took = clock_now() - start;
 	if (body)
 		image_end(&bench->resource->image);
 	if (!good)
@@ -239,7 +240,7 @@ static void measure_clock(struct bench *bench)
 {
 	bench->clock_ns = 1e9;
 	for (int i = 0; i < 1000; i++) {
-		int64_t start = tty_now(), took = tty_now() - start;
+		int64_t start = clock_now(), took = clock_now() - start;
 
 		if ((double)took < bench->clock_ns)
 			bench->clock_ns = (double)took;
@@ -251,12 +252,12 @@ static void measure_load(struct bench *bench, const char *path)
 	bench->load_ns = bench->build_ns = INT64_MAX;
 	for (int i = 0; i < LOADS; i++) {
 		struct ladder *ladder = ladder_new();
-		int64_t start = tty_now(), loaded, built;
+		int64_t start = clock_now(), loaded, built;
 		bool good = ladder && report_read_program(ladder, path);
 
-		loaded = tty_now();
+		loaded = clock_now();
 		good = good && ladder_build(ladder);
-		built = tty_now();
+		built = clock_now();
 		ladder_free(ladder);
 		if (!good)
 			continue;

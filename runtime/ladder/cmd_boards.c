@@ -4,6 +4,7 @@
  * serial ports of this machine.
  */
 #include "ladder/foreign.h"
+#include "hal/clock.h"
 #include "ladder/report.h"
 
 #include "online/finder.h"
@@ -14,14 +15,6 @@
 
 #define WAIT_NS    INT64_C(3000000000)
 #define PORTS_MOST 32
-
-static int64_t now_ns(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
-}
 
 static void print_board(const struct call *call, const struct found_board *board, bool first)
 {
@@ -94,14 +87,14 @@ static void print_boards(struct call *call, struct finder *finder, struct printe
 static void find_boards(struct call *call, struct finder *finder, int64_t wait_ns,
 			struct printed *printed)
 {
-	const int64_t until = now_ns() + wait_ns;
+	const int64_t until = clock_now() + wait_ns;
 	int64_t left = wait_ns;
 
 	while (!finder_settled(finder) && left > 0) {
 		if (finder_wait(finder, (int)(left / 1000000) + 1) &&
 		    !call_flag(call, "--json"))
 			print_boards(call, finder, printed);
-		left = until - now_ns();
+		left = until - clock_now();
 	}
 	print_boards(call, finder, printed);
 }

@@ -10,6 +10,7 @@
 #include "engine/trial/script.h"
 #include "engine/trial/trace.h"
 #include "engine/trial/value.h"
+#include "hal/clock.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -70,9 +71,9 @@ static enum status run_plain(struct call *call, struct board *board,
 		return report_no_memory(call->arg[0]);
 	}
 	tty_watch_signals();
-	pace_start(pace, tty_now());
+	pace_start(pace, clock_now());
 	while (good && !tty_stopped() && !pace_is_over(pace)) {
-		int64_t wait = pace_wait(pace, tty_now());
+		int64_t wait = pace_wait(pace, clock_now());
 
 		if (wait > 0) {
 			tty_sleep(wait);

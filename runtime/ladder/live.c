@@ -4,6 +4,7 @@
  * scans are.
  */
 #include "ladder/live.h"
+#include "hal/clock.h"
 #include "ladder/rungs.h"
 #include "ladder/screen.h"
 #include "ladder/tty.h"
@@ -299,11 +300,11 @@ static void note_moves(struct board *board)
 
 static void scan(struct live *live)
 {
-	int64_t start = tty_now(), took;
+	int64_t start = clock_now(), took;
 	struct resource *resource = live->board->resource;
 
 	board_scan(live->board, pace_step(live->pace));
-	took = tty_now() - start;
+	took = clock_now() - start;
 	live->scan_ns = took;
 	if (took > live->scan_max_ns)
 		live->scan_max_ns = took;
@@ -338,7 +339,7 @@ static bool take_key(struct live *live, int key)
 		return true;
 	}
 	if (live->paused || key == ' ')
-		pace_start(live->pace, tty_now());
+		pace_start(live->pace, clock_now());
 	live->drawn_ns = 0; /* draw at once */
 	return true;
 }
@@ -352,7 +353,7 @@ static bool is_idle(const struct live *live)
 /* Draws if a frame is due. False: the terminal cannot be written. */
 static bool show(struct live *live)
 {
-	int64_t now = tty_now();
+	int64_t now = clock_now();
 
 	if (live->drawn_ns && now - live->drawn_ns < FRAME_NS)
 		return true;
@@ -365,12 +366,12 @@ static void loop(struct live *live)
 {
 	bool going = show(live);
 
-	pace_start(live->pace, tty_now());
+	pace_start(live->pace, clock_now());
 	while (going && !tty_stopped() && !pace_is_over(live->pace)) {
 		int64_t wait = FRAME_NS;
 
 		if (!is_idle(live)) {
-			int64_t due = pace_wait(live->pace, tty_now());
+			int64_t due = pace_wait(live->pace, clock_now());
 
 			if (due <= 0)
 				scan(live);

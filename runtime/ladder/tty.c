@@ -177,10 +177,3 @@ void tty_sleep(int64_t wait_ns)
 	pselect(0, NULL, NULL, NULL, &wait, NULL);
 }
 
-int64_t tty_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
-}

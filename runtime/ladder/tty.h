@@ -32,6 +32,4 @@ bool tty_draw(const char *bytes, size_t len);
 int tty_key(int64_t wait_ns);
 /** tty_sleep - waits @wait_ns, or until a signal arrives. */
 void tty_sleep(int64_t wait_ns);
-/** tty_now - CLOCK_MONOTONIC in ns. */
-int64_t tty_now(void);
 #endif

@@ -10,6 +10,7 @@
 #include "hal/channels.h"
 
 #include "engine/scan/interrupt.h"
+#include "hal/clock.h"
 
 #include <errno.h>
 #include <stdatomic.h>
@@ -21,14 +22,6 @@
 #define TEND_NS  1000000000 /* in FAULT, time between attempts to repair lines */
 #define SECOND   INT64_C(1000000000)
 #define PERIOD   INT64_C(10000000) /* default of --period */
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
-}
 
 static int64_t clock_of_task(const struct resource *resource)
 {

@@ -28,6 +28,7 @@
 #include "online/port.h"
 
 #include "guard/say.h"
+#include "hal/clock.h"
 #include <errno.h>
 #include <limits.h>
 #include <poll.h>
@@ -128,14 +129,6 @@ struct link {
 	int64_t turned_ns;
 	bool hangs;                    /* it was told                          */
 };
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
-}
 
 /* ---- the scan thread ---- */
 

@@ -7,6 +7,7 @@
  * own time.
  */
 #include "ladderd/link.h"
+#include "hal/clock.h"
 #include "ladderd/control.h"
 #include "ladderd/nameless.h"
 
@@ -33,14 +34,6 @@ struct link {
 	struct serial serial;
 	struct nameless nameless;
 };
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
-}
 
 /* ---- the line ---- */
 

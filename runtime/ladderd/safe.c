@@ -8,6 +8,7 @@
 #include "ladderd/safe.h"
 
 #include "guard/say.h"
+#include "hal/clock.h"
 #include "ladderd/guarded.h"
 
 #include <errno.h>
@@ -87,14 +88,6 @@ void requests_attend(struct requests *asked)
 		return;
 	if (!(input.revents & POLLIN) || read(STDIN_FILENO, thrown, sizeof(thrown)) <= 0)
 		asked->stop = 1;
-}
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
 }
 
 /* setitimer() uses the monotonic clock, too; timer_create() would link thread code of the C

@@ -9,6 +9,7 @@
  */
 #define _GNU_SOURCE /* eventfd() */
 #include "ladderd/store.h"
+#include "hal/clock.h"
 #include "ladderd/control.h"
 #include "ladderd/store_file.h"
 
@@ -153,14 +154,6 @@ struct store_status store_status(const struct store *store)
 		.writes = atomic_load(&store->writes),
 		.failures = atomic_load(&store->failures),
 	};
-}
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
 int store_error(const struct store *store)

@@ -12,6 +12,7 @@
 
 #include "engine/base/name.h"
 #include "engine/base/version.h"
+#include "hal/clock.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -54,14 +55,6 @@ static void want_stop(int number)
 {
 	(void)number;
 	stop = 1;
-}
-
-static int64_t clock_now(void)
-{
-	struct timespec now;
-
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
 /* ---- from ladderd ---- */
