@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/style.h"
 
 /* ---- cells ---- */
 
@@ -100,12 +101,8 @@ static void show_icon(LadderPanelRow *row, GtkListItem *item)
 	GtkWidget *image = gtk_list_item_get_child(item);
 
 	gtk_image_set_from_icon_name(GTK_IMAGE(image), tone_icon(row->tone));
-	gtk_widget_remove_css_class(image, row->tone == PANEL_ERROR ? "warning" : "error");
-	if (row->tone != PANEL_PLAIN)
-		gtk_widget_add_css_class(image, row->tone == PANEL_ERROR ? "error" :
-					 "warning");
-	else
-		gtk_widget_remove_css_class(image, "warning");
+	style_set(image, "error", row->tone == PANEL_ERROR);
+	style_set(image, "warning", row->tone == PANEL_WARNING);
 	tip_set(image, row->note);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(image), GTK_ACCESSIBLE_PROPERTY_LABEL,
 		row->note ? row->note : row->tone == PANEL_ERROR ? _("Error") :

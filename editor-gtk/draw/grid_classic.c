@@ -22,7 +22,6 @@
 #define HEADING     28
 #define NAME_UP     17   /* baselines above and below the wire                  */
 #define NAME_DOWN   25
-#define CAPTION     24   /* height of the line above a rung                     */
 #define FRAME_UP    16   /* of an expression                                    */
 
 enum { TAKEN = 99, COMPARE = 20, OPERATE = 60, JUMP = 54, CALL = 55, WIRE = 9,
@@ -359,19 +358,6 @@ float grid_classic_draw(const struct classic_scene *scene, struct picture *pictu
 
 /* ---- original and import ---- */
 
-static float put_caption(const struct classic_pair *pair, const char *text, float y,
-			 struct picture *picture)
-{
-	const struct lettered fits = lettering_fit(pair->there.lettering, LETTER_COMMENT,
-						   text, -1, 0);
-
-	picture_move(picture, 0, y);
-	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 17);
-	picture_move(picture, 0, 0);
-	picture->width = MAX(picture->width, fits.width + 32);
-	return CAPTION;
-}
-
 /* "Here: Main, rungs 3 to 5" */
 static char *name_ours(const struct classic_pair *pair)
 {
@@ -426,27 +412,20 @@ static float put_ours(const struct classic_pair *pair, float y, struct picture *
 
 float grid_classic_here(const struct classic_pair *pair, float y, struct picture *picture)
 {
-	char *text = name_ours(pair);
-
-	y += put_caption(pair, text, y, picture);
-	g_free(text);
+	y += picture_caption(picture, pair->there.lettering, name_ours(pair), y);
 	return put_ours(pair, y, picture);
 }
 
 float grid_classic_pair(const struct classic_pair *pair, float y, struct picture *picture)
 {
-	char *text = g_strdup_printf(_("ClassicLadder: %s"), pair->there_name);
-
-	y += put_caption(pair, text, y, picture);
-	g_free(text);
+	y += picture_caption(picture, pair->there.lettering, g_strdup_printf(_("ClassicLadder: %s"), pair->there_name), y);
 	picture_move(picture, 0, y);
 	y += grid_classic_draw(&pair->there, picture);
 	picture_move(picture, 0, 0);
-	if (pair->rungs > 0) {
+	if (pair->rungs > 0)
 		y = grid_classic_here(pair, y, picture);
-	} else if (pair->lost) {
-		y += put_caption(pair, pair->lost, y, picture);
-	}
+	else if (pair->lost)
+		y += picture_caption(picture, pair->there.lettering, g_strdup(pair->lost), y);
 	picture->height = MAX(picture->height, y + 4);
 	return y + 4;
 }

@@ -9,7 +9,6 @@
 #include "editor-gtk/kit/i18n.h"
 
 #define MARGIN  28.0f /* room for names above the first elements              */
-#define CAPTION 24.0f
 #define SMALL   4.0f  /* radius of the circle of a negated pin                */
 
 struct nib { struct picture *picture; const struct original_scene *scene; };
@@ -131,18 +130,6 @@ static float original_draw(const struct original_scene *scene, struct picture *p
 
 /* ---- original and import ---- */
 
-static float put_caption(const struct original_scene *scene, char *text, float y, struct picture *picture)
-{
-	const struct lettered fits = lettering_fit(scene->lettering, LETTER_COMMENT, text, -1, 0);
-
-	picture_move(picture, 0, y);
-	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 17);
-	picture_move(picture, 0, 0);
-	picture->width = MAX(picture->width, fits.width + 32);
-	g_free(text);
-	return y + CAPTION;
-}
-
 static float put_network(const struct original_scene *scene, float y, struct picture *picture)
 {
 	const struct pou *pou = &scene->project->pou[scene->pou];
@@ -167,7 +154,8 @@ static float put_ours(const struct original_scene *scene, float y, struct pictur
 					   .rungs = 1, .show = scene->show };
 
 	if (pou->language == LANGUAGE_FBD && scene->number < fbd_layout_networks(pou)) {
-		y = put_caption(scene, g_strdup_printf(_("Here: %s, network %d"), name, scene->number + 1), y, picture);
+		y += picture_caption(picture, scene->lettering,
+				     g_strdup_printf(_("Here: %s, network %d"), name, scene->number + 1), y);
 		return put_network(scene, y, picture);
 	}
 	return pou->language == LANGUAGE_LD && scene->number < pou->rung_count ? grid_classic_here(&pair, y, picture) : y;
@@ -175,7 +163,8 @@ static float put_ours(const struct original_scene *scene, float y, struct pictur
 
 void original_pair(const struct original_scene *scene, struct picture *picture)
 {
-	float y = put_caption(scene, g_strdup_printf(_("There: %s, line %d"), scene->name, scene->drawing->line), 0, picture);
+	float y = picture_caption(picture, scene->lettering,
+		g_strdup_printf(_("There: %s, line %d"), scene->name, scene->drawing->line), 0);
 
 	picture_move(picture, 0, y);
 	y += original_draw(scene, picture);

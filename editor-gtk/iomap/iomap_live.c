@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include <string.h>
@@ -135,14 +136,6 @@ static char *values_of(LadderSim *sim, const LadderPanelRow *row, struct shown *
 	return g_string_free(text, FALSE);
 }
 
-static void set_class(GtkWidget *cell, const char *class, bool is)
-{
-	if (is)
-		gtk_widget_add_css_class(cell, class);
-	else
-		gtk_widget_remove_css_class(cell, class);
-}
-
 static void show_cell(struct iomap_live *live, GtkWidget *cell)
 {
 	LadderPanelRow *row = row_of(cell);
@@ -153,8 +146,8 @@ static void show_cell(struct iomap_live *live, GtkWidget *cell)
 	char *text = g_strdup_printf("%s%s%s", *values ? quality : "", *values && *quality ? "  " : "", values);
 	char *name;
 
-	set_class(cell, "bad-quality", shown.worst != SIM_GOOD);
-	set_class(cell, "forced", shown.forced);
+	style_set(cell, "bad-quality", shown.worst != SIM_GOOD);
+	style_set(cell, "forced", shown.forced);
 	if (g_strcmp0(gtk_button_get_label(GTK_BUTTON(cell)), text) != 0 ||
 	    !gtk_widget_get_visible(cell)) {
 		gtk_button_set_label(GTK_BUTTON(cell), text);

@@ -115,6 +115,20 @@ void picture_text(struct picture *picture, enum token token, enum letter letter,
 		});
 }
 
+#define CAPTION 24.0f /* px; height of a caption */
+
+float picture_caption(struct picture *picture, struct lettering *lettering, char *text, float y)
+{
+	const struct lettered fits = lettering_fit(lettering, LETTER_COMMENT, text, -1, 0);
+
+	picture_move(picture, 0, y);
+	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 17);
+	picture_move(picture, 0, 0);
+	picture->width = MAX(picture->width, fits.width + 32);
+	g_free(text);
+	return CAPTION;
+}
+
 /* ---- nodes and cairo ---- */
 
 static GdkRGBA color_of(const struct stroke *stroke, const struct theme *theme)

@@ -69,6 +69,10 @@ void picture_wave(struct picture *picture, enum token token, float x, float y, f
 void picture_text(struct picture *picture, enum token token, enum letter letter,
 		  struct lettered text, float x, float baseline);
 
+/** picture_caption - a comment above a drawing, @y from the top; the picture becomes wide enough. @text:
+ * taken. Returns its height. */
+float picture_caption(struct picture *picture, struct lettering *lettering, char *text, float y);
+
 /** picture_snapshot - as render nodes. */
 void picture_snapshot(const struct picture *picture, const struct theme *theme,
 		      struct lettering *lettering, GtkSnapshot *snapshot);

@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include "engine/trial/value.h"
@@ -107,10 +108,7 @@ static void speak(LadderSimRowView *view)
 
 static void show_lamp(LadderSimRowView *view, bool on)
 {
-	if (on)
-		gtk_widget_add_css_class(view->lamp, "on");
-	else
-		gtk_widget_remove_css_class(view->lamp, "on");
+	style_set(view->lamp, "on", on);
 }
 
 static void show_bit(LadderSimRowView *view, bool on)
@@ -282,14 +280,8 @@ static void end_edit(LadderSimRowView *view)
 /* @why: NULL: it is good. */
 static void mark(LadderSimRowView *view, const char *why)
 {
-	if (why)
-		gtk_widget_add_css_class(view->entry, "error");
-	else
-		gtk_widget_remove_css_class(view->entry, "error");
+	style_wrong(view->entry, why != NULL);
 	tip_set(view->entry, why);
-	gtk_accessible_update_state(GTK_ACCESSIBLE(view->entry), GTK_ACCESSIBLE_STATE_INVALID,
-				    why ? GTK_ACCESSIBLE_INVALID_TRUE :
-					  GTK_ACCESSIBLE_INVALID_FALSE, -1);
 }
 
 /* Of what is edited: a preset is of no enumeration. */

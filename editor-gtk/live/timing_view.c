@@ -5,6 +5,7 @@
 #include "editor-gtk/live/timing_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/sim/live_value.h"
 
@@ -176,14 +177,9 @@ static void refuse_wanted(LadderTimingView *view, const char *why)
 {
 	GtkWidget *entry = GTK_WIDGET(view->wanted);
 
-	if (why)
-		gtk_widget_add_css_class(entry, "error");
-	else
-		gtk_widget_remove_css_class(entry, "error");
+	style_wrong(entry, why != NULL);
 	gtk_label_set_text(view->refusal, why ? why : "");
 	gtk_widget_set_visible(GTK_WIDGET(view->refusal), why != NULL);
-	gtk_accessible_update_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID, why ?
-		GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
 }
 
 static void wanted_changed(LadderTimingView *view)

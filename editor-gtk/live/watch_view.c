@@ -17,6 +17,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/live/watch_names.h"
 
 #include <string.h>
@@ -249,21 +250,13 @@ static void name_cell(GtkWidget *cell, const LadderWatchRow *row, enum column co
 	g_free(name);
 }
 
-static void set_class(GtkWidget *widget, const char *class, bool is)
-{
-	if (is)
-		gtk_widget_add_css_class(widget, class);
-	else
-		gtk_widget_remove_css_class(widget, class);
-}
-
 static void show_value(LadderWatchRow *row)
 {
 	char *value = watch_row_value(row);
 	const char *quality = live_quality_text(row->seen.quality);
 	char *text = g_strdup_printf("%s%s%s", value, *quality ? "  " : "", quality);
 
-	set_class(row->value, "bad-quality", *quality);
+	style_set(row->value, "bad-quality", *quality);
 	gtk_label_set_text(GTK_LABEL(row->value), text);
 	tip_set(row->value, text);
 	g_free(text);
@@ -275,7 +268,7 @@ static void show_force(LadderWatchRow *row)
 	const bool can = row->seen.known && row->at.type != IEC_STRING && !row->at.constant;
 
 	gtk_widget_set_sensitive(row->force, can);
-	set_class(row->force, "forced", row->seen.forced);
+	style_set(row->force, "forced", row->seen.forced);
 	if (gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(row->force)) != row->seen.forced)
 		gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(row->force), row->seen.forced);
 }
@@ -350,10 +343,8 @@ static void mark(GtkWidget *cell, const char *why)
 {
 	if (!cell)
 		return;
-	set_class(cell, "error", why != NULL);
+	style_wrong(cell, why != NULL);
 	tip_set(cell, why);
-	gtk_accessible_update_state(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_STATE_INVALID,
-		why ? GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
 }
 
 static void refuse(LadderWatchView *view, LadderWatchRow *row, char *why)
@@ -959,8 +950,8 @@ static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 					      row->line->name) : NULL;
 
 	gtk_label_set_text(GTK_LABEL(cell), row->line->name);
-	set_class(cell, "error", unknown);
-	set_class(cell, "watch-unknown", unknown);
+	style_set(cell, "error", unknown);
+	style_set(cell, "watch-unknown", unknown);
 	tip_set(cell, tip ? tip : row->line->name);
 	spoken_name(cell, tip ? tip : row->line->name);
 	g_free(tip);

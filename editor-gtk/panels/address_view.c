@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 
 
 /* Texts of a row; its index is the number of its struct address_row. */
@@ -263,10 +264,7 @@ static gboolean key_pressed(LadderAddressView *view, guint key, guint code,
 static void style_cell(GtkWidget *cell, enum address_state state)
 {
 	for (int i = 0; i < ADDRESS_STATES; i++)
-		if (i == (int)state)
-			gtk_widget_add_css_class(cell, states[i].style);
-		else
-			gtk_widget_remove_css_class(cell, states[i].style);
+		style_set(cell, states[i].style, i == (int)state);
 }
 
 static const char *mark_of(enum address_state state, bool own)

@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/style.h"
 
 #include <string.h>
 
@@ -51,10 +52,7 @@ static void set_message(LadderFindBar *bar, const char *text, bool error)
 {
 	gtk_label_set_text(GTK_LABEL(bar->message), text);
 	tip_set(bar->message, text);
-	if (error)
-		gtk_widget_add_css_class(bar->message, "error");
-	else
-		gtk_widget_remove_css_class(bar->message, "error");
+	style_set(bar->message, "error", error);
 }
 
 static void show_count(LadderFindBar *bar)

@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/row_move.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/panels/type_cells.h"
 
 #include "engine/xref/xref.h"
@@ -482,10 +483,7 @@ static void dress(GtkWidget *cell, const LadderPanelRow *row, int field)
 {
 	if (field != TYPES_NUMBER)
 		return;
-	if (row->flags & TYPES_IMPLICIT)
-		gtk_widget_add_css_class(cell, "dim-label");
-	else
-		gtk_widget_remove_css_class(cell, "dim-label");
+	style_set(cell, "dim-label", (row->flags & TYPES_IMPLICIT) != 0);
 }
 
 /* ---- members and values ---- */

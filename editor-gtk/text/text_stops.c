@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/sim_stops.h"
 #include "editor-gtk/text/stop_gutter.h"
@@ -342,12 +343,7 @@ void text_stops_toggle(struct text_stops *stops, int line)
 static void show_why(struct text_stops *stops, const char *why)
 {
 	gtk_label_set_text(stops->why, why ? why : "");
-	if (why)
-		gtk_widget_add_css_class(stops->entry, "error");
-	else
-		gtk_widget_remove_css_class(stops->entry, "error");
-	gtk_accessible_update_state(GTK_ACCESSIBLE(stops->entry), GTK_ACCESSIBLE_STATE_INVALID,
-		why ? GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
+	style_wrong(stops->entry, why != NULL);
 }
 
 /* The cursor goes to the mistake. */

@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/kit/verbs.h"
 
 #include <string.h>
@@ -42,10 +43,7 @@ static void row_show(GtkWidget *row, const char *why)
 	GtkWidget *label = gtk_widget_get_first_child(
 		gtk_list_box_row_get_child(GTK_LIST_BOX_ROW(row)));
 
-	if (why)
-		gtk_widget_add_css_class(label, "dim-label");
-	else
-		gtk_widget_remove_css_class(label, "dim-label");
+	style_set(label, "dim-label", why != NULL);
 	tip_set(row, why);
 }
 

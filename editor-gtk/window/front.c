@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
 
@@ -424,12 +425,7 @@ static void typed(struct front *front, GtkWidget *number)
 	const bool good = is_number(&of, text, &to), wrong = *text && !good;
 
 	adw_message_dialog_set_response_enabled(dialog, "go", good);
-	if (wrong)
-		gtk_widget_add_css_class(number, "error");
-	else
-		gtk_widget_remove_css_class(number, "error");
-	gtk_accessible_update_state(GTK_ACCESSIBLE(number), GTK_ACCESSIBLE_STATE_INVALID,
-		wrong ? GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
+	style_wrong(number, wrong);
 }
 
 void front_ask_number(struct front *front)

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/online/board_finder.h"
 #include "editor-gtk/online/connect_dialog.h"
 #include "editor-gtk/window/ask.h"
@@ -123,14 +124,6 @@ static char *state_text(struct online_bar *bar)
 	return g_string_free(text, FALSE);
 }
 
-static void set_class(GtkWidget *widget, const char *class, bool on)
-{
-	if (on)
-		gtk_widget_add_css_class(widget, class);
-	else
-		gtk_widget_remove_css_class(widget, class);
-}
-
 static void show_label(GtkWidget *label, const char *text)
 {
 	if (strcmp(gtk_label_get_text(GTK_LABEL(label)), text) == 0)
@@ -154,7 +147,7 @@ static void show_same(struct online_bar *bar)
 	if (same == SAME)
 		bar->was_same = true;
 	show_label(bar->same, said(texts[same]));
-	set_class(bar->same, "warning", same == SAME_CHANGED || same == SAME_OTHER ||
+	style_set(bar->same, "warning", same == SAME_CHANGED || same == SAME_OTHER ||
 		  same == SAME_ERRORS);
 }
 
@@ -177,7 +170,7 @@ static void show_reason(struct online_bar *bar)
 	show_label(bar->reason, none ? _("Your user on the board is in none of the groups "
 		"ladder-view, ladder-oper, ladder-eng, so it may do nothing there. Add it to one "
 		"of them and connect again.") : reason_of(bar));
-	set_class(bar->reason, "error", !status || status->mode == STATE_FAULT);
+	style_set(bar->reason, "error", !status || status->mode == STATE_FAULT);
 	gtk_widget_set_visible(bar->again, state == LINK_FAILED || state == LINK_LOST || none);
 }
 
@@ -253,8 +246,8 @@ static void show(struct online_bar *bar)
 
 	gtk_widget_set_visible(bar->bar, is_on(bar));
 	show_label(bar->state, text);
-	set_class(bar->state, "error", status && status->mode == STATE_FAULT);
-	set_class(bar->state, "success", status && status->mode == STATE_RUN);
+	style_set(bar->state, "error", status && status->mode == STATE_FAULT);
+	style_set(bar->state, "success", status && status->mode == STATE_RUN);
 	show_same(bar);
 	show_reason(bar);
 	show_actions(bar);
