@@ -6,9 +6,7 @@
 
 #include "editor-gtk/document/boxed_line.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/kit/gtk48/tip.h"
-#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/window/below_part.h"
 
 #define TEXT_HEIGHT 220 /* px of the text below, with its heading           */
 
@@ -16,10 +14,10 @@ struct _LadderRungPage {
 	GtkBox parent;
 	LadderDocument *document;
 	LadderSim *sim;
-	GtkWidget *sheet, *below, *place;
-	GtkLabel *heading;
+	GtkWidget *sheet;
+	struct below_part below;
 	GtkWidget *text;      /* NULL: closed                                  */
-	bool below_active;    /* it has the focus, or had it last              */
+	bool below_active;    /* the part that had the focus last              */
 };
 
 G_DEFINE_FINAL_TYPE(LadderRungPage, ladder_rung_page, GTK_TYPE_BOX)
@@ -59,20 +57,11 @@ static void below_entered(LadderRungPage *page)
 	set_active(page, true);
 }
 
-/* The part of the page that had the focus last is active. */
-static void follow_focus(LadderRungPage *page, GtkWidget *widget, GCallback entered)
-{
-	GtkEventController *focus = gtk_event_controller_focus_new();
-
-	g_signal_connect_swapped(focus, "enter", entered, page);
-	gtk_widget_add_controller(widget, focus);
-}
-
 static void close_below(LadderRungPage *page)
 {
-	gtk_widget_set_visible(page->below, FALSE);
+	gtk_widget_set_visible(page->below.box, FALSE);
 	if (page->text)
-		gtk_box_remove(GTK_BOX(page->place), page->text);
+		gtk_box_remove(page->below.place, page->text);
 	page->text = NULL;
 	set_active(page, false);
 }
@@ -87,10 +76,10 @@ static void close_clicked(LadderRungPage *page)
 static void part_changed(LadderRungPage *page)
 {
 	char *part = ladder_text_view_part(LADDER_TEXT_VIEW(page->text));
-	const bool had_focus = page->below_active && gtk_widget_get_focus_child(page->place);
+	const bool had_focus = page->below_active && gtk_widget_get_focus_child(GTK_WIDGET(page->below.place));
 
 	if (part) {
-		gtk_label_set_text(page->heading, part);
+		gtk_label_set_text(page->below.heading, part);
 	} else {
 		close_below(page);
 		if (had_focus)
@@ -104,11 +93,11 @@ static void open_text(LadderRungPage *page)
 	page->text = ladder_text_view_new(page->document,
 					  ladder_canvas_pou(LADDER_CANVAS(page->sheet)));
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
-	follow_focus(page, page->text, G_CALLBACK(below_entered));
+	below_part_follow(page->text, G_CALLBACK(below_entered), page);
 	g_signal_connect_swapped(page->text, "part-changed", G_CALLBACK(part_changed), page);
 	gtk_widget_set_vexpand(page->text, TRUE);
-	gtk_box_append(GTK_BOX(page->place), page->text);
-	gtk_widget_set_visible(page->below, TRUE);
+	gtk_box_append(page->below.place, page->text);
+	gtk_widget_set_visible(page->below.box, TRUE);
 }
 
 void ladder_rung_page_go(LadderRungPage *page, int line, int column)
@@ -161,32 +150,10 @@ static void ladder_rung_page_class_init(LadderRungPageClass *class)
 
 static void ladder_rung_page_init(LadderRungPage *page)
 {
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
-	GtkWidget *heading = gtk_label_new("");
-	GtkWidget *close = gtk_button_new_from_icon_name("window-close-symbolic");
-
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(page), GTK_ORIENTATION_VERTICAL);
-	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	page->heading = GTK_LABEL(heading);
-	tip_set(close, _("Close"));
-	spoken_name(close, _("Close"));
-	gtk_widget_add_css_class(close, "flat");
-	gtk_label_set_xalign(GTK_LABEL(heading), 0);
-	gtk_label_set_ellipsize(GTK_LABEL(heading), PANGO_ELLIPSIZE_END);
-	gtk_widget_add_css_class(heading, "heading");
-	gtk_widget_set_hexpand(heading, TRUE);
-	gtk_widget_set_margin_start(bar, 12);
-	gtk_box_append(GTK_BOX(bar), heading);
-	gtk_box_append(GTK_BOX(bar), close);
-	gtk_box_append(GTK_BOX(page->below), gtk_separator_new(GTK_ORIENTATION_HORIZONTAL));
-	gtk_box_append(GTK_BOX(page->below), bar);
-	gtk_box_append(GTK_BOX(page->below), page->place);
-	gtk_widget_set_vexpand(page->place, TRUE);
-	gtk_widget_set_vexpand(page->below, FALSE);
-	gtk_widget_set_size_request(page->below, -1, TEXT_HEIGHT);
-	gtk_widget_set_visible(page->below, FALSE);
-	g_signal_connect_swapped(close, "clicked", G_CALLBACK(close_clicked), page);
+	below_part_init(&page->below, TEXT_HEIGHT, G_CALLBACK(close_clicked), page);
+	gtk_box_prepend(GTK_BOX(page->below.box), gtk_separator_new(GTK_ORIENTATION_HORIZONTAL));
+	gtk_widget_set_vexpand(page->below.box, FALSE);
 }
 
 GtkWidget *ladder_rung_page_new(LadderDocument *document, GtkWidget *sheet, LadderSim *sim)
@@ -201,8 +168,8 @@ GtkWidget *ladder_rung_page_new(LadderDocument *document, GtkWidget *sheet, Ladd
 	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
 	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_box_append(GTK_BOX(page), scroller);
-	gtk_box_append(GTK_BOX(page), page->below);
-	follow_focus(page, sheet, G_CALLBACK(sheet_entered));
+	gtk_box_append(GTK_BOX(page), page->below.box);
+	below_part_follow(sheet, G_CALLBACK(sheet_entered), page);
 	g_signal_connect_swapped(sheet, "statements-wanted", G_CALLBACK(statements_wanted), page);
 	return GTK_WIDGET(page);
 }

@@ -5,11 +5,11 @@
 #include "editor-gtk/window/sfc_page.h"
 
 #include "editor-gtk/document/boxed_line.h"
-#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/sfc_bodies.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
-#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/window/below_part.h"
+
+#define RUNGS_HEIGHT 180 /* px of the part below, with its heading */
 
 struct _LadderSfcPage {
 	GtkBox parent;
@@ -17,8 +17,8 @@ struct _LadderSfcPage {
 	LadderSim *sim;
 	int pou;
 	gulong handler;
-	GtkWidget *paned, *chart, *below, *place; /* place: holds @rungs or @text */
-	GtkLabel *heading;
+	GtkWidget *paned, *chart;
+	struct below_part below;     /* holds @rungs or @text                  */
 	char *shown;                 /* heading of the body shown in @rungs */
 	GtkWidget *rungs, *text;     /* at most one of them                    */
 	bool below_active;           /* @rungs or @text has the focus, or had it last */
@@ -74,26 +74,17 @@ static void below_entered(LadderSfcPage *page)
 	set_active(page, true);
 }
 
-/* The part of the page that had the focus last is active. */
-static void follow_focus(LadderSfcPage *page, GtkWidget *widget, GCallback entered)
-{
-	GtkEventController *focus = gtk_event_controller_focus_new();
-
-	g_signal_connect_swapped(focus, "enter", entered, page);
-	gtk_widget_add_controller(widget, focus);
-}
-
 static void close_below(LadderSfcPage *page)
 {
-	GtkWidget *child = gtk_widget_get_first_child(page->place);
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(page->below.place));
 
 	page->rungs = page->text = NULL;
 	page->below_active = false;
 	page->back = -1;
 	g_clear_pointer(&page->shown, g_free);
-	gtk_widget_set_visible(page->below, FALSE);
+	gtk_widget_set_visible(page->below.box, FALSE);
 	if (child)
-		gtk_box_remove(GTK_BOX(page->place), child);
+		gtk_box_remove(page->below.place, child);
 }
 
 static void show_rungs(LadderSfcPage *page, int first);
@@ -137,9 +128,9 @@ static void put_below(LadderSfcPage *page, GtkWidget *widget, const char *headin
 		slow_bar_choose(GTK_SCROLLED_WINDOW(child));
 	}
 	gtk_widget_set_vexpand(child, TRUE);
-	gtk_box_append(GTK_BOX(page->place), child);
-	gtk_label_set_text(page->heading, heading);
-	gtk_widget_set_visible(page->below, TRUE);
+	gtk_box_append(page->below.place, child);
+	gtk_label_set_text(page->below.heading, heading);
+	gtk_widget_set_visible(page->below.box, TRUE);
 }
 
 static void show_text(LadderSfcPage *page, int line, int column);
@@ -182,7 +173,7 @@ static void show_rungs(LadderSfcPage *page, int first)
 	g_signal_connect_swapped(page->rungs, "statements-wanted", G_CALLBACK(statements_wanted), page);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
-	follow_focus(page, page->rungs, G_CALLBACK(below_entered));
+	below_part_follow(page->rungs, G_CALLBACK(below_entered), page);
 	put_below(page, page->rungs, heading, true);
 	gtk_widget_grab_focus(page->rungs);
 	set_active(page, true);
@@ -193,10 +184,10 @@ static void show_rungs(LadderSfcPage *page, int first)
 static void part_changed(LadderSfcPage *page)
 {
 	char *part = ladder_text_view_part(LADDER_TEXT_VIEW(page->text));
-	const bool had_focus = page->below_active && gtk_widget_get_focus_child(page->place);
+	const bool had_focus = page->below_active && gtk_widget_get_focus_child(GTK_WIDGET(page->below.place));
 
 	if (part) {
-		gtk_label_set_text(page->heading, part);
+		gtk_label_set_text(page->below.heading, part);
 	} else {
 		close_below(page);
 		if (had_focus)
@@ -210,7 +201,7 @@ static void open_text(LadderSfcPage *page)
 	close_below(page);
 	page->text = ladder_text_view_new(page->document, page->pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
-	follow_focus(page, page->text, G_CALLBACK(below_entered));
+	below_part_follow(page->text, G_CALLBACK(below_entered), page);
 	g_signal_connect_swapped(page->text, "part-changed", G_CALLBACK(part_changed), page);
 	put_below(page, page->text, "", false);
 }
@@ -292,7 +283,7 @@ static void project_changed(LadderSfcPage *page)
 	}
 	if (now != count || first != was)
 		ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, now);
-	gtk_label_set_text(page->heading, heading);
+	gtk_label_set_text(page->below.heading, heading);
 	g_free(page->shown);
 	page->shown = heading;
 }
@@ -349,36 +340,15 @@ static void ladder_sfc_page_class_init(LadderSfcPageClass *class)
 
 static void ladder_sfc_page_init(LadderSfcPage *page)
 {
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *close;
-
 	page->back = -1;
 	page->paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
-	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	page->heading = GTK_LABEL(gtk_label_new(""));
-	close = gtk_button_new_from_icon_name("window-close-symbolic");
-	tip_set(close, _("Close"));
-	spoken_name(close, _("Close"));
-	gtk_widget_add_css_class(close, "flat");
-	gtk_label_set_xalign(page->heading, 0);
-	gtk_label_set_ellipsize(page->heading, PANGO_ELLIPSIZE_END);
-	gtk_widget_add_css_class(GTK_WIDGET(page->heading), "heading");
-	gtk_widget_set_hexpand(GTK_WIDGET(page->heading), TRUE);
-	gtk_widget_set_margin_start(bar, 12);
-	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->heading));
-	gtk_box_append(GTK_BOX(bar), close);
-	gtk_box_append(GTK_BOX(page->below), bar);
-	gtk_box_append(GTK_BOX(page->below), page->place);
-	gtk_widget_set_vexpand(page->place, TRUE);
-	gtk_widget_set_size_request(page->below, -1, 180);
-	gtk_widget_set_visible(page->below, FALSE);
-	gtk_paned_set_end_child(GTK_PANED(page->paned), page->below);
+	below_part_init(&page->below, RUNGS_HEIGHT, G_CALLBACK(close_clicked), page);
+	gtk_paned_set_end_child(GTK_PANED(page->paned), page->below.box);
 	gtk_paned_set_resize_end_child(GTK_PANED(page->paned), FALSE);
 	gtk_paned_set_shrink_end_child(GTK_PANED(page->paned), FALSE);
 	gtk_widget_set_hexpand(page->paned, TRUE);
 	gtk_widget_set_vexpand(page->paned, TRUE);
 	gtk_box_append(GTK_BOX(page), page->paned);
-	g_signal_connect_swapped(close, "clicked", G_CALLBACK(close_clicked), page);
 }
 
 GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim)
@@ -395,7 +365,7 @@ GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim
 	slow_bar_choose(GTK_SCROLLED_WINDOW(scroller));
 	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
 	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
-	follow_focus(page, page->chart, G_CALLBACK(chart_entered));
+	below_part_follow(page->chart, G_CALLBACK(chart_entered), page);
 	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);
 	page->handler = g_signal_connect_swapped(document, "project-changed",
 						 G_CALLBACK(project_changed), page);
