@@ -5,6 +5,7 @@
 #include "editor-gtk/edit/fbd_edit.h"
 
 #include "editor-gtk/edit/entry_names.h"
+#include "editor-gtk/edit/fbd_instances.h"
 #include "editor-gtk/kit/i18n.h"
 #include "engine/base/lex.h"
 #include "engine/base/name.h"
@@ -1325,31 +1326,12 @@ bool fbd_edit_type(struct fbd_edit *edit, const struct fbd_spot *box, const char
 	return finish(edit, at.line);
 }
 
-/* @path with @name in place of @wire, also in an index: Low, Low.X, A[Low + 1]. */
 static const char *renamed(struct fbd_edit *edit, const char *path, const char *wire, const char *name)
 {
-	struct sink_memory memory;
-	struct sink sink = sink_to_memory(&memory);
-	const char *done = path, *out;
-	bool behind_dot = false;
-	struct lex lex;
+	char *text = fbd_name_replaced(path, wire, name);
+	const char *out = text ? arena_copy(&edit->net.arena, text, strlen(text)) : NULL;
 
-	sink_memory_init(&memory);
-	lex_init(&lex, path, strlen(path));
-	while (lex_next(&lex) != TOKEN_END) {
-		const size_t head = lex.token.kind != TOKEN_NAME || behind_dot ? 0 :
-			strcspn(lex.token.text, ".[]^ +-*/,)(");
-
-		if (head && name_is(wire, lex.token.text, head)) {
-			sink_write(&sink, done, (size_t)(lex.token.text - done));
-			sink_text(&sink, name);
-			done = lex.token.text + head;
-		}
-		behind_dot = lex_is(&lex, ".");
-	}
-	sink_text(&sink, done);
-	out = memory.failed ? NULL : arena_copy(&edit->net.arena, memory.text, memory.len);
-	sink_memory_free(&memory);
+	free(text);
 	return out ? out : path;
 }
 

@@ -80,7 +80,7 @@ void fbd_instance_stem(const char *name, char stem[LIMIT_NAME + 1])
 	snprintf(stem, LIMIT_NAME + 1, "%.*s", (int)len, name);
 }
 
-char *fbd_instance_renamed(const char *text, const char *name, const char *to)
+char *fbd_name_replaced(const char *text, const char *name, const char *to)
 {
 	struct sink_memory memory;
 	const char *done = text;

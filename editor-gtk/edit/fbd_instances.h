@@ -16,7 +16,7 @@ bool fbd_instance_again(struct project *project, int pou, const char *text, char
 			const char **type);
 /** fbd_instance_stem - its name without the number at its end. */
 void fbd_instance_stem(const char *name, char stem[LIMIT_NAME + 1]);
-/** fbd_instance_renamed - @text with the name @to in place of @name. Owns: the caller, free(). NULL: no memory. */
-char *fbd_instance_renamed(const char *text, const char *name, const char *to);
+/** fbd_name_replaced - @text with the name @to in place of @name, also in an index: Low, Low.X, A[Low + 1]. Owns: the caller, free(). NULL: no memory. */
+char *fbd_name_replaced(const char *text, const char *name, const char *to);
 
 #endif

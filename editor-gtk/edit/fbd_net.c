@@ -176,6 +176,21 @@ static struct fbd_node *read_path(struct reading *r)
 	return node_new(r->net, FBD_NODE_OPERAND, from, (size_t)(to - from));
 }
 
+static struct fbd_node *read_operand(struct reading *r);
+
+/* The operand behind a sign or NOT, which has been read. */
+static struct fbd_node *read_behind(struct reading *r, const char *sign, size_t len)
+{
+	struct fbd_node *node = node_new(r->net, FBD_NODE_INFIX, sign, len);
+
+	if (++r->depth > DEEPEST)
+		r->wrong = true;
+	if (node && !r->wrong && !fbd_node_push(r->net, node, NULL, read_operand(r)))
+		r->wrong = true;
+	r->depth--;
+	return node;
+}
+
 static struct fbd_node *read_operand(struct reading *r)
 {
 	struct fbd_node *node;
@@ -198,24 +213,10 @@ static struct fbd_node *read_operand(struct reading *r)
 			lex_next(&r->lex);
 			return node;
 		}
-		node = node_new(r->net, FBD_NODE_INFIX, from, 1);
-		if (++r->depth > DEEPEST)
-			r->wrong = true;
-		if (node && !r->wrong && !fbd_node_push(r->net, node, NULL, read_operand(r)))
-			r->wrong = true;
-		r->depth--;
-		return node;
+		return read_behind(r, from, 1);
 	}
-	if (lex_is(&r->lex, "NOT")) {
-		node = node_new(r->net, FBD_NODE_INFIX, "NOT", 3);
-		lex_next(&r->lex);
-		if (++r->depth > DEEPEST)
-			r->wrong = true;
-		if (node && !r->wrong && !fbd_node_push(r->net, node, NULL, read_operand(r)))
-			r->wrong = true;
-		r->depth--;
-		return node;
-	}
+	if (lex_accept(&r->lex, "NOT"))
+		return read_behind(r, "NOT", 3);
 	if (r->lex.token.kind == TOKEN_NAME) {
 		const bool known = is_name(r);
 		const struct token name = r->lex.token;

@@ -442,7 +442,7 @@ static char *with_instances(LadderFbdView *view, const char *text, GString *told
 
 		fbd_instance_stem(name, stem);
 		entry_fresh_name(&place, NULL, stem, fresh, sizeof(fresh));
-		renamed = fbd_instance_renamed(out, name, fresh);
+		renamed = fbd_name_replaced(out, name, fresh);
 		if (!renamed || strcmp(renamed, out) == 0) { /* it stays as it is */
 			free(renamed);
 			g_free(word);

@@ -198,14 +198,6 @@ static void set_once(LadderSfcView *view, const struct sfc_step *step, GArray *a
 	}
 }
 
-static bool is_among(const struct sfc_steps *steps, int step)
-{
-	for (int i = 0; i < steps->count; i++)
-		if (steps->step[i] == step)
-			return true;
-	return false;
-}
-
 /* Activates only the steps of @index, between two scans, as FORCE does. Pulses and stored
  * actions begin only in a scan. */
 static void force_between(LadderSfcView *view, int index)
@@ -220,7 +212,7 @@ static void force_between(LadderSfcView *view, int index)
 	if (!sfc_forced(sfc, index, &arena, &steps))
 		g_error("out of memory");
 	for (int i = 0; i < sfc->step_count; i++) {
-		const bool active = is_among(&steps, i);
+		const bool active = sfc_steps_has(&steps, i);
 
 		if (active != ((live->step[i] & SFC_ACTIVE) != 0))
 			add_set(view, acts, live->active[i], active);

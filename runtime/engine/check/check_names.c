@@ -451,18 +451,6 @@ static void check_var(struct names_check *c, const struct pou *pou,
 				      place);
 }
 
-static void print_type(const struct project *project, const struct var *var, char *out, size_t size)
-{
-	struct sink_memory memory;
-	struct sink sink;
-
-	sink_memory_init(&memory);
-	sink = sink_to_memory(&memory);
-	project_write_type(project, var, &sink);
-	snprintf(out, size, "%s", sink_memory_text(&memory));
-	sink_memory_free(&memory);
-}
-
 /* ARRAY[1..N] is ARRAY[1..3] if N is 3. */
 static bool is_same_array(const struct var *a, const struct var *b)
 {
@@ -488,8 +476,8 @@ static void check_external(struct names_check *c, const struct pou *pou)
 			report_var(c, DIAG_NO_GLOBAL, pou, var, text_of(c, var->name));
 			continue;
 		}
-		print_type(c->project, var, wanted, sizeof(wanted));
-		print_type(c->project, &c->project->globals.var[global], is, sizeof(is));
+		project_print_type(c->project, var, wanted, sizeof(wanted));
+		project_print_type(c->project, &c->project->globals.var[global], is, sizeof(is));
 		if (strcmp(wanted, is) != 0 && !is_same_array(var, &c->project->globals.var[global]))
 			c->good &= diag_add(c->diags, place_of_var(c, DIAG_OTHER_GLOBAL, pou, var),
 					    "%s" DIAG_AND "%s" DIAG_AND "%s", text_of(c, var->name),

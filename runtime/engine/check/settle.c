@@ -1140,6 +1140,22 @@ static bool no_memory(struct project *project, struct diag_list *diags)
 	return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = project->file }, "%s", "");
 }
 
+/* Names and numbers of all declarations are settled. NULL: no memory, or a number has no value. */
+static struct settle *settled_names(struct project *project, struct arena *scratch, struct diag_list *diags)
+{
+	struct settle *s = settle_new(project, scratch, diags);
+
+	if (!s) {
+		no_memory(project, diags);
+		return NULL;
+	}
+	each(s, name_one);
+	if (has_numbers(project) && !settle_numbers(s))
+		return NULL;
+	each(s, number_one);
+	return s;
+}
+
 bool settle_project(struct project *project, struct arena *scratch, struct diag_list *diags)
 {
 	const int errors = diags->errors;
@@ -1147,13 +1163,9 @@ bool settle_project(struct project *project, struct arena *scratch, struct diag_
 
 	if (!has_any(project))
 		return true;
-	s = settle_new(project, scratch, diags);
+	s = settled_names(project, scratch, diags);
 	if (!s)
-		return no_memory(project, diags);
-	each(s, name_one);
-	if (has_numbers(project) && !settle_numbers(s))
 		return false;
-	each(s, number_one);
 	if (diags->errors == errors && s->shapes && !shape_make(project, diags))
 		return false;
 	if (diags->errors == errors && (!each(s, list_one) || !each(s, inherit_one)))
@@ -1172,13 +1184,9 @@ bool settle_var(struct project *project, int table, int index, struct arena *scr
 
 	if (!var->written)
 		return true;
-	s = settle_new(project, scratch, diags);
+	s = settled_names(project, scratch, diags);
 	if (!s)
-		return no_memory(project, diags);
-	each(s, name_one);
-	if (has_numbers(project) && !settle_numbers(s))
 		return false;
-	each(s, number_one);
 	if (diags->errors == errors)
 		list_one(s, var, table, index);
 	return diags->errors == errors;

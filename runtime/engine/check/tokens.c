@@ -36,18 +36,10 @@ static bool index_arcs(struct tokens *t)
 
 /* ---- what never fires ---- */
 
-static bool has(const struct sfc_steps *steps, int step)
-{
-	for (int i = 0; i < steps->count; i++)
-		if (steps->step[i] == step)
-			return true;
-	return false;
-}
-
 static bool is_within(const struct sfc_steps *some, const struct sfc_steps *all)
 {
 	for (int i = 0; i < some->count; i++)
-		if (!has(all, some->step[i]))
+		if (!sfc_steps_has(all, some->step[i]))
 			return false;
 	return true;
 }

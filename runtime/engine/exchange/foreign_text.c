@@ -75,7 +75,7 @@ void w_add(struct writing *w, const struct foreign_text *text)
 		note_line(w, text->place[i]);
 }
 
-static char *print(struct arena *arena, const char *format, va_list args)
+char *foreign_print(struct arena *arena, const char *format, va_list args)
 {
 	va_list again;
 	char *text;
@@ -96,7 +96,7 @@ const char *w_text(struct writing *w, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = print(w->arena, format, args);
+	text = foreign_print(w->arena, format, args);
 	va_end(args);
 	return text ? text : "";
 }
@@ -111,7 +111,7 @@ void w_tell(struct writing *w, enum report_kind kind, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = print(w->arena, report_said(w->report, format), args);
+	text = foreign_print(w->arena, report_said(w->report, format), args);
 	va_end(args);
 	if (text)
 		report_add(w->report, line, "%s", text);
@@ -127,16 +127,15 @@ static bool is_name_char(const char *text, size_t len)
 	       (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
 }
 
-/* Letters, digits and _ of @wish; any other character becomes _. */
-static const char *as_name(struct writing *w, const char *wish)
+const char *foreign_name(struct arena *arena, const char *wish, size_t most)
 {
 	size_t len = strlen(wish), at = 0, out = 0;
-	char *name = arena_alloc(w->arena, len + 3);
+	char *name = arena_alloc(arena, len + 3);
 
 	if (!name)
 		return "_";
-	if (len > LIMIT_NAME - 24)
-		len = LIMIT_NAME - 24;
+	if (len > most)
+		len = most;
 	if (!len || ascii_digit(wish[0]))
 		name[out++] = 'N';
 	while (at < len) {
@@ -195,7 +194,7 @@ static bool begins_statement(const char *name)
 
 const char *w_name(struct writing *w, const char *wish)
 {
-	const char *base = as_name(w, wish), *name = base;
+	const char *base = foreign_name(w->arena, wish, LIMIT_NAME - 24), *name = base;
 
 	if (reserved_fault(base) != DIAG_COUNT || begins_statement(base))
 		base = name = w_text(w, "%s_", base);

@@ -11,6 +11,8 @@
 #include "engine/base/names.h"
 #include "engine/exchange/report.h"
 
+#include <stdarg.h>
+
 struct foreign_place {
 	const char *member;      /* a file of a folder; "": the file itself        */
 	int line;                /* 1-based; 0: none                               */
@@ -56,6 +58,10 @@ void w_comment(struct writing *w, const char *indent, const char *text);
 const char *w_clean(struct writing *w, const char *text);
 /** w_string - @text as a literal in single quotes, at most @most bytes of it. */
 const char *w_string(struct writing *w, const char *text, size_t most);
+/** foreign_print - formatted text in @arena. Fails: NULL: no memory. */
+char *foreign_print(struct arena *arena, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
+/** foreign_name - letters, digits and _ of @wish, at most @most bytes of it; any other character becomes _. */
+const char *foreign_name(struct arena *arena, const char *wish, size_t most);
 /** foreign_utf8 - @len bytes as UTF-8: what is none is read as Latin-1. NULL: no memory. */
 const char *foreign_utf8(struct arena *arena, const char *text, size_t len);
 #endif

@@ -71,18 +71,6 @@ bool located_find(struct project *project, const char *path, struct located *out
 	return out->var >= 0;
 }
 
-static void print_type(const struct project *project, const struct var *var, char *out, size_t size)
-{
-	struct sink_memory memory;
-	struct sink sink;
-
-	sink_memory_init(&memory);
-	sink = sink_to_memory(&memory);
-	project_write_type(project, var, &sink);
-	snprintf(out, size, "%.40s", sink_memory_text(&memory));
-	sink_memory_free(&memory);
-}
-
 bool located_report(struct project *project, const struct var *line, enum diag_id id, const char *has,
 		    const char *wants, struct diag_list *diags)
 {
@@ -108,10 +96,10 @@ static bool may_lie(const struct project *project, const struct var *var, const 
 static bool compare(struct project *project, const struct var *var, const struct var *line,
 		    struct diag_list *diags)
 {
-	char has[LIMIT_ARG], wants[LIMIT_ARG];
+	char has[41], wants[41]; /* both fit into one message */
 
-	print_type(project, var, has, sizeof(has));
-	print_type(project, line, wants, sizeof(wants));
+	project_print_type(project, var, has, sizeof(has));
+	project_print_type(project, line, wants, sizeof(wants));
 	if (strcmp(has, wants) != 0)
 		return located_report(project, line, DIAG_LOCATED_TYPE, has, wants, diags);
 	if (!may_lie(project, var, line))

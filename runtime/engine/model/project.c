@@ -10,6 +10,7 @@
 #include "engine/model/st.h"
 
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -455,4 +456,16 @@ void project_write_type(const struct project *project, const struct var *var,
 		sink_printf(sink, "[%u]", var->capacity ? var->capacity :
 			    (unsigned)IEC_STRING_MOST); /* a temporary */
 	}
+}
+
+void project_print_type(const struct project *project, const struct var *var, char *out, size_t size)
+{
+	struct sink_memory memory;
+	struct sink sink;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	project_write_type(project, var, &sink);
+	snprintf(out, size, "%s", sink_memory_text(&memory));
+	sink_memory_free(&memory);
 }

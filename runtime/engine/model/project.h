@@ -289,6 +289,9 @@ const char *access_word(bool writes);
 void project_write_type(const struct project *project, const struct var *var,
 			const struct sink *sink);
 
+/** project_print_type - the same as a text, cut where @out ends. */
+void project_print_type(const struct project *project, const struct var *var, char *out, size_t size);
+
 /** project_struct_begin, project_struct_end - STRUCT and END_STRUCT, or the words of a union. Static. */
 const char *project_struct_begin(const struct structure *structure);
 const char *project_struct_end(const struct structure *structure);

@@ -6,6 +6,14 @@
 
 #include <limits.h>
 
+bool sfc_steps_has(const struct sfc_steps *steps, int step)
+{
+	for (int i = 0; i < steps->count; i++)
+		if (steps->step[i] == step)
+			return true;
+	return false;
+}
+
 int sfc_entry(const struct sfc *sfc, int macro)
 {
 	for (int i = 0; i < sfc->step_count; i++)

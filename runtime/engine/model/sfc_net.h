@@ -15,6 +15,9 @@
 /* Steps by number, each once. */
 struct sfc_steps { int *step; int count; };
 
+/** sfc_steps_has - is @step one of them? Scan-safe: yes. */
+bool sfc_steps_has(const struct sfc_steps *steps, int step);
+
 struct sfc_arc {
 	int transition;      /* of sfc.transition                              */
 	struct sfc_steps from, to;

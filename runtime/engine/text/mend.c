@@ -201,22 +201,13 @@ static void change(struct mender *m, size_t at, size_t len, const char *to)
 	m->text[m->len] = '\0';
 }
 
-static size_t word_length(const char *text)
-{
-	size_t len = 0;
-
-	while (mend_is_word(text[len]))
-		len++;
-	return len;
-}
-
 /* ---- words and signs ---- */
 
 /* Is the word at @at one that may stand here? */
 static bool is_known(const struct mender *m, size_t at)
 {
 	const char *text = m->text + at;
-	const size_t len = word_length(text);
+	const size_t len = mend_word_length(text);
 	struct word_table *words = &m->in->project->words;
 
 	if (m->where & (IN_CELL | IN_TYPE))
@@ -302,7 +293,7 @@ static size_t take_number(struct mender *m, size_t at)
 		const char *base = text[1] == 'b' ? "2#" : "16#";
 
 		change(m, at, 2, base);
-		return at + strlen(base) + word_length(m->text + at + strlen(base));
+		return at + strlen(base) + mend_word_length(m->text + at + strlen(base));
 	}
 	whole = holds ? take_groups(m, at, made) : 0;
 	if (whole)
@@ -321,7 +312,7 @@ static size_t take_number(struct mender *m, size_t at)
 			change(m, at, whole, made);
 		return at + strlen(made);
 	}
-	return at + len + word_length(text + len);
+	return at + len + mend_word_length(text + len);
 }
 
 /* Behind a quoted text, which becomes one in single quotes. */
@@ -420,13 +411,13 @@ static size_t take_one(struct mender *m, size_t at)
 		pass(m, "0", 1);
 		return take_number(m, at);
 	}
-	len = word_length(text);
+	len = mend_word_length(text);
 	if (len && text[len] == '#')
 		len++;
 	if (!len)
-		len = rule ? strlen(rule->from) : *text == '%' ? 1 + word_length(text + 1) : 1;
+		len = rule ? strlen(rule->from) : *text == '%' ? 1 + mend_word_length(text + 1) : 1;
 	if (*text == '.' && len == 1)
-		len += word_length(text + 1);
+		len += mend_word_length(text + 1);
 	pass(m, text, len);
 	return at + len;
 }
@@ -608,7 +599,7 @@ static size_t join_number(struct mender *m, size_t at)
 		return from + strlen(made);
 	}
 	change(m, at, 1, ".");
-	return at + 1 + word_length(m->text + at + 1);
+	return at + 1 + mend_word_length(m->text + at + 1);
 }
 
 static void join_numbers(struct mender *m, int open)
@@ -699,7 +690,7 @@ static bool operator_follows(const struct mender *m, size_t at)
 /* Start → NO Start, (Motor) → COIL Motor, N := 1 → [ N := 1 ], TON(D, PT := …) → TON D PT:=… */
 static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 {
-	const size_t word = word_length(m->text + from);
+	const size_t word = mend_word_length(m->text + from);
 	const bool known = word && !operator_follows(m, from + word) &&
 			   words_find(&m->in->project->words, m->text + from, word) !=
 				   WORD_COUNT;
@@ -725,8 +716,8 @@ static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 				change(m, at, 1, "");
 		return;
 	}
-	if (ascii_same(m->text + from, "NOT ", 4) && word_length(m->text + from + 4) &&
-	    from + 4 + word_length(m->text + from + 4) == to) {
+	if (ascii_same(m->text + from, "NOT ", 4) && mend_word_length(m->text + from + 4) &&
+	    from + 4 + mend_word_length(m->text + from + 4) == to) {
 		change(m, from, 3, "NC");
 		return;
 	}
@@ -883,7 +874,7 @@ static void mend_indices(struct mender *m)
  * it has none. */
 static size_t value_place(const struct mender *m)
 {
-	const size_t label = word_length(m->text);
+	const size_t label = mend_word_length(m->text);
 	size_t at = m->text[label] == ':' ? label + 1 : 0, len;
 	struct word_table *words = &m->in->project->words;
 	enum op op;
@@ -891,7 +882,7 @@ static size_t value_place(const struct mender *m)
 
 	while (m->text[at] == ' ')
 		at++;
-	len = word_length(m->text + at);
+	len = mend_word_length(m->text + at);
 	op = op_find(m->text + at, len);
 	word = words_find(words, m->text + at, len);
 	if (op == OP_COUNT && len > 1 && ascii_upper(m->text[at + len - 1]) == 'N')
@@ -915,7 +906,7 @@ static void mend_operands(struct mender *m)
 	while (at && at < m->len && !m->full) {
 		while (m->text[at] == ' ')
 			at++;
-		pin = at + word_length(m->text + at);
+		pin = at + mend_word_length(m->text + at);
 		while (m->text[pin] == ' ')
 			pin++;
 		if (m->text[pin] == ':' && m->text[pin + 1] == '=')

@@ -25,7 +25,7 @@ bool mend_is_word(char c)
 	       (unsigned char)c >= 0x80;
 }
 
-static size_t word_length(const char *text)
+size_t mend_word_length(const char *text)
 {
 	size_t len = 0;
 
@@ -82,7 +82,7 @@ size_t mend_groups(const char *line, size_t at, char *out, size_t size)
 size_t mend_unit(const char *line, size_t at, size_t len, char *out, size_t size)
 {
 	const char *text = line + at;
-	const size_t gap = text[len] == ' ', unit = word_length(text + len + gap);
+	const size_t gap = text[len] == ' ', unit = mend_word_length(text + len + gap);
 
 	for (size_t i = 0; unit && i < sizeof(units) / sizeof(*units) && len < 12; i++) {
 		if (!ascii_is(units[i].from, text + len + gap, unit))

@@ -13,6 +13,8 @@
 
 /** mend_is_word - is it a character of a name or number? Scan-safe: yes. */
 bool mend_is_word(char c);
+/** mend_word_length - how many of them @text begins with. Scan-safe: yes. */
+size_t mend_word_length(const char *text);
 /**
  * mend_groups - a number whose thousands are apart: `1.500,5`, `1,500.5`, `1 500`
  * @line: NUL-ended

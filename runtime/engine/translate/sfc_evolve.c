@@ -295,14 +295,6 @@ static void load_late(struct sfc_il *s, int step, enum word word, uint32_t limit
 	sfc_fn(s, word, limit);
 }
 
-static bool has(const struct sfc_steps *steps, int step)
-{
-	for (int i = 0; i < steps->count; i++)
-		if (steps->step[i] == step)
-			return true;
-	return false;
-}
-
 void sfc_supervise(struct sfc_il *s)
 {
 	const int count = s->sfc->step_count;
@@ -485,7 +477,7 @@ static void sort(struct sfc_steps *steps)
 /* An active step stays active, unless it was left just now. */
 static void enter(struct sfc_il *s, const struct sfc_arc *arc, int step)
 {
-	const bool left = has(&arc->from, step);
+	const bool left = sfc_steps_has(&arc->from, step);
 	const uint32_t is = sfc_label(s, "Is", s->entries++);
 
 	if (!left) {

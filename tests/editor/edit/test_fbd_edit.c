@@ -296,7 +296,7 @@ static void check_again(const char *text, const char *old, const char *to, const
 		return;
 	CHECK_TEXT(name, old);
 	CHECK_TEXT(type, "TON");
-	renamed = fbd_instance_renamed(text, name, to);
+	renamed = fbd_name_replaced(text, name, to);
 	CHECK_TEXT(renamed ? renamed : "", expected);
 	free(renamed);
 }

@@ -99,17 +99,3 @@ const char *classic_setting(const struct classic_project *project, const char *k
 	return NULL;
 }
 
-char *classic_print(struct arena *arena, const char *format, va_list args)
-{
-	va_list again;
-	char *text;
-	int need;
-
-	va_copy(again, args);
-	need = vsnprintf(NULL, 0, format, again);
-	va_end(again);
-	text = need < 0 ? NULL : arena_alloc(arena, (size_t)need + 1);
-	if (text)
-		vsnprintf(text, (size_t)need + 1, format, args);
-	return text;
-}

@@ -221,6 +221,4 @@ const struct classic_block *classic_block(const struct classic_blocks *blocks, i
 const char *classic_expression(const struct classic_project *project, int number);
 const char *classic_setting(const struct classic_project *project, const char *key);
 
-/** classic_print - formatted text in @arena. Fails: NULL: no memory. */
-char *classic_print(struct arena *arena, const char *format, va_list args);
 #endif

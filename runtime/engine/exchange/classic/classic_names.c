@@ -11,6 +11,7 @@
 #include "engine/base/limits.h"
 #include "engine/check/reserved.h"
 #include "engine/exchange/classic/classic_convert.h"
+#include "engine/exchange/foreign_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -209,41 +210,6 @@ static bool looks_like_step(const char *name)
 	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
 }
 
-/* May a name hold this character of @len bytes? */
-static bool is_name_char(const char *text, size_t len)
-{
-	const char upper = ascii_upper(*text);
-
-	return len > 1 ? utf8_is_letter(text, len) :
-	       (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
-}
-
-/* Letters, digits and _ of @wish; any other character becomes _. */
-static const char *as_name(struct conversion *c, const char *wish)
-{
-	size_t len = strlen(wish), at = 0, out = 0;
-	char *name = arena_alloc(c->arena, len + 3);
-
-	if (!name)
-		return "_";
-	if (len > LIMIT_NAME - 8)
-		len = LIMIT_NAME - 8;
-	if (!len || ascii_digit(wish[0]))
-		name[out++] = 'N';
-	while (at < len) {
-		const size_t found = utf8_length(wish + at, len - at), step = found ? found : 1;
-
-		if (is_name_char(wish + at, step)) {
-			memcpy(name + out, wish + at, step);
-			out += step;
-		} else {
-			name[out++] = '_';
-		}
-		at += step;
-	}
-	return name;
-}
-
 /* Takes @name. false: it is taken, in any spelling. */
 static bool claim(struct conversion *c, const char *name)
 {
@@ -266,7 +232,7 @@ static int number_behind(struct conversion *c, const char *base)
 
 const char *name_new(struct conversion *c, const char *wish)
 {
-	const char *base = as_name(c, wish), *name = base;
+	const char *base = foreign_name(c->arena, wish, LIMIT_NAME - 8), *name = base;
 
 	if (reserved_fault(base) != DIAG_COUNT)
 		base = name = text_of(c, "%s_", base);

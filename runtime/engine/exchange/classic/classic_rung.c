@@ -7,6 +7,7 @@
 #include "engine/model/property.h"
 
 #include "engine/base/limits.h"
+#include "engine/exchange/foreign_text.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -88,7 +89,7 @@ const char *text_of(struct conversion *c, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = classic_print(c->arena, format, args);
+	text = foreign_print(c->arena, format, args);
 	va_end(args);
 	return text ? text : "";
 }
@@ -103,7 +104,7 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = classic_print(c->arena, report_said(c->report, format), args);
+	text = foreign_print(c->arena, report_said(c->report, format), args);
 	va_end(args);
 	if (text)
 		report_add(c->report, line, "%s", text);

@@ -7,6 +7,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/check/scope.h"
+#include "engine/exchange/foreign_text.h"
 #include "engine/text/text.h"
 #include "engine/xref/address_map.h"
 
@@ -26,7 +27,7 @@ char *lad_text(struct lad *e, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = classic_print(e->arena, format, args);
+	text = foreign_print(e->arena, format, args);
 	va_end(args);
 	e->good &= text != NULL;
 	return text ? text : (char *)"";

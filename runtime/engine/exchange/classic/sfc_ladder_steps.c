@@ -115,14 +115,6 @@ static bool share(const struct sfc_steps *a, const struct sfc_steps *b)
 	return false;
 }
 
-static bool has(const struct sfc_steps *steps, int step)
-{
-	for (int i = 0; i < steps->count; i++)
-		if (steps->step[i] == step)
-			return true;
-	return false;
-}
-
 /* "Fill + Stir". */
 static char *lad_steps_text(struct lad *e, const struct sfc_steps *steps)
 {
@@ -380,7 +372,7 @@ static int arcs_together(const struct lad *e)
 
 static bool is_initial(const struct lad *e, int step)
 {
-	return has(&e->net.initial, step);
+	return sfc_steps_has(&e->net.initial, step);
 }
 
 static void put_forced(struct lad *e, struct lad_rung *r, int step)
@@ -389,7 +381,7 @@ static void put_forced(struct lad *e, struct lad_rung *r, int step)
 
 	for (int i = 0; lad_has_force(e) && i < e->reach; i++) {
 		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
-		if (!has(&steps, step))
+		if (!sfc_steps_has(&steps, step))
 			continue;
 		lad_way(r);
 		lad_cell(r, no(e, &e->step[i][LAD_FORCED]));
@@ -414,7 +406,7 @@ static void write_start(struct lad *e, int step)
 	struct lad_rung *r = lad_begin(e);
 
 	for (int i = 0; i < arcs_together(e); i++) {
-		if (!has(&e->net.arc[i].to, step))
+		if (!sfc_steps_has(&e->net.arc[i].to, step))
 			continue;
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
@@ -443,7 +435,7 @@ static void write_left(struct lad *e, int step)
 	struct lad_rung *r = lad_begin(e);
 
 	for (int i = 0; i < arcs_together(e); i++) {
-		if (!has(&e->net.arc[i].from, step))
+		if (!sfc_steps_has(&e->net.arc[i].from, step))
 			continue;
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
@@ -453,7 +445,7 @@ static void write_left(struct lad *e, int step)
 		lad_cell(r, no(e, &e->step[step][LAD_LEFT]));
 	}
 	for (int i = 0; i < arcs_together(e); i++)
-		if (has(&e->net.arc[i].to, step))
+		if (sfc_steps_has(&e->net.arc[i].to, step))
 			lad_head(r, nc(e, &e->arc[i][LAD_FIRES]));
 	lad_out(r, coil(e, "COIL", &e->step[step][LAD_LEFT]));
 	lad_write(e, r, "", lad_text(e, "%s is left", lad_name(e, step)));

@@ -4,6 +4,7 @@
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/to_classic_parts.h"
+#include "engine/exchange/foreign_text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,7 @@ const char *out_text(struct leaving *e, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = classic_print(e->arena, format, args);
+	text = foreign_print(e->arena, format, args);
 	va_end(args);
 	e->good &= text != NULL;
 	return text ? text : "";

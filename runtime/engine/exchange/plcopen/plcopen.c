@@ -112,18 +112,9 @@ static bool all_repeat(const struct xml_node *node)
 	return true;
 }
 
-static struct xml_node *next_of(struct xml_node *node)
-{
-	if (node->first)
-		return node->first;
-	while (node && !node->next)
-		node = node->parent;
-	return node ? node->next : NULL;
-}
-
 static void take_repeated(struct xml_node *project)
 {
-	for (struct xml_node *node = project; node; node = next_of(node)) {
+	for (struct xml_node *node = project; node; node = xml_next(node)) {
 		struct xml_node *above = node->parent;
 
 		if (xml_is(node, "data") && above && xml_is(above, "addData") &&

@@ -467,18 +467,9 @@ void plc_interface(struct plcopen *c, struct plcopen_pou *pou)
 
 /* ---- VAR_EXTERNAL ---- */
 
-static struct xml_node *next_of(struct xml_node *node)
-{
-	if (node->first)
-		return node->first;
-	while (node && !node->next)
-		node = node->parent;
-	return node ? node->next : NULL;
-}
-
 static bool is_global(struct xml_node *project, const char *name)
 {
-	for (struct xml_node *node = project; node; node = next_of(node)) {
+	for (struct xml_node *node = project; node; node = xml_next(node)) {
 		if (!xml_is(node, "variable") || !node->parent || !xml_is(node->parent, "globalVars") ||
 		    !xml_value(node, "name") || !plc_same(xml_value(node, "name"), name))
 			continue;
@@ -515,7 +506,7 @@ static void put_lost_global(struct plcopen *c, struct xml_node *variable)
 
 void plc_lost_globals(struct plcopen *c, struct xml_node *project)
 {
-	for (struct xml_node *node = project; node; node = next_of(node)) {
+	for (struct xml_node *node = project; node; node = xml_next(node)) {
 		if (!xml_is(node, "externalVars"))
 			continue;
 		for (struct xml_node *each = node->first; each; each = each->next) {

@@ -11,15 +11,6 @@
 
 #include <string.h>
 
-static struct xml_node *next_of(struct xml_node *node)
-{
-	if (node->first)
-		return node->first;
-	while (node && !node->next)
-		node = node->parent;
-	return node ? node->next : NULL;
-}
-
 static const char *renamed(const struct plcopen *c, const char *name, size_t len)
 {
 	for (int i = 0; i < c->rename.count; i++)
@@ -58,7 +49,7 @@ static bool has_name(const struct xml_node *node)
 
 void plc_find_renames(struct plcopen *c, struct xml_node *project)
 {
-	for (struct xml_node *node = project; node; node = next_of(node)) {
+	for (struct xml_node *node = project; node; node = xml_next(node)) {
 		const char *name = has_name(node) ? xml_value(node, "name") : NULL;
 
 		if (!name || !plc_is_name(name) || renamed(c, name, strlen(name)))

@@ -11,6 +11,15 @@ bool xml_is(const struct xml_node *node, const char *name)
 	return !strcmp(node->name, name);
 }
 
+struct xml_node *xml_next(const struct xml_node *node)
+{
+	if (node->first)
+		return node->first;
+	while (node && !node->next)
+		node = node->parent;
+	return node ? node->next : NULL;
+}
+
 struct xml_node *xml_look(const struct xml_node *node, const char *name)
 {
 	struct xml_node *child = node ? node->first : NULL;

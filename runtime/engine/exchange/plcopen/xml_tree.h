@@ -42,6 +42,8 @@ bool xml_is_built(void);
 
 /** xml_is - whether @node has this name. */
 bool xml_is(const struct xml_node *node, const char *name);
+/** xml_next - the element behind @node as the text goes: its first child, else the next outside; NULL: none. */
+struct xml_node *xml_next(const struct xml_node *node);
 /** xml_child - the first child element @name, marked as taken; NULL: none. */
 struct xml_node *xml_child(struct xml_node *node, const char *name);
 /** xml_look - the same, and nothing is marked. */
