@@ -35,10 +35,18 @@ struct io_bus {
 
 /* ---- a point ---- */
 
-enum io_unit { UNIT_NONE, UNIT_VOLT, UNIT_AMPERE, UNIT_CELSIUS, UNIT_PERCENT, UNIT_OHM };
+enum io_unit {
+#define UNIT(id, word) UNIT_##id,
+#include "hal/units.def"
+};
+/** io_unit_word - "V"; "" of UNIT_NONE and of no unit at all. Lives for ever. Scan-safe: yes. */
+const char *io_unit_word(enum io_unit unit);
 
-enum io_table { TABLE_NONE, TABLE_COIL, TABLE_DISCRETE_INPUT, TABLE_INPUT_REGISTER,
-		TABLE_HOLDING_REGISTER };
+enum io_table {
+	TABLE_NONE,
+#define TABLE_WORD(id, text, of_bits) TABLE_##id,
+#include "hal/map_words.def"
+};
 
 /* What a device delivers is `raw`. A scaled point has: value_low … value_high in the process image
  * for at_low … at_high of the device, in basic units (V, A, °C, %, Ω) or, with UNIT_NONE, as raw. */

@@ -5,14 +5,13 @@
  * twice is an error.
  */
 #include "hal/iomap_read.h"
+#include "hal/map_words.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
 #include <stdio.h>
 #include <string.h>
-
-enum option_for { FOR_BOTH, FOR_INPUT, FOR_OUTPUT };
 
 struct option {
 	const char *name;
@@ -177,18 +176,8 @@ SETTER(set_open_source, drive, DRIVE_OPEN_SOURCE)
 /* Only one of the three pulls is allowed, and one of the three drives. */
 enum { FIRST_PULL = 6, FIRST_DRIVE = 9, OPTION_COUNT = 12 };
 static const struct option options[OPTION_COUNT] = {
-	{ "line",        FOR_BOTH,   true,  "line=GPIO17", set_line },
-	{ "chip",        FOR_BOTH,   true,  "chip=gpiochip0", set_chip },
-	{ "offset",      FOR_BOTH,   true,  "offset=17", set_offset },
-	{ "debounce",    FOR_INPUT,  true,  "debounce=5ms", set_debounce },
-	{ "safe",        FOR_OUTPUT, true,  "safe=0, safe=1 or safe=hold", set_safe },
-	{ "active-low",  FOR_BOTH,   false, "active-low", set_active_low },
-	{ "pull-up",     FOR_BOTH,   false, "pull-up", set_pull_up },
-	{ "pull-down",   FOR_BOTH,   false, "pull-down", set_pull_down },
-	{ "no-pull",     FOR_BOTH,   false, "no-pull", set_no_pull },
-	{ "push-pull",   FOR_OUTPUT, false, "push-pull", set_push_pull },
-	{ "open-drain",  FOR_OUTPUT, false, "open-drain", set_open_drain },
-	{ "open-source", FOR_OUTPUT, false, "open-source", set_open_source },
+#define CHIP_OPTION(id, text, use, has_value, form, set) { text, use, has_value, form, set },
+#include "hal/map_words.def"
 };
 enum { OPTION_LINE, OPTION_CHIP, OPTION_OFFSET };
 

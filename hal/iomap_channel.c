@@ -3,6 +3,7 @@
  * iomap_channel - reads the points of an I/O map that are more than a level of a chip.
  */
 #include "hal/iomap_net.h"
+#include "hal/map_words.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
@@ -24,19 +25,19 @@ static const struct {
 	enum io_unit unit;
 	double factor;
 } units[] = {
-	{ "", UNIT_NONE, 1 },
-	{ "V", UNIT_VOLT, 1 }, { "mV", UNIT_VOLT, 1e-3 }, { "uV", UNIT_VOLT, 1e-6 },
-	{ "A", UNIT_AMPERE, 1 }, { "mA", UNIT_AMPERE, 1e-3 }, { "uA", UNIT_AMPERE, 1e-6 },
-	{ "C", UNIT_CELSIUS, 1 }, { "\302\260C", UNIT_CELSIUS, 1 }, { "%", UNIT_PERCENT, 1 },
-	{ "Ohm", UNIT_OHM, 1 }, { "kOhm", UNIT_OHM, 1e3 }, { "\316\251", UNIT_OHM, 1 },
-	{ "k\316\251", UNIT_OHM, 1e3 },
+#define UNIT(id, word) { word, UNIT_##id, 1 },
+#define UNIT_ALSO(id, word, factor) { word, UNIT_##id, factor },
+#include "hal/units.def"
 };
 
-static const char *unit_word(enum io_unit unit)
+const char *io_unit_word(enum io_unit unit)
 {
-	static const char *const words[] = { "", "V", "A", "\302\260C", "%", "\316\251" };
+	static const char *const words[] = {
+#define UNIT(id, word) word,
+#include "hal/units.def"
+	};
 
-	return words[unit];
+	return (unsigned)unit < sizeof(words) / sizeof(*words) ? words[unit] : "";
 }
 
 static bool read_number(const char *text, size_t len, double *out)
@@ -164,13 +165,10 @@ static void step_address(struct iec_addr *addr)
 	addr->bit = (uint8_t)(bit % 8);
 }
 
-enum { ON_SIM = 1, ON_IIO = 2, ON_PWM = 4, ON_W1 = 8, ON_HWMON = 16, ON_MODBUS = 32, ON_MODULE = 64,
-       ON_PEER = 128, ON_QUALITY = 256, ON_DEVICE = ON_IIO | ON_W1 | ON_HWMON, ON_ALL = 255 };
-
 struct channel_option {
 	const char *name, *form;
-	unsigned drivers;
-	enum { FOR_BOTH, FOR_INPUT, FOR_OUTPUT } use;
+	unsigned drivers;       /* ON_…                                        */
+	enum option_for use;
 	bool (*set)(struct line_reader *line, const struct option_word *option);
 };
 
@@ -387,51 +385,14 @@ static bool set_ask(struct line_reader *line, const struct option_word *option)
 }
 
 static const struct channel_option channel_options[] = {
-	{ "device", "device=ads1115", ON_IIO | ON_HWMON, FOR_BOTH, set_device },
-	{ "channel", "channel=voltage0", ON_IIO | ON_HWMON, FOR_BOTH, set_name },
-	{ "chip", "chip=pwmchip0", ON_PWM, FOR_BOTH, set_device },
-	{ "channel", "channel=0", ON_PWM, FOR_BOTH, set_number },
-	{ "period", "period=20ms", ON_PWM, FOR_BOTH, set_period },
-	{ "sensor", "sensor=28-000005e2fdc3", ON_W1, FOR_BOTH, set_device },
-	{ "from", "from=pump-house", ON_PEER, FOR_BOTH, set_device },
-	{ "name", "name=Level", ON_PEER, FOR_BOTH, set_name },
-	{ "bus", "bus=rs485", ON_MODBUS | ON_MODULE | ON_PEER, FOR_BOTH, set_bus },
-	{ "unit", "unit=1", ON_MODBUS | ON_MODULE, FOR_BOTH, set_unit },
-	{ "coil", "coil=16", ON_MODBUS, FOR_BOTH, set_table },
-	{ "discrete-input", "discrete-input=0", ON_MODBUS, FOR_BOTH, set_table },
-	{ "input-register", "input-register=0", ON_MODBUS, FOR_BOTH, set_table },
-	{ "holding-register", "holding-register=0", ON_MODBUS, FOR_BOTH, set_table },
-	{ "bit", "bit=3", ON_MODBUS, FOR_BOTH, set_bit },
-	{ "type", "type=DIO1000", ON_MODULE, FOR_BOTH, set_module_type },
-	{ "word-order", "word-order=big or word-order=little", ON_MODBUS, FOR_BOTH, set_word_order },
-	{ "byte-order", "byte-order=big or byte-order=little", ON_MODBUS, FOR_BOTH, set_byte_order },
-	{ "as", "as=INT", ON_ALL & ~ON_MODULE, FOR_BOTH, set_as },
-	{ "raw", "raw=UINT", ON_MODBUS, FOR_BOTH, set_raw },
-	{ "range", "range=0..27648 at 0V..10V", ON_ALL & ~(ON_MODULE | ON_SIM), FOR_BOTH, set_range },
-	{ "limits", "limits=3.6mA..21mA", ON_DEVICE | ON_MODBUS, FOR_INPUT, set_limits },
-	{ "threshold", "threshold=10V", ON_DEVICE | ON_MODBUS, FOR_INPUT, set_threshold },
-	{ "hysteresis", "hysteresis=1V", ON_DEVICE | ON_MODBUS, FOR_INPUT, set_hysteresis },
-	{ "filter", "filter=50ms", ON_DEVICE | ON_MODBUS, FOR_INPUT, set_filter },
-	{ "stale", "stale=1s", ON_ALL & ~ON_SIM, FOR_INPUT, set_stale },
-	{ "substitute", "substitute=0 or substitute=hold", ON_ALL & ~ON_SIM, FOR_INPUT, set_substitute },
-	{ "poll", "poll=100ms", ON_DEVICE | ON_MODBUS | ON_MODULE, FOR_INPUT, set_poll },
-	{ "refresh", "refresh=5s", ON_MODBUS | ON_MODULE | ON_PWM | ON_IIO, FOR_OUTPUT, set_refresh },
-	{ "on-change", "on-change", ON_MODBUS | ON_MODULE, FOR_OUTPUT, set_on_change },
-	{ "ask", "ask=Meter", ON_MODBUS, FOR_BOTH, set_ask },
-	{ "of", "of=%AIW0 or of=%AIW0..6", ON_QUALITY, FOR_INPUT, set_of },
-	{ "safe", "safe=0 or safe=hold", ON_ALL, FOR_OUTPUT, set_channel_safe },
+#define VALUE_OPTION(id, text, drivers, use, form, set) { text, form, drivers, use, set },
+#include "hal/map_words.def"
 };
 enum { CHANNEL_OPTIONS = sizeof(channel_options) / sizeof(*channel_options) };
 
 static unsigned bit_of(enum driver_id driver)
 {
-	static const unsigned short bits[DRIVER_COUNT] = {
-		[DRIVER_sim] = ON_SIM, [DRIVER_iio] = ON_IIO, [DRIVER_pwm] = ON_PWM, [DRIVER_w1] = ON_W1,
-		[DRIVER_hwmon] = ON_HWMON, [DRIVER_modbus] = ON_MODBUS, [DRIVER_module] = ON_MODULE,
-		[DRIVER_peer] = ON_PEER, [DRIVER_quality] = ON_QUALITY,
-	};
-
-	return bits[driver];
+	return 1u << driver;
 }
 
 /* What a line must have, for the message about a wrong or missing option. */
@@ -579,7 +540,7 @@ static bool settle_unit(struct line_reader *line, const struct map_word *word, e
 	if (!word->len || given == unit || given == UNIT_NONE)
 		return true;
 	return unit == UNIT_NONE ? complain_form(line->reader, word, "0..4095") :
-	       complain_about(line->reader, DIAG_IO_UNIT, word, unit_word(unit));
+	       complain_about(line->reader, DIAG_IO_UNIT, word, io_unit_word(unit));
 }
 
 static bool settle_scale(struct line_reader *line)

@@ -4,6 +4,7 @@
  * may ask of this board.
  */
 #include "hal/iomap_net.h"
+#include "hal/map_words.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
@@ -134,8 +135,6 @@ const char *bus_word(enum io_bus_kind kind)
 	return bus_kinds[kind].word;
 }
 
-enum { OF_RTU = 1, OF_TCP = 2, OF_PEER = 4 };
-
 /* What is read: a bus, or a server with its bus. */
 struct bus_reader {
 	struct io_bus *bus;
@@ -232,18 +231,8 @@ static bool set_rate(struct reader *reader, struct bus_reader *out, const char *
 }
 
 static const struct bus_option bus_options[] = {
-	{ "port", "port=/dev/ttyS1", OF_RTU, OF_RTU, set_port },
-	{ "baud", "baud=19200", OF_RTU, OF_RTU, set_baud },
-	{ "parity", "parity=even, parity=odd or parity=none", OF_RTU, OF_RTU, set_parity },
-	{ "stop-bits", "stop-bits=1 or stop-bits=2", OF_RTU, OF_RTU, set_stop_bits },
-	{ "timeout", "timeout=100ms", OF_RTU | OF_TCP, 0, set_timeout },
-	{ "host", "host=10.0.0.20:502", OF_TCP, 0, set_host },
-	{ "interface", "interface=eth0", OF_PEER, 0, set_interface },
-	{ "group", "group=" PEER_GROUP ":20020", OF_PEER, 0, set_host },
-	{ "listen", "listen=127.0.0.1:502", 0, OF_TCP, set_host },
-	{ "unit", "unit=1", 0, OF_RTU | OF_TCP, set_serve_unit },
-	{ "connections", "connections=4", 0, OF_TCP, set_connections },
-	{ "rate", "rate=200", 0, OF_RTU | OF_TCP, set_rate },
+#define BUS_OPTION(id, text, buses, servers, form, set) { text, form, buses, servers, set },
+#include "hal/map_words.def"
 };
 enum { BUS_OPTIONS = sizeof(bus_options) / sizeof(*bus_options) };
 
@@ -382,15 +371,24 @@ static void read_serve_line(struct reader *reader, const struct map_word *first)
 
 const char *table_word(enum io_table table)
 {
-	static const char *const words[] = { "", "coil", "discrete-input", "input-register",
-					     "holding-register" };
+	static const char *const words[] = {
+		"",
+#define TABLE_WORD(id, text, of_bits) text,
+#include "hal/map_words.def"
+	};
 
 	return words[table];
 }
 
 bool is_of_bits(enum io_table table)
 {
-	return table == TABLE_COIL || table == TABLE_DISCRETE_INPUT;
+	static const bool of[] = {
+		false,
+#define TABLE_WORD(id, text, of_bits) of_bits,
+#include "hal/map_words.def"
+	};
+
+	return of[table];
 }
 
 enum io_table table_of(const struct option_word *option)
@@ -416,13 +414,28 @@ static bool windows_overlap(const struct io_window *a, const struct io_window *b
 	       b->first < a->first + a->count;
 }
 
+/* "read-only" or "read-write". False: it is another word. */
+static bool read_access(const struct map_word *word, bool *writable)
+{
+	static const struct { const char *word; bool writable; } access[] = {
+#define ACCESS_WORD(text, writable) { text, writable },
+#include "hal/map_words.def"
+	};
+
+	for (size_t i = 0; i < sizeof(access) / sizeof(*access); i++)
+		if (ascii_is(access[i].word, word->text, word->len)) {
+			*writable = access[i].writable;
+			return true;
+		}
+	return false;
+}
+
 /* The words behind the name of the server. Returns an example if they make no sense. */
 static bool read_window_words(struct reader *reader, struct io_window *window)
 {
 	struct option_word option;
 	struct map_word word;
 	uint32_t first = 0, last = 0;
-	bool only;
 
 	if (!next_option(reader, &option) || !option.value)
 		return false;
@@ -434,9 +447,7 @@ static bool read_window_words(struct reader *reader, struct io_window *window)
 		return false;
 	window->first = (uint16_t)first;
 	window->count = last - first + 1;
-	only = ascii_is("read-only", word.text, word.len);
-	window->writable = ascii_is("read-write", word.text, word.len);
-	return only || window->writable;
+	return read_access(&word, &window->writable);
 }
 
 /* Discrete inputs and input registers cannot be written in Modbus, and SM not at all. */
@@ -527,19 +538,40 @@ static bool read_names(struct reader *reader, struct io_publish *publish, const 
 	return true;
 }
 
+static bool set_every(struct reader *reader, struct io_publish *publish, const struct option_word *option,
+		      const char *form)
+{
+	return read_time(option->value, option->len, &publish->every_ns) ||
+	       complain_form(reader, &option->word, form);
+}
+
+static bool set_publish_bus(struct reader *reader, struct io_publish *publish, const struct option_word *option,
+			    const char *form)
+{
+	(void)form;
+	publish->bus = find_bus(&reader->net->net, option->value, option->len);
+	return publish->bus >= 0 || complain_about(reader, DIAG_IO_NO_BUS, &option->word, "BUS");
+}
+
 static bool read_publish_word(struct reader *reader, struct io_publish *publish,
 			      const struct option_word *option)
 {
+	static const struct {
+		const char *name, *form;
+		bool (*set)(struct reader *reader, struct io_publish *publish, const struct option_word *option,
+			    const char *form);
+	} options[] = {
+#define PUBLISH_OPTION(id, text, form, set) { text, form, set },
+#include "hal/map_words.def"
+	};
+
 	if (!option->value)
 		return read_names(reader, publish, &option->word) ||
 		       complain(reader, DIAG_IO_SYNTAX, &option->word);
-	if (option_is(option, "every"))
-		return read_time(option->value, option->len, &publish->every_ns) ||
-		       complain_form(reader, &option->word, "every=100ms");
-	if (!option_is(option, "bus"))
-		return complain_form(reader, &option->word, "every=100ms or bus=yard");
-	publish->bus = find_bus(&reader->net->net, option->value, option->len);
-	return publish->bus >= 0 || complain_about(reader, DIAG_IO_NO_BUS, &option->word, "BUS");
+	for (size_t i = 0; i < sizeof(options) / sizeof(*options); i++)
+		if (option_is(option, options[i].name))
+			return options[i].set(reader, publish, option, options[i].form);
+	return complain_form(reader, &option->word, "every=100ms or bus=yard");
 }
 
 static void read_publish_line(struct reader *reader, const struct map_word *first)
@@ -575,14 +607,22 @@ static const struct {
 	uint32_t most, least;
 	size_t at;            /* of its number in struct io_takes               */
 } device_options[] = {
-	{ "unit", "unit=3", 247, 0, offsetof(struct io_takes, unit_id) },
-	{ "read-registers", "read-registers=50", 125, 1, offsetof(struct io_takes, read_words) },
-	{ "write-registers", "write-registers=20", 123, 1, offsetof(struct io_takes, write_words) },
-	{ "read-coils", "read-coils=256", 2000, 1, offsetof(struct io_takes, read_bits) },
-	{ "write-coils", "write-coils=16", 1968, 1, offsetof(struct io_takes, write_bits) },
-	{ "gap", "gap=0", 124, 0, offsetof(struct io_takes, gap_words) },
+#define DEVICE_OPTION(id, text, form, most, least, member) { text, form, most, least, offsetof(struct io_takes, member) },
+#include "hal/map_words.def"
 };
 enum { DEVICE_OPTIONS = sizeof(device_options) / sizeof(*device_options) };
+
+/* False: it is none. */
+static bool set_device_flag(struct io_takes *device, const struct option_word *option)
+{
+#define DEVICE_FLAG(id, text, member)                                         \
+	if (option_is(option, text)) {                                        \
+		device->member = true;                                        \
+		return true;                                                  \
+	}
+#include "hal/map_words.def"
+	return false;
+}
 
 static void read_device_word(struct reader *reader, struct io_takes *device,
 			     const struct option_word *option, unsigned *seen)
@@ -593,13 +633,13 @@ static void read_device_word(struct reader *reader, struct io_takes *device,
 
 	while (i < DEVICE_OPTIONS && !option_is(option, device_options[i].name))
 		i++;
-	if (i == DEVICE_OPTIONS && !(option_is(option, "together") && !option->value))
+	if (i == DEVICE_OPTIONS && (option->value || !set_device_flag(device, option)))
 		complain_form(reader, &option->word, "unit=3, read-registers=50, write-registers=20, "
 			      "read-coils=256, write-coils=16, gap=0 or together");
 	else if (*seen & 1u << i)
 		complain(reader, DIAG_IO_OPTION_TWICE, &option->word);
 	else if (i == DEVICE_OPTIONS)
-		device->together = true;
+		; /* it is set */
 	else if (!option->value || !read_count(option->value, option->len, device_options[i].most, &count) ||
 		 count < device_options[i].least)
 		complain_form(reader, &option->word, device_options[i].form);
@@ -690,7 +730,10 @@ const struct module_type *find_module(const struct net_reader *net, const char *
 
 static bool read_module_word(struct module_type *type, const struct option_word *option)
 {
-	static const char *const counts[4] = { "dq", "di", "ai", "aq" };
+	static const char *const counts[4] = {
+#define MODULE_OPTION(id, text, table) [(table) - 1] = text,
+#include "hal/map_words.def"
+	};
 	uint32_t number;
 
 	for (int i = 0; i < 4 && option->value; i++) {
@@ -739,8 +782,8 @@ bool read_statement(struct reader *reader, const struct map_word *word)
 		const char *word;
 		void (*read)(struct reader *reader, const struct map_word *first);
 	} statements[] = {
-		{ "BUS", read_bus_line }, { "SERVE", read_serve_line }, { "WINDOW", read_window_line },
-		{ "DEVICE", read_device_line }, { "PUBLISH", read_publish_line }, { "MODULE", read_module_line },
+#define MAP_STATEMENT(id, read) { #id, read },
+#include "hal/map_words.def"
 	};
 
 	for (size_t i = 0; i < sizeof(statements) / sizeof(*statements); i++) {

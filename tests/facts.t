@@ -452,23 +452,20 @@ for my $path (@documents) {
 }
 my %maps = map { $_ => 1 } $text{'docs/boards.md'} =~ /\b([\w-]+\.io)\b/g;
 is(join(' ', grep { !$maps{$_} } map { basename($_) } glob 'ladders/boards/*.io'), '', 'docs/boards.md: every map of ladders/boards');
-my ($map_options) = slurp('hal/iomap.c') =~ /^static const struct option options\[.*?\{(.*?)^\};/ms;
+my $map_words = slurp('hal/map_words.def');
 my ($map_table) = $text{'docs/boards.md'} =~ /^\| option \| for \|.*?\n(.*?)\n\n/ms;
 my %map_option = map { $_ => 1 } map { s/=.*//r } map { split ' ' } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $map_table;
-list_is('docs/boards.md: the options of a line', [keys %map_option], [$map_options =~ /\{ "([a-z-]+)",/g]);
-my ($channel_options) = slurp('hal/iomap_channel.c') =~ /^static const struct channel_option channel_options\[.*?\{(.*?)^\};/ms;
-my ($bus_options) = slurp('hal/iomap_net.c') =~ /^static const struct bus_option bus_options\[.*?\{(.*?)^\};/ms;
-for (['value', $channel_options], ['bus', $bus_options]) {
-	my ($kind, $rows) = @$_;
+list_is('docs/boards.md: the options of a line', [keys %map_option], [$map_words =~ /^CHIP_OPTION\(\w+, "([a-z-]+)",/gm]);
+for my $kind (qw(value bus)) {
 	my ($table) = $text{'docs/field.md'} =~ /^\| option of a $kind \| for \|.*?\n(.*?)\n\n/ms;
 	my %said = map { $_ => 1 } map { s/=.*//r } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $table;
-	my %row = map { $_ => 1 } $rows =~ /\{ "([a-z-]+)",/g;
+	my $macro = uc $kind;
+	my %row = map { $_ => 1 } $map_words =~ /^${macro}_OPTION\(\w+, "([a-z-]+)",/gm;
 	list_is("docs/field.md: the options of a $kind", [keys %said], [keys %row]);
 }
-my ($takes_options) = slurp('hal/iomap_net.c') =~ /^\} device_options\[\] = \{(.*?)^\};/ms;
 my ($takes_table) = $text{'docs/field.md'} =~ /^\| option of a device \|.*?\n(.*?)\n\n/ms;
 list_is('docs/field.md: the options of a device', [map { s/=.*//r } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $takes_table],
-	['together', $takes_options =~ /\{ "([a-z-]+)",/g]);
+	[$map_words =~ /^DEVICE_(?:OPTION|FLAG)\(\w+, "([a-z-]+)",/gm]);
 my ($modules) = $text{'docs/field.md'} =~ /^\| type \| digital inputs.*?\n(.*?)\n\n/ms;
 is(join(' ', $modules =~ /^\| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \|/mg),
 	join(' ', slurp('hal/modules.def') =~ /^MODULE\((\w+), (\d+), (\d+), (\d+), 0\)/mg), 'docs/field.md: the modules');

@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/document/iomap_devices.h"
 
+#include "engine/base/ascii.h"
+#include "hal/channel.h"
 #include "hal/channels.h"
 #include "hal/drivers.h"
 
@@ -19,18 +21,19 @@ static const char *keep(struct arena *arena, const char *text)
 
 static void add(void *context, const struct device_seen *seen)
 {
-	static const char *const unit[] = { "", " V", " A", " \302\260C", " %", " \316\251" };
 	struct io_devices *devices = context;
 	struct io_device *device = arena_push(&devices->arena, &devices->device, &devices->count,
 					      sizeof(*device));
+	const char *unit = io_unit_word(seen->unit);
 	char about[128], value[48] = "";
+	const char *what = seen->has_value ? value : seen->problem;
 
 	if (!device)
 		return;
 	if (seen->has_value)
-		snprintf(value, sizeof(value), "%.6g%s", seen->value, unit[seen->unit]);
-	snprintf(about, sizeof(about), "%.40s%s%.60s", seen->label,
-		 *seen->label && (*value || *seen->problem) ? ": " : "", *value ? value : seen->problem);
+		snprintf(value, sizeof(value), "%.6g%s%s", seen->value, *unit ? " " : "", unit);
+	snprintf(about, sizeof(about), "%.*s%s%.*s", (int)utf8_cut(seen->label, 40), seen->label,
+		 *seen->label && *what ? ": " : "", (int)utf8_cut(what, 60), what);
 	*device = (struct io_device){ driver_row(seen->driver)->word, keep(&devices->arena, seen->device),
 		keep(&devices->arena, seen->channel), keep(&devices->arena, about), seen->output };
 }

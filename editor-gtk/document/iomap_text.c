@@ -9,7 +9,8 @@
 
 #include "editor-gtk/kit/i18n.h"
 
-#include "hal/iomap.h"
+#include "hal/drivers.h"
+#include "hal/map_words.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
@@ -66,58 +67,29 @@ static bool next_word(struct lex *lex, const char *text, struct io_row *row,
 /* ---- what a word is ---- */
 
 static const struct { const char *name; enum io_word word; bool has_value; } option[] = {
-	{ "line", IO_WORD_LINE, true }, { "chip", IO_WORD_CHIP, true },
-	{ "offset", IO_WORD_OFFSET, true }, { "debounce", IO_WORD_DEBOUNCE, true },
-	{ "safe", IO_WORD_SAFE, true }, { "active-low", IO_WORD_ACTIVE_LOW, false },
-	{ "pull-up", IO_WORD_PULL, false }, { "pull-down", IO_WORD_PULL, false },
-	{ "no-pull", IO_WORD_PULL, false }, { "push-pull", IO_WORD_DRIVE, false },
-	{ "open-drain", IO_WORD_DRIVE, false }, { "open-source", IO_WORD_DRIVE, false },
-	{ "device", IO_WORD_DEVICE, true }, { "sensor", IO_WORD_SENSOR, true },
-	{ "from", IO_WORD_FROM, true }, { "channel", IO_WORD_CHANNEL, true },
-	{ "name", IO_WORD_NAME, true }, { "period", IO_WORD_PERIOD, true },
-	{ "port", IO_WORD_PORT, true }, { "baud", IO_WORD_BAUD, true },
-	{ "parity", IO_WORD_PARITY, true }, { "stop-bits", IO_WORD_STOP_BITS, true },
-	{ "host", IO_WORD_HOST, true }, { "listen", IO_WORD_LISTEN, true },
-	{ "interface", IO_WORD_INTERFACE, true }, { "group", IO_WORD_GROUP, true },
-	{ "timeout", IO_WORD_TIMEOUT, true }, { "every", IO_WORD_EVERY, true },
-	{ "bus", IO_WORD_BUS, true }, { "unit", IO_WORD_UNIT, true },
-	{ "connections", IO_WORD_CONNECTIONS, true }, { "rate", IO_WORD_RATE, true },
-	{ "read-registers", IO_WORD_READ_REGISTERS, true },
-	{ "write-registers", IO_WORD_WRITE_REGISTERS, true },
-	{ "read-coils", IO_WORD_READ_COILS, true }, { "write-coils", IO_WORD_WRITE_COILS, true },
-	{ "gap", IO_WORD_GAP, true }, { "together", IO_WORD_TOGETHER, false },
-	{ "type", IO_WORD_TYPE, true }, { "di", IO_WORD_DI, true }, { "dq", IO_WORD_DQ, true },
-	{ "ai", IO_WORD_AI, true }, { "aq", IO_WORD_AQ, true },
-	{ "coil", IO_WORD_COIL, true }, { "discrete-input", IO_WORD_DISCRETE_INPUT, true },
-	{ "input-register", IO_WORD_INPUT_REGISTER, true },
-	{ "holding-register", IO_WORD_HOLDING_REGISTER, true },
-	{ "read-only", IO_WORD_ACCESS, false }, { "read-write", IO_WORD_ACCESS, false },
-	{ "bit", IO_WORD_BIT, true }, { "as", IO_WORD_AS, true }, { "raw", IO_WORD_RAW, true },
-	{ "word-order", IO_WORD_WORD_ORDER, true }, { "byte-order", IO_WORD_BYTE_ORDER, true },
-	{ "range", IO_WORD_RANGE, true }, { "limits", IO_WORD_LIMITS, true },
-	{ "threshold", IO_WORD_THRESHOLD, true }, { "hysteresis", IO_WORD_HYSTERESIS, true },
-	{ "filter", IO_WORD_FILTER, true }, { "poll", IO_WORD_POLL, true },
-	{ "stale", IO_WORD_STALE, true }, { "substitute", IO_WORD_SUBSTITUTE, true },
-	{ "refresh", IO_WORD_REFRESH, true }, { "on-change", IO_WORD_ON_CHANGE, false },
-	{ "ask", IO_WORD_ASK, true },
+#define MAP_WORD(id, text, has_value) { text, IO_WORD_##id, has_value },
+#define MAP_ALSO(id, text, has_value) { text, IO_WORD_##id, has_value },
+#include "hal/map_words.def"
 };
 
-static enum io_word kind_of(const struct word *word)
+enum io_word io_word_find(const char *text, size_t len)
 {
-	const char *equal = memchr(word->text, '=', word->len);
-	const size_t name = equal ? (size_t)(equal - word->text) : word->len;
+	const char *equal = memchr(text, '=', len);
+	const size_t name = equal ? (size_t)(equal - text) : len;
 
 	for (size_t i = 0; i < sizeof(option) / sizeof(*option); i++)
-		if (option[i].has_value == (equal != NULL) &&
-		    ascii_is(option[i].name, word->text, name))
+		if (option[i].has_value == (equal != NULL) && ascii_is(option[i].name, text, name))
 			return option[i].word;
 	return IO_WORDS;
 }
 
 const char *io_kind_word(enum io_kind kind)
 {
-	static const char *const words[IO_KINDS] = { "", "BUS", "SERVE", "WINDOW", "PUBLISH",
-						     "MODULE", "DEVICE" };
+	static const char *const words[IO_KINDS] = {
+		"",
+#define MAP_STATEMENT(id, read) #id,
+#include "hal/map_words.def"
+	};
 
 	return words[kind];
 }
@@ -186,7 +158,7 @@ static bool take_name(const struct io_text *io, struct io_row *row, const struct
 static enum io_word take_option(const struct io_text *io, struct io_row *row,
 				enum io_word before, const struct word *word)
 {
-	enum io_word kind = kind_of(word);
+	enum io_word kind = io_word_find(word->text, word->len);
 
 	if (take_name(io, row, word))
 		return IO_WORD_NAMES;
@@ -405,176 +377,207 @@ static size_t put_comment(const struct io_text *io, const struct io_span *commen
 	return (size_t)(end - at);
 }
 
-/* Fields of one word, and what stands before the value in it. IO_WORDS: of several words. */
+/* Fields of one word. IO_WORDS: of several words. */
 static const struct field_row {
 	const char *name;
 	enum io_word word;
-	const char *before;
 } fields[IO_FIELDS] = {
-	[IO_ADDRESS] = { N_("Address"), IO_WORD_ADDRESS, "" },
-	[IO_DRIVER] = { N_("Driver"), IO_WORD_DRIVER, "" },
-	[IO_LINE] = { N_("I/O line"), IO_WORDS, "" },
-	[IO_PULL] = { N_("Pull"), IO_WORD_PULL, "" },
-	[IO_ACTIVE_LOW] = { N_("Active low"), IO_WORD_ACTIVE_LOW, "active-low" },
-	[IO_DEBOUNCE] = { N_("Debounce"), IO_WORD_DEBOUNCE, "debounce=" },
-	[IO_DRIVE] = { N_("Drive"), IO_WORD_DRIVE, "" },
-	[IO_DEVICE] = { N_("Device"), IO_WORDS, "" },
-	[IO_CHANNEL] = { N_("Channel"), IO_WORDS, "" },
-	[IO_PERIOD] = { N_("Period"), IO_WORD_PERIOD, "period=" },
-	[IO_BUS] = { N_("Bus"), IO_WORD_BUS, "bus=" },
-	[IO_UNIT] = { N_("Unit"), IO_WORD_UNIT, "unit=" },
-	[IO_TYPE] = { N_("Module type"), IO_WORD_TYPE, "type=" },
-	[IO_TABLE] = { N_("Table"), IO_WORDS, "" },
-	[IO_NUMBER] = { N_("Number"), IO_WORDS, "" },
-	[IO_BIT] = { N_("Bit"), IO_WORD_BIT, "bit=" },
-	[IO_AS] = { N_("Value type"), IO_WORD_AS, "as=" },
-	[IO_RAW] = { N_("Register type"), IO_WORD_RAW, "raw=" },
-	[IO_WORD_ORDER] = { N_("Word order"), IO_WORD_WORD_ORDER, "word-order=" },
-	[IO_BYTE_ORDER] = { N_("Byte order"), IO_WORD_BYTE_ORDER, "byte-order=" },
-	[IO_RANGE] = { N_("Range"), IO_WORDS, "" },
-	[IO_LIMITS] = { N_("Limits"), IO_WORD_LIMITS, "limits=" },
-	[IO_THRESHOLD] = { N_("Threshold"), IO_WORD_THRESHOLD, "threshold=" },
-	[IO_HYSTERESIS] = { N_("Hysteresis"), IO_WORD_HYSTERESIS, "hysteresis=" },
-	[IO_FILTER] = { N_("Filter"), IO_WORD_FILTER, "filter=" },
-	[IO_POLL] = { N_("Poll"), IO_WORD_POLL, "poll=" },
-	[IO_STALE] = { N_("Stale"), IO_WORD_STALE, "stale=" },
-	[IO_SUBSTITUTE] = { N_("Substitute"), IO_WORD_SUBSTITUTE, "substitute=" },
-	[IO_REFRESH] = { N_("Refresh"), IO_WORD_REFRESH, "refresh=" },
-	[IO_ON_CHANGE] = { N_("On change"), IO_WORD_ON_CHANGE, "on-change" },
-	[IO_ASK] = { N_("Asked by"), IO_WORD_ASK, "ask=" },
-	[IO_SAFE] = { N_("Safe"), IO_WORD_SAFE, "safe=" },
-	[IO_PORT] = { N_("Port"), IO_WORD_PORT, "port=" },
-	[IO_BAUD] = { N_("Baud rate"), IO_WORD_BAUD, "baud=" },
-	[IO_PARITY] = { N_("Parity"), IO_WORD_PARITY, "parity=" },
-	[IO_STOP_BITS] = { N_("Stop bits"), IO_WORD_STOP_BITS, "stop-bits=" },
-	[IO_HOST] = { N_("Host"), IO_WORD_HOST, "host=" },
-	[IO_INTERFACE] = { N_("Interface"), IO_WORD_INTERFACE, "interface=" },
-	[IO_GROUP] = { N_("Group address"), IO_WORD_GROUP, "group=" },
-	[IO_TIMEOUT] = { N_("Timeout"), IO_WORD_TIMEOUT, "timeout=" },
-	[IO_LISTEN] = { N_("Listen"), IO_WORD_LISTEN, "listen=" },
-	[IO_CONNECTIONS] = { N_("Connections"), IO_WORD_CONNECTIONS, "connections=" },
-	[IO_RATE] = { N_("Requests/s"), IO_WORD_RATE, "rate=" },
-	[IO_ACCESS] = { N_("Access"), IO_WORD_ACCESS, "" },
-	[IO_NAMES] = { N_("Variables"), IO_WORD_NAMES, "" },
-	[IO_EVERY] = { N_("Every"), IO_WORD_EVERY, "every=" },
-	[IO_DI] = { N_("DI"), IO_WORD_DI, "di=" }, [IO_DQ] = { N_("DQ"), IO_WORD_DQ, "dq=" },
-	[IO_AI] = { N_("AI"), IO_WORD_AI, "ai=" }, [IO_AQ] = { N_("AQ"), IO_WORD_AQ, "aq=" },
-	[IO_FIRST_DI] = { N_("First DI"), IO_WORD_DISCRETE_INPUT, "discrete-input=" },
-	[IO_FIRST_DQ] = { N_("First DQ"), IO_WORD_COIL, "coil=" },
-	[IO_FIRST_AI] = { N_("First AI"), IO_WORD_INPUT_REGISTER, "input-register=" },
-	[IO_FIRST_AQ] = { N_("First AQ"), IO_WORD_HOLDING_REGISTER, "holding-register=" },
-	[IO_READ_REGISTERS] = { N_("Registers a read"), IO_WORD_READ_REGISTERS, "read-registers=" },
-	[IO_WRITE_REGISTERS] = { N_("Registers a write"), IO_WORD_WRITE_REGISTERS, "write-registers=" },
-	[IO_READ_COILS] = { N_("Coils a read"), IO_WORD_READ_COILS, "read-coils=" },
-	[IO_WRITE_COILS] = { N_("Coils a write"), IO_WORD_WRITE_COILS, "write-coils=" },
-	[IO_GAP] = { N_("Gap"), IO_WORD_GAP, "gap=" },
-	[IO_TOGETHER] = { N_("Together"), IO_WORD_TOGETHER, "together" },
-	[IO_COMMENT] = { N_("Comment"), IO_WORDS, "" },
+	[IO_ADDRESS] = { N_("Address"), IO_WORD_ADDRESS },
+	[IO_DRIVER] = { N_("Driver"), IO_WORD_DRIVER },
+	[IO_LINE] = { N_("I/O line"), IO_WORDS },
+	[IO_PULL] = { N_("Pull"), IO_WORD_PULL },
+	[IO_ACTIVE_LOW] = { N_("Active low"), IO_WORD_ACTIVE_LOW },
+	[IO_DEBOUNCE] = { N_("Debounce"), IO_WORD_DEBOUNCE },
+	[IO_DRIVE] = { N_("Drive"), IO_WORD_DRIVE },
+	[IO_DEVICE] = { N_("Device"), IO_WORDS },
+	[IO_CHANNEL] = { N_("Channel"), IO_WORDS },
+	[IO_PERIOD] = { N_("Period"), IO_WORD_PERIOD },
+	[IO_BUS] = { N_("Bus"), IO_WORD_BUS },
+	[IO_UNIT] = { N_("Unit"), IO_WORD_UNIT },
+	[IO_TYPE] = { N_("Module type"), IO_WORD_TYPE },
+	[IO_TABLE] = { N_("Table"), IO_WORDS },
+	[IO_NUMBER] = { N_("Number"), IO_WORDS },
+	[IO_BIT] = { N_("Bit"), IO_WORD_BIT },
+	[IO_AS] = { N_("Value type"), IO_WORD_AS },
+	[IO_RAW] = { N_("Register type"), IO_WORD_RAW },
+	[IO_WORD_ORDER] = { N_("Word order"), IO_WORD_WORD_ORDER },
+	[IO_BYTE_ORDER] = { N_("Byte order"), IO_WORD_BYTE_ORDER },
+	[IO_RANGE] = { N_("Range"), IO_WORDS },
+	[IO_LIMITS] = { N_("Limits"), IO_WORD_LIMITS },
+	[IO_THRESHOLD] = { N_("Threshold"), IO_WORD_THRESHOLD },
+	[IO_HYSTERESIS] = { N_("Hysteresis"), IO_WORD_HYSTERESIS },
+	[IO_FILTER] = { N_("Filter"), IO_WORD_FILTER },
+	[IO_POLL] = { N_("Poll"), IO_WORD_POLL },
+	[IO_STALE] = { N_("Stale"), IO_WORD_STALE },
+	[IO_SUBSTITUTE] = { N_("Substitute"), IO_WORD_SUBSTITUTE },
+	[IO_REFRESH] = { N_("Refresh"), IO_WORD_REFRESH },
+	[IO_ON_CHANGE] = { N_("On change"), IO_WORD_ON_CHANGE },
+	[IO_ASK] = { N_("Asked by"), IO_WORD_ASK },
+	[IO_OF] = { N_("Quality of"), IO_WORD_OF },
+	[IO_SAFE] = { N_("Safe"), IO_WORD_SAFE },
+	[IO_PORT] = { N_("Port"), IO_WORD_PORT },
+	[IO_BAUD] = { N_("Baud rate"), IO_WORD_BAUD },
+	[IO_PARITY] = { N_("Parity"), IO_WORD_PARITY },
+	[IO_STOP_BITS] = { N_("Stop bits"), IO_WORD_STOP_BITS },
+	[IO_HOST] = { N_("Host"), IO_WORD_HOST },
+	[IO_INTERFACE] = { N_("Interface"), IO_WORD_INTERFACE },
+	[IO_GROUP] = { N_("Group address"), IO_WORD_GROUP },
+	[IO_TIMEOUT] = { N_("Timeout"), IO_WORD_TIMEOUT },
+	[IO_LISTEN] = { N_("Listen"), IO_WORD_LISTEN },
+	[IO_CONNECTIONS] = { N_("Connections"), IO_WORD_CONNECTIONS },
+	[IO_RATE] = { N_("Requests/s"), IO_WORD_RATE },
+	[IO_ACCESS] = { N_("Access"), IO_WORD_ACCESS },
+	[IO_NAMES] = { N_("Variables"), IO_WORD_NAMES },
+	[IO_EVERY] = { N_("Every"), IO_WORD_EVERY },
+	[IO_DI] = { N_("DI"), IO_WORD_DI }, [IO_DQ] = { N_("DQ"), IO_WORD_DQ },
+	[IO_AI] = { N_("AI"), IO_WORD_AI }, [IO_AQ] = { N_("AQ"), IO_WORD_AQ },
+	[IO_FIRST_DI] = { N_("First DI"), IO_WORD_DISCRETE_INPUT },
+	[IO_FIRST_DQ] = { N_("First DQ"), IO_WORD_COIL },
+	[IO_FIRST_AI] = { N_("First AI"), IO_WORD_INPUT_REGISTER },
+	[IO_FIRST_AQ] = { N_("First AQ"), IO_WORD_HOLDING_REGISTER },
+	[IO_READ_REGISTERS] = { N_("Registers a read"), IO_WORD_READ_REGISTERS },
+	[IO_WRITE_REGISTERS] = { N_("Registers a write"), IO_WORD_WRITE_REGISTERS },
+	[IO_READ_COILS] = { N_("Coils a read"), IO_WORD_READ_COILS },
+	[IO_WRITE_COILS] = { N_("Coils a write"), IO_WORD_WRITE_COILS },
+	[IO_GAP] = { N_("Gap"), IO_WORD_GAP },
+	[IO_TOGETHER] = { N_("Together"), IO_WORD_TOGETHER },
+	[IO_COMMENT] = { N_("Comment"), IO_WORDS },
 };
 
-/* Drivers of points, as bits. */
-enum { GPIO = 1, SIM = 2, IIO = 4, PWM = 8, W1 = 16, HWMON = 32, MODBUS = 64, MODULE = 128, PEER = 256,
-       OTHER = 512, DEVICES = IIO | W1 | HWMON };
+/* The words of fields that have several; the last row of each list ends it. */
+static const enum io_word line_words[] = { IO_WORD_LINE, IO_WORD_CHIP, IO_WORD_OFFSET, IO_WORDS };
+static const enum io_word device_words[] = { IO_WORD_DEVICE, IO_WORD_CHIP, IO_WORD_SENSOR, IO_WORD_FROM, IO_WORDS };
+static const enum io_word channel_words[] = { IO_WORD_CHANNEL, IO_WORD_NAME, IO_WORDS };
+static const enum io_word range_words[] = { IO_WORD_RANGE, IO_WORD_AT, IO_WORD_AT_VALUE, IO_WORDS };
+static const enum io_word table_words[] = {
+#define TABLE_WORD(id, text, of_bits) IO_WORD_##id,
+#include "hal/map_words.def"
+	IO_WORDS
+};
+
+const enum io_word *io_field_words(enum io_kind kind, enum io_field field)
+{
+	static const enum io_word one[IO_WORDS + 1][2] = {
+#define MAP_PART(id) [IO_WORD_##id] = { IO_WORD_##id, IO_WORDS },
+#define MAP_WORD(id, text, has_value) [IO_WORD_##id] = { IO_WORD_##id, IO_WORDS },
+#include "hal/map_words.def"
+		[IO_WORDS] = { IO_WORDS },
+	};
+
+	switch ((int)field) {
+	case IO_LINE: return line_words;
+	case IO_DEVICE: return device_words;
+	case IO_CHANNEL: return channel_words;
+	case IO_RANGE: return range_words;
+	case IO_TABLE: case IO_NUMBER: return kind == IO_KIND_MODULE ? one[IO_WORDS] : table_words;
+	case IO_FIRST_DI: case IO_FIRST_DQ: case IO_FIRST_AI: case IO_FIRST_AQ:
+		return one[kind == IO_KIND_MODULE ? fields[field].word : IO_WORDS];
+	default: return one[fields[field].word];
+	}
+}
+
+static bool has_word(enum io_kind kind, enum io_field field, enum io_word word)
+{
+	const enum io_word *of = io_field_words(kind, field);
+
+	while (*of != IO_WORDS && *of != word)
+		of++;
+	return *of != IO_WORDS;
+}
 
 static bool word_is(const struct io_text *io, const struct io_span *word, const char *text)
 {
 	return ascii_is(text, io->text + word->at, word->len);
 }
 
+#define ON_OTHER (1u << DRIVER_COUNT) /* a driver that this program does not know */
+
+/* A bit of map_words.h. */
 static unsigned driver_of(const struct io_text *io, const struct io_row *row)
 {
-	static const struct { const char *word; unsigned bit; } drivers[] = {
-		{ "gpio", GPIO }, { "sim", SIM }, { "iio", IIO }, { "pwm", PWM }, { "w1", W1 },
-		{ "hwmon", HWMON }, { "modbus", MODBUS }, { "module", MODULE }, { "peer", PEER },
-	};
+	const struct io_span *word = &row->word[IO_WORD_DRIVER];
 
-	for (size_t i = 0; i < sizeof(drivers) / sizeof(*drivers); i++)
-		if (word_is(io, &row->word[IO_WORD_DRIVER], drivers[i].word))
-			return drivers[i].bit;
-	return OTHER;
+	return 1u << driver_find(io->text + word->at, word->len);
 }
 
-static bool point_has(unsigned driver, enum io_field field)
-{
-	static const unsigned of[IO_FIELDS] = {
-		[IO_LINE] = GPIO | SIM | OTHER, [IO_PULL] = GPIO | SIM | OTHER,
-		[IO_ACTIVE_LOW] = GPIO | SIM | OTHER, [IO_DEBOUNCE] = GPIO | SIM | OTHER,
-		[IO_DRIVE] = GPIO | SIM | OTHER,
-		[IO_DEVICE] = DEVICES | PWM | PEER, [IO_CHANNEL] = IIO | HWMON | PWM | PEER,
-		[IO_PERIOD] = PWM, [IO_BUS] = MODBUS | MODULE | PEER, [IO_UNIT] = MODBUS | MODULE,
-		[IO_TYPE] = MODULE, [IO_TABLE] = MODBUS, [IO_NUMBER] = MODBUS, [IO_BIT] = MODBUS,
-		[IO_AS] = DEVICES | PWM | MODBUS | PEER | SIM, [IO_RAW] = MODBUS,
-		[IO_WORD_ORDER] = MODBUS, [IO_BYTE_ORDER] = MODBUS,
-		[IO_RANGE] = DEVICES | PWM | MODBUS | PEER, [IO_LIMITS] = DEVICES | MODBUS,
-		[IO_THRESHOLD] = DEVICES | MODBUS, [IO_HYSTERESIS] = DEVICES | MODBUS,
-		[IO_FILTER] = DEVICES | MODBUS, [IO_POLL] = DEVICES | MODBUS | MODULE,
-		[IO_STALE] = DEVICES | MODBUS | MODULE | PEER,
-		[IO_SUBSTITUTE] = DEVICES | MODBUS | MODULE | PEER,
-		[IO_REFRESH] = MODBUS | MODULE | PWM | IIO, [IO_ON_CHANGE] = MODBUS | MODULE, [IO_ASK] = MODBUS,
-		[IO_SAFE] = ~0u,
-	};
+/* Which points may have a word. */
+static const struct {
+	enum io_word word;
+	unsigned drivers;
+	enum option_for use;
+	bool of_chip;
+} point_options[] = {
+#define CHIP_OPTION(id, text, use, has_value, form, set) { IO_WORD_##id, ON_GPIO | ON_SIM | ON_OTHER, use, true },
+#define VALUE_OPTION(id, text, drivers, use, form, set) { IO_WORD_##id, drivers, use, false },
+#include "hal/map_words.def"
+};
 
-	return of[field] & driver;
-}
-
-/* Of inputs, and of outputs; a module has both. */
-static bool fits_direction(const struct io_text *io, const struct io_row *row, enum io_field field)
+/* Whether inputs have it, and outputs; all that may be a bit of a chip, and modules, have both. */
+static bool fits_direction(const struct io_text *io, const struct io_row *row, enum option_for use)
 {
-	static const bool input[IO_FIELDS] = { [IO_LIMITS] = true, [IO_THRESHOLD] = true,
-		[IO_HYSTERESIS] = true, [IO_FILTER] = true, [IO_POLL] = true, [IO_STALE] = true,
-		[IO_SUBSTITUTE] = true };
-	static const bool output[IO_FIELDS] = { [IO_REFRESH] = true, [IO_ON_CHANGE] = true,
-		[IO_SAFE] = true };
 	const struct io_span *address = &row->word[IO_WORD_ADDRESS];
 	struct io_values values;
 
-	if (driver_of(io, row) & (GPIO | SIM | MODULE | OTHER) ||
+	if (use == FOR_BOTH || driver_of(io, row) & (ON_GPIO | ON_SIM | ON_MODULE | ON_OTHER) ||
 	    !io_values_read(io->text + address->at, address->len, &values))
 		return true;
-	return iec_area_row(values.first.area)->access == ACCESS_WRITE ? !input[field] : !output[field];
+	return (iec_area_row(values.first.area)->access == ACCESS_WRITE) == (use == FOR_OUTPUT);
 }
 
-/* Fields of the lines that are no points; IO_FIELDS ends a list. */
-static const enum io_field *fields_of(enum io_kind kind)
+static bool point_has(const struct io_text *io, const struct io_row *row, enum io_field field)
 {
-	static const enum io_field bus[] = { IO_DRIVER, IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS,
-		IO_HOST, IO_INTERFACE, IO_GROUP, IO_TIMEOUT, IO_FIELDS };
-	static const enum io_field serve[] = { IO_DRIVER, IO_LISTEN, IO_PORT, IO_BAUD, IO_PARITY,
-		IO_STOP_BITS, IO_UNIT, IO_CONNECTIONS, IO_RATE, IO_FIELDS };
-	static const enum io_field window[] = { IO_BUS, IO_TABLE, IO_NUMBER, IO_ACCESS, IO_FIELDS };
-	static const enum io_field publish[] = { IO_NAMES, IO_EVERY, IO_BUS, IO_FIELDS };
-	static const enum io_field module[] = { IO_DI, IO_DQ, IO_AI, IO_AQ, IO_FIRST_DI,
-		IO_FIRST_DQ, IO_FIRST_AI, IO_FIRST_AQ, IO_FIELDS };
-	static const enum io_field device[] = { IO_UNIT, IO_READ_REGISTERS, IO_WRITE_REGISTERS,
-		IO_READ_COILS, IO_WRITE_COILS, IO_GAP, IO_TOGETHER, IO_FIELDS };
+	const unsigned driver = driver_of(io, row);
 
-	switch (kind) {
-	case IO_KIND_BUS: return bus;
-	case IO_KIND_SERVE: return serve;
-	case IO_KIND_WINDOW: return window;
-	case IO_KIND_PUBLISH: return publish;
-	case IO_KIND_MODULE: return module;
-	case IO_KIND_DEVICE: return device;
-	case IO_KIND_POINT: case IO_KINDS: break;
+	for (size_t i = 0; i < sizeof(point_options) / sizeof(*point_options); i++) {
+		if (field == (point_options[i].of_chip ? IO_DEVICE : IO_LINE))
+			continue; /* chip= is a word of both                     */
+		if (point_options[i].drivers & driver && has_word(IO_KIND_POINT, field, point_options[i].word) &&
+		    fits_direction(io, row, point_options[i].use))
+			return true;
 	}
-	return NULL;
+	return false;
 }
 
-enum { RTU = 1, TCP = 2, YARD = 4 };
-
-/* Protocols of buses and servers that have the field; unknown ones have all. */
-static bool fits_protocol(const struct io_text *io, const struct io_row *row, enum io_field field)
+/* Kinds of the bus or the server, as bits; unknown ones are all. */
+static unsigned protocol_of(const struct io_text *io, const struct io_row *row)
 {
-	static const unsigned of[IO_FIELDS] = {
-		[IO_PORT] = RTU, [IO_BAUD] = RTU, [IO_PARITY] = RTU, [IO_STOP_BITS] = RTU,
-		[IO_TIMEOUT] = RTU | TCP, [IO_HOST] = TCP, [IO_LISTEN] = TCP, [IO_CONNECTIONS] = TCP,
-		[IO_INTERFACE] = YARD, [IO_GROUP] = YARD,
-	};
 	const struct io_span *word = &row->word[IO_WORD_DRIVER];
-	const unsigned is = word_is(io, word, "modbus-rtu") ? RTU : word_is(io, word, "modbus-tcp") ? TCP :
-			    word_is(io, word, "peer") ? YARD : 0;
 
-	return !is || !of[field] || of[field] & is;
+	return word_is(io, word, "modbus-rtu") ? OF_RTU : word_is(io, word, "modbus-tcp") ? OF_TCP :
+	       word_is(io, word, "peer") ? OF_PEER : OF_RTU | OF_TCP | OF_PEER;
+}
+
+static bool bus_has(const struct io_text *io, const struct io_row *row, enum io_field field)
+{
+	static const struct { enum io_word word; unsigned kinds[2]; } bus_options[] = {
+#define BUS_OPTION(id, text, buses, servers, form, set) { IO_WORD_##id, { buses, servers } },
+#include "hal/map_words.def"
+	};
+
+	for (size_t i = 0; i < sizeof(bus_options) / sizeof(*bus_options); i++)
+		if (has_word(row->kind, field, bus_options[i].word) &&
+		    bus_options[i].kinds[row->kind == IO_KIND_SERVE] & protocol_of(io, row))
+			return true;
+	return field == IO_DRIVER;
+}
+
+/* Options of the lines that are no points, no buses and no servers. */
+static bool line_has(enum io_kind kind, enum io_field field)
+{
+	static const struct { enum io_kind kind; enum io_word word; } options[] = {
+#define TABLE_WORD(id, text, of_bits) { IO_KIND_WINDOW, IO_WORD_##id }, { IO_KIND_MODULE, IO_WORD_##id },
+#define PUBLISH_OPTION(id, text, form, set) { IO_KIND_PUBLISH, IO_WORD_##id },
+#define MODULE_OPTION(id, text, table) { IO_KIND_MODULE, IO_WORD_##id },
+#define DEVICE_OPTION(id, text, form, most, least, member) { IO_KIND_DEVICE, IO_WORD_##id },
+#define DEVICE_FLAG(id, text, member) { IO_KIND_DEVICE, IO_WORD_##id },
+#include "hal/map_words.def"
+		{ IO_KIND_WINDOW, IO_WORD_BUS }, { IO_KIND_WINDOW, IO_WORD_ACCESS }, { IO_KIND_PUBLISH, IO_WORD_NAMES },
+	};
+
+	for (size_t i = 0; i < sizeof(options) / sizeof(*options); i++)
+		if (options[i].kind == kind && has_word(kind, field, options[i].word))
+			return true;
+	return false;
 }
 
 /* The one word of a field; IO_WORDS: it has several. */
@@ -599,40 +602,27 @@ static bool is_there(const struct io_row *row, enum io_field field)
 bool io_text_has(const struct io_text *io, int number, enum io_field field)
 {
 	const struct io_row *row = &io->row[number];
-	const enum io_field *of = fields_of(row->kind);
 
 	if (field == IO_ADDRESS || field == IO_COMMENT || is_there(row, field))
 		return true;
-	if (row->kind == IO_KIND_POINT)
-		return field == IO_DRIVER || (point_has(driver_of(io, row), field) &&
-					      fits_direction(io, row, field));
-	while (*of != IO_FIELDS && *of != field)
-		of++;
-	return *of == field && fits_protocol(io, row, field);
+	switch (row->kind) {
+	case IO_KIND_POINT:
+		return field == IO_DRIVER || point_has(io, row, field);
+	case IO_KIND_BUS: case IO_KIND_SERVE:
+		return bus_has(io, row, field);
+	case IO_KIND_WINDOW: case IO_KIND_PUBLISH: case IO_KIND_MODULE: case IO_KIND_DEVICE:
+		return line_has(row->kind, field);
+	case IO_KINDS: break;
+	}
+	return false;
 }
-
-/* What stands before the value of a field in its word. */
-static const char *before_of(const struct io_row *row, enum io_field field)
-{
-	return row->kind == IO_KIND_WINDOW && field == IO_BUS ? "" : fields[field].before;
-}
-
-/* The word that names the device, and the one that it should be. */
-static const enum io_word device_words[] = { IO_WORD_DEVICE, IO_WORD_CHIP, IO_WORD_SENSOR,
-					     IO_WORD_FROM };
-static const enum io_word channel_words[] = { IO_WORD_CHANNEL, IO_WORD_NAME };
-static const enum io_word table_words[] = { IO_WORD_COIL, IO_WORD_DISCRETE_INPUT,
-					    IO_WORD_INPUT_REGISTER, IO_WORD_HOLDING_REGISTER };
-
-#define COUNT(list) (int)(sizeof(list) / sizeof(*(list)))
 
 /* The first of these words that the row has; IO_WORDS: none. */
-static enum io_word first_of(const struct io_row *row, const enum io_word *words, int count)
+static enum io_word first_of(const struct io_row *row, const enum io_word *words)
 {
-	for (int i = 0; i < count; i++)
-		if (row->word[words[i]].len)
-			return words[i];
-	return IO_WORDS;
+	while (*words != IO_WORDS && !row->word[*words].len)
+		words++;
+	return *words;
 }
 
 static const char *option_name(enum io_word word)
@@ -643,17 +633,33 @@ static const char *option_name(enum io_word word)
 	return "";
 }
 
-static size_t put_first(const struct io_text *io, const struct io_row *row,
-			const enum io_word *words, int count, char *out)
+static bool has_value(enum io_word word)
 {
-	const enum io_word word = first_of(row, words, count);
+	for (size_t i = 0; i < sizeof(option) / sizeof(*option); i++)
+		if (option[i].word == word)
+			return option[i].has_value;
+	return false;
+}
+
+/* What stands before the value of a word: "period=", "active-low" of a flag, else "". */
+static void put_before(enum io_word word, bool flag, char *out, size_t size)
+{
+	const bool value = has_value(word);
+
+	snprintf(out, size, "%s%s", value || flag ? option_name(word) : "", value ? "=" : "");
+}
+
+static size_t put_first(const struct io_text *io, const struct io_row *row,
+			const enum io_word *words, char *out)
+{
+	const enum io_word word = first_of(row, words);
 
 	return word == IO_WORDS ? 0 : put_name(io, &row->word[word], out);
 }
 
 static size_t put_table(const struct io_row *row, char *out)
 {
-	const enum io_word word = first_of(row, table_words, COUNT(table_words));
+	const enum io_word word = first_of(row, table_words);
 	const char *name = word == IO_WORDS ? "" : option_name(word);
 
 	memcpy(out, name, strlen(name));
@@ -704,7 +710,7 @@ static size_t put_word(const struct io_text *io, const struct io_row *row, enum 
 	}
 	if (is_name(row, field))
 		return put_name(io, word, out);
-	if (*before_of(row, field))
+	if (has_value(word_of(row, field)))
 		return put_value(io, word, out);
 	memcpy(out, io->text + word->at, word->len);
 	return word->len;
@@ -716,10 +722,10 @@ static size_t put_field(const struct io_text *io, const struct io_row *row, enum
 	switch ((int)field) {
 	case IO_COMMENT: return put_comment(io, &row->comment, out);
 	case IO_LINE: return put_line(io, row, out);
-	case IO_DEVICE: return put_first(io, row, device_words, COUNT(device_words), out);
-	case IO_CHANNEL: return put_first(io, row, channel_words, COUNT(channel_words), out);
+	case IO_DEVICE: return put_first(io, row, device_words, out);
+	case IO_CHANNEL: return put_first(io, row, channel_words, out);
 	case IO_TABLE: return put_table(row, out);
-	case IO_NUMBER: return put_first(io, row, table_words, COUNT(table_words), out);
+	case IO_NUMBER: return put_first(io, row, table_words, out);
 	case IO_RANGE: return put_range(io, row, out);
 	default: return put_word(io, row, field, out);
 	}
@@ -1142,7 +1148,7 @@ static bool is_strict(const struct io_text *io, const struct io_row *row, enum i
 	struct io_values values;
 
 	if (field == IO_SAFE)
-		return driver_of(io, row) & (GPIO | SIM | OTHER) &&
+		return driver_of(io, row) & (ON_GPIO | ON_SIM | ON_OTHER) &&
 		       io_values_read(io->text + address->at, address->len, &values) &&
 		       values.first.bits == 1;
 	return field == IO_PULL || field == IO_DRIVE || field == IO_TABLE || field == IO_ACCESS ||
@@ -1177,8 +1183,9 @@ static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 				  enum io_field field, const char *value)
 {
 	char word[NAME_ROOM + 24] = "";
-	const char *before = before_of(row, field);
+	char before[24];
 
+	put_before(word_of(row, field), io_field_is_flag(field), before, sizeof(before));
 	if (strlen(value) > LIMIT_NAME)
 		return IO_BAD_NAME;
 	if (!*value && is_fixed(row, word_of(row, field)))
@@ -1201,10 +1208,10 @@ static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 
 /* One of several words: the one that is there is replaced; else @usual is added. */
 static enum io_refusal set_named(struct draft *draft, const struct io_row *row,
-				 const enum io_word *words, int count, enum io_word usual,
+				 const enum io_word *words, enum io_word usual,
 				 const char *value)
 {
-	const enum io_word is = first_of(row, words, count);
+	const enum io_word is = first_of(row, words);
 	char word[NAME_ROOM + 24] = "";
 	int used;
 
@@ -1238,7 +1245,7 @@ static enum io_word usual_table(const struct io_text *io, const struct io_row *r
 static enum io_refusal set_table(const struct io_text *io, struct draft *draft,
 				 const struct io_row *row, const char *value)
 {
-	const enum io_word is = first_of(row, table_words, COUNT(table_words));
+	const enum io_word is = first_of(row, table_words);
 	const struct io_span number = is == IO_WORDS ? (struct io_span){ 0, 0 } :
 		value_of(io, &row->word[is]);
 	enum io_word usual = IO_WORD_COIL;
@@ -1258,7 +1265,7 @@ static enum io_refusal set_table(const struct io_text *io, struct draft *draft,
 static enum io_refusal set_number(const struct io_text *io, struct draft *draft,
 				  const struct io_row *row, const char *value)
 {
-	const enum io_word is = first_of(row, table_words, COUNT(table_words));
+	const enum io_word is = first_of(row, table_words);
 	const enum io_word usual = is == IO_WORDS ? usual_table(io, row) : is;
 	char word[LIMIT_NAME + 24] = "";
 
@@ -1343,9 +1350,9 @@ static enum io_refusal set_names(struct draft *draft, const struct io_row *row, 
 static enum io_word device_word(const struct io_text *io, const struct io_row *row)
 {
 	switch (driver_of(io, row)) {
-	case PWM: return IO_WORD_CHIP;
-	case W1: return IO_WORD_SENSOR;
-	case PEER: return IO_WORD_FROM;
+	case ON_PWM: return IO_WORD_CHIP;
+	case ON_W1: return IO_WORD_SENSOR;
+	case ON_PEER: return IO_WORD_FROM;
 	default: return IO_WORD_DEVICE;
 	}
 }
@@ -1360,11 +1367,11 @@ static enum io_refusal set_in(const struct io_text *io, struct draft *draft,
 		set_comment(draft, row, value);
 		return IO_GOOD;
 	case IO_DEVICE:
-		return set_named(draft, row, device_words, COUNT(device_words),
+		return set_named(draft, row, device_words,
 				 device_word(io, row), value);
 	case IO_CHANNEL:
-		return set_named(draft, row, channel_words, COUNT(channel_words),
-				 driver_of(io, row) == PEER ? IO_WORD_NAME : IO_WORD_CHANNEL, value);
+		return set_named(draft, row, channel_words,
+				 driver_of(io, row) == ON_PEER ? IO_WORD_NAME : IO_WORD_CHANNEL, value);
 	case IO_TABLE:
 		return set_table(io, draft, row, value);
 	case IO_NUMBER:

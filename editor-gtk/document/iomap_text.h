@@ -17,7 +17,8 @@
 /* What a line is about. */
 enum io_kind {
 	IO_KIND_POINT,   /* and whatever is none of the others                 */
-	IO_KIND_BUS, IO_KIND_SERVE, IO_KIND_WINDOW, IO_KIND_PUBLISH, IO_KIND_MODULE, IO_KIND_DEVICE,
+#define MAP_STATEMENT(id, read) IO_KIND_##id,
+#include "hal/map_words.def"
 	IO_KINDS
 };
 
@@ -39,6 +40,7 @@ enum io_field {
 	IO_LIMITS, IO_THRESHOLD, IO_HYSTERESIS, IO_FILTER, IO_POLL, IO_STALE, IO_SUBSTITUTE,
 	IO_REFRESH, IO_ON_CHANGE, /* "1" or ""                                 */
 	IO_ASK,        /* name of a block                                      */
+	IO_OF,         /* of a quality: the inputs, "%AIW0..6"                 */
 	IO_SAFE,
 	IO_PORT, IO_BAUD, IO_PARITY, IO_STOP_BITS, IO_HOST, IO_INTERFACE, IO_GROUP, IO_TIMEOUT,
 	IO_LISTEN, IO_CONNECTIONS, IO_RATE,
@@ -57,23 +59,9 @@ struct io_span { size_t at, len; }; /* bytes of the text; len 0: missing        
 
 /* Words of a line that mean something, in the usual order. */
 enum io_word {
-	IO_WORD_STATEMENT, /* BUS, SERVE, WINDOW, PUBLISH, MODULE, DEVICE       */
-	IO_WORD_ADDRESS,   /* or name                                          */
-	IO_WORD_DRIVER, IO_WORD_LINE, IO_WORD_CHIP, IO_WORD_OFFSET,
-	IO_WORD_PULL, IO_WORD_ACTIVE_LOW, IO_WORD_DEBOUNCE, IO_WORD_DRIVE,
-	IO_WORD_DEVICE, IO_WORD_SENSOR, IO_WORD_FROM, IO_WORD_CHANNEL, IO_WORD_NAME,
-	IO_WORD_PERIOD, IO_WORD_PORT, IO_WORD_BAUD, IO_WORD_PARITY, IO_WORD_STOP_BITS,
-	IO_WORD_HOST, IO_WORD_LISTEN, IO_WORD_INTERFACE, IO_WORD_GROUP, IO_WORD_TIMEOUT,
-	IO_WORD_NAMES, IO_WORD_EVERY, IO_WORD_BUS, IO_WORD_UNIT, IO_WORD_CONNECTIONS,
-	IO_WORD_RATE, IO_WORD_READ_REGISTERS, IO_WORD_WRITE_REGISTERS, IO_WORD_READ_COILS,
-	IO_WORD_WRITE_COILS, IO_WORD_GAP, IO_WORD_TOGETHER, IO_WORD_TYPE, IO_WORD_DI, IO_WORD_DQ, IO_WORD_AI, IO_WORD_AQ,
-	IO_WORD_COIL, IO_WORD_DISCRETE_INPUT, IO_WORD_INPUT_REGISTER, IO_WORD_HOLDING_REGISTER,
-	IO_WORD_SHOWN,     /* the address of a WINDOW                          */
-	IO_WORD_ACCESS, IO_WORD_BIT, IO_WORD_AS, IO_WORD_RAW, IO_WORD_WORD_ORDER,
-	IO_WORD_BYTE_ORDER, IO_WORD_RANGE,
-	IO_WORD_AT, IO_WORD_AT_VALUE, /* behind range=: at 0V..10V             */
-	IO_WORD_LIMITS, IO_WORD_THRESHOLD, IO_WORD_HYSTERESIS, IO_WORD_FILTER, IO_WORD_POLL,
-	IO_WORD_STALE, IO_WORD_SUBSTITUTE, IO_WORD_REFRESH, IO_WORD_ON_CHANGE, IO_WORD_ASK, IO_WORD_SAFE,
+#define MAP_PART(id) IO_WORD_##id,
+#define MAP_WORD(id, text, has_value) IO_WORD_##id,
+#include "hal/map_words.def"
 	IO_WORDS
 };
 
@@ -157,6 +145,11 @@ enum io_refusal io_text_move(const struct io_text *io, int row, int target, bool
 			     struct io_edit *edit);
 /** io_text_choices - usual words of a field; NULL: any. NULL-ended, lives for ever. */
 const char *const *io_text_choices(enum io_field field);
+/** io_field_words - the words of the map that the field @field of lines of @kind stands for; IO_WORDS ends them, and
+ * there is none of a comment. Lives for ever. */
+const enum io_word *io_field_words(enum io_kind kind, enum io_field field);
+/** io_word_find - the word of the option @text, "active-low" or "safe=0"; IO_WORDS: it is none. */
+enum io_word io_word_find(const char *text, size_t len);
 /** io_text_has - whether lines of this kind and driver have the field. */
 bool io_text_has(const struct io_text *io, int row, enum io_field field);
 /** io_kind_word - "BUS"; "" of a point. Lives for ever. */

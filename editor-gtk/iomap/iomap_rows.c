@@ -20,7 +20,7 @@ static const enum io_field columns[IOMAP_PAGES][IOMAP_KIND] = {
 		IO_DRIVE, IO_COMMENT, IO_FIELDS },
 	[IOMAP_ANALOG] = { IO_ADDRESS, IO_DRIVER, IO_DEVICE, IO_CHANNEL, IO_RANGE, IO_FILTER,
 		IO_LIMITS, IO_THRESHOLD, IO_HYSTERESIS, IO_STALE, IO_SUBSTITUTE, IO_SAFE, IO_PERIOD,
-		IO_POLL, IO_REFRESH, IO_AS, IO_COMMENT, IO_FIELDS },
+		IO_POLL, IO_REFRESH, IO_AS, IO_OF, IO_COMMENT, IO_FIELDS },
 	[IOMAP_MODBUS] = { IO_ADDRESS, IO_DRIVER, IO_BUS, IO_UNIT, IO_TYPE, IO_TABLE, IO_NUMBER,
 		IO_BIT, IO_RANGE, IO_POLL, IO_ASK, IO_STALE, IO_SUBSTITUTE, IO_SAFE, IO_REFRESH, IO_AS, IO_RAW,
 		IO_FILTER, IO_LIMITS, IO_THRESHOLD, IO_HYSTERESIS, IO_WORD_ORDER, IO_BYTE_ORDER,
@@ -106,7 +106,7 @@ static bool is_pin(const struct io_text *io, int row)
 
 enum iomap_page iomap_page_of(const struct io_text *io, int row)
 {
-	static const char *const analog[] = { "iio", "pwm", "w1", "hwmon" };
+	static const char *const analog[] = { "iio", "pwm", "w1", "hwmon", "quality" };
 
 	switch (io->row[row].kind) {
 	case IO_KIND_BUS: case IO_KIND_MODULE: case IO_KIND_DEVICE: return IOMAP_BUSES;
@@ -473,6 +473,7 @@ static const char *about_word(const char *word)
 		{ "modbus", N_("a coil or registers of a Modbus device") },
 		{ "module", N_("all of an expansion module") },
 		{ "peer", N_("a variable of another board") },
+		{ "quality", N_("how good the value of another input is") },
 		{ "modbus-rtu", N_("Modbus on a serial line") },
 		{ "modbus-tcp", N_("Modbus on a network") },
 		{ "pull-up", N_("a resistor of the chip to its supply") },

@@ -4,6 +4,7 @@
  * their state with the names of a program. It requests no line and changes none.
  */
 #include "ladder/devices.h"
+#include "ladder/map_words.h"
 #include "ladder/picture.h"
 #include "ladder/tty.h"
 
@@ -219,6 +220,12 @@ enum status cmd_io(struct call *call)
 	struct picture all = { .map = NULL };
 	enum status status;
 
+	if (call_flag(call, "--words")) {
+		if (call->arg_count || call_flag(call, "--json"))
+			return report_usage(call, "--words stands alone");
+		map_words_print(&call->out);
+		return STATUS_GOOD;
+	}
 	if (!call->arg_count && call_option(call, "--program"))
 		return report_usage(call, "--program needs a MAP");
 	diags = report_list("ladder io");

@@ -6,6 +6,7 @@
 
 #ifndef RUNGBOARD_SMALL
 
+#include "hal/channel.h"
 #include "hal/channels.h"
 #include "hal/drivers.h"
 
@@ -17,13 +18,6 @@ struct list {
 	const struct sink *out;
 	int count;
 };
-
-static const char *unit_word(enum io_unit unit)
-{
-	static const char *const words[] = { "", "V", "A", "\302\260C", "%", "Ohm" };
-
-	return words[unit];
-}
 
 /* Columns of the screen, not bytes: of ASCII, but for the degree sign at an end. */
 static void put(const struct sink *out, const char *text, int width)
@@ -46,7 +40,7 @@ static void print_one(void *context, const struct device_seen *seen)
 	put(list->out, seen->device, 24);
 	put(list->out, seen->channel, 12);
 	put(list->out, seen->output ? "output" : "input", 6);
-	snprintf(value, sizeof(value), "%g %s", seen->value, unit_word(seen->unit));
+	snprintf(value, sizeof(value), "%g %s", seen->value, io_unit_word(seen->unit));
 	sink_text(list->out, seen->has_value ? value : *seen->problem ? seen->problem : "-");
 	if (*seen->label)
 		sink_printf(list->out, "  (%s)", seen->label);
@@ -94,7 +88,7 @@ static void take_value(void *context, const struct device_seen *seen)
 			continue;
 		if (seen->has_value)
 			snprintf(text, DEVICE_VALUE, "%.9g%s%s", seen->value, seen->unit == UNIT_NONE ? "" : " ",
-				 unit_word(seen->unit));
+				 io_unit_word(seen->unit));
 		else
 			snprintf(text, DEVICE_VALUE, "%.47s", seen->problem);
 	}
@@ -129,7 +123,7 @@ static void json_one(void *context, const struct device_seen *seen)
 		sink_printf(list->out, "%.9g", seen->value);
 	else
 		sink_text(list->out, "null");
-	report_json_field("unit", unit_word(seen->unit), list->out);
+	report_json_field("unit", io_unit_word(seen->unit), list->out);
 	report_json_field("problem", *seen->problem ? seen->problem : NULL, list->out);
 	sink_text(list->out, "}");
 }

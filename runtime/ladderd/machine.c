@@ -4,6 +4,8 @@
  */
 #include "ladderd/machine.h"
 
+#include "engine/base/ascii.h"
+#include "hal/channel.h"
 #include "hal/channels.h"
 #include "hal/drivers.h"
 
@@ -39,34 +41,41 @@ static struct machine_row *add(struct machine *machine)
 	return row;
 }
 
+static void keep(char *out, size_t size, const char *text)
+{
+	const size_t len = utf8_cut(text, size - 1);
+
+	memcpy(out, text, len);
+	out[len] = '\0';
+}
+
 static void see_line(void *context, const struct line_seen *seen)
 {
 	struct machine_row *row = add(context);
 
 	if (!row)
 		return;
-	snprintf(row->driver, sizeof(row->driver), "gpio");
-	snprintf(row->device, sizeof(row->device), "%.90s", seen->chip);
-	snprintf(row->label, sizeof(row->label), "%.90s", seen->label);
-	snprintf(row->channel, sizeof(row->channel), "%.90s", seen->name);
-	snprintf(row->about, sizeof(row->about), "%.90s", seen->owner);
+	keep(row->driver, sizeof(row->driver), driver_row(DRIVER_gpio)->word);
+	keep(row->device, sizeof(row->device), seen->chip);
+	keep(row->label, sizeof(row->label), seen->label);
+	keep(row->channel, sizeof(row->channel), seen->name);
+	keep(row->about, sizeof(row->about), seen->owner);
 	row->offset = seen->offset;
 	row->flags = (seen->output ? MACHINE_OUTPUT : 0) | (seen->used ? MACHINE_USED : 0);
 }
 
 static void see_device(void *context, const struct device_seen *seen)
 {
-	static const char *const unit[] = { "", "V", "A", "\302\260C", "%", "Ohm" };
 	struct machine_row *row = add(context);
 
 	if (!row)
 		return;
-	snprintf(row->driver, sizeof(row->driver), "%.15s", driver_row(seen->driver)->word);
-	snprintf(row->device, sizeof(row->device), "%.90s", seen->device);
-	snprintf(row->label, sizeof(row->label), "%.90s", seen->label);
-	snprintf(row->channel, sizeof(row->channel), "%.90s", seen->channel);
-	snprintf(row->about, sizeof(row->about), "%.90s", seen->problem);
-	snprintf(row->unit, sizeof(row->unit), "%.7s", unit[seen->unit]);
+	keep(row->driver, sizeof(row->driver), driver_row(seen->driver)->word);
+	keep(row->device, sizeof(row->device), seen->device);
+	keep(row->label, sizeof(row->label), seen->label);
+	keep(row->channel, sizeof(row->channel), seen->channel);
+	keep(row->about, sizeof(row->about), seen->problem);
+	keep(row->unit, sizeof(row->unit), io_unit_word(seen->unit));
 	row->flags = (seen->output ? MACHINE_OUTPUT : 0) | (seen->has_value ? MACHINE_VALUE : 0);
 	row->value = seen->has_value ? seen->value : 0;
 }

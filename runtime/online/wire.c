@@ -84,7 +84,8 @@ void wire_copy_text(struct wire_reader *in, char *out, size_t size)
 	const char *text = wire_text(in, &len);
 
 	if (len >= size)
-		len = size - 1;
+		for (len = size - 1; len > 0 && ((unsigned char)text[len] & 0xc0) == 0x80;)
+			len--;
 	memcpy(out, text, len);
 	out[len] = '\0';
 }

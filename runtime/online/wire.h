@@ -37,7 +37,8 @@ const uint8_t *wire_bytes(struct wire_reader *in, size_t len);
 /** wire_text - a counted text, borrowed, not ended by NUL. Fails: "" with @len 0; also if it
  * is longer than WIRE_TEXT_MOST. */
 const char *wire_text(struct wire_reader *in, size_t *len);
-/** wire_copy_text - a counted text as one that ends with NUL, cut to @size bytes. */
+/** wire_copy_text - a counted text as one that ends with NUL, cut to @size bytes at
+ * a whole UTF-8 character. */
 void wire_copy_text(struct wire_reader *in, char *out, size_t size);
 /** wire_left - bytes that were not read yet. */
 size_t wire_left(const struct wire_reader *in);

@@ -505,8 +505,19 @@ static void test_pieces(void)
 	CHECK(good);
 }
 
+static void test_units(void)
+{
+	CHECK_TEXT(io_unit_word(UNIT_NONE), "");
+	CHECK_TEXT(io_unit_word(UNIT_VOLT), "V");
+	CHECK_TEXT(io_unit_word(UNIT_CELSIUS), "\302\260C");
+	CHECK_TEXT(io_unit_word(UNIT_OHM), "Ohm");
+	CHECK_TEXT(io_unit_word((enum io_unit)(UNIT_OHM + 1)), "");
+	CHECK_TEXT(io_unit_word((enum io_unit)-1), "");
+}
+
 int main(void)
 {
+	test_units();
 	test_analog();
 	test_modbus();
 	test_quality();

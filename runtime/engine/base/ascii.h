@@ -52,4 +52,16 @@ static inline size_t ascii_prefix(const char *word, const char *text, size_t len
 	return i;
 }
 
+/** utf8_cut - how many bytes of a NUL-ended UTF-8 text fit into @most, without a part of a character. */
+static inline size_t utf8_cut(const char *text, size_t most)
+{
+	size_t len = 0;
+
+	while (len < most && text[len])
+		len++;
+	while (len > 0 && text[len] && ((unsigned char)text[len] & 0xc0) == 0x80)
+		len--;
+	return len;
+}
+
 #endif

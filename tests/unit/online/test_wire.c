@@ -4,6 +4,9 @@
  */
 #include "online/service.h"
 #include "online/status.h"
+
+#include "engine/base/ascii.h"
+
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -66,6 +69,27 @@ static void test_texts_are_bounded(void)
 	CHECK(*wire_text(&in, &len) == '\0' && len == 0 && in.failed);
 	in = wire_read("\5\0abc", 5);
 	CHECK(*wire_text(&in, &len) == '\0' && len == 0 && in.failed);
+}
+
+/* "Größe" has two bytes for each of its letters that are no ASCII: none is cut in half. */
+static void test_texts_are_cut_at_whole_letters(void)
+{
+	static const char word[] = "Gr\303\266\303\237e";
+	static const size_t whole[sizeof(word)] = { 0, 1, 2, 2, 4, 4, 6, 7 };
+
+	for (size_t room = 1; room <= sizeof(word); room++) {
+		uint8_t bytes[32];
+		char text[16];
+		struct wire_writer out = wire_write(bytes, sizeof(bytes));
+		struct wire_reader in;
+
+		wire_put_string(&out, word);
+		in = wire_read(bytes, (size_t)(out.at - out.start));
+		wire_copy_text(&in, text, room);
+		CHECK(strlen(text) == whole[room - 1] && memcmp(text, word, strlen(text)) == 0 && wire_done(&in));
+		CHECK(utf8_cut(word, room - 1) == whole[room - 1]);
+	}
+	CHECK(utf8_cut("", 5) == 0 && utf8_cut("abc", 5) == 3 && utf8_cut("\200\200", 1) == 0);
 }
 
 static void test_a_writer_stays_in_its_room(void)
@@ -210,6 +234,7 @@ int main(void)
 	test_fields_go_and_come_back();
 	test_a_reader_stays_failed();
 	test_texts_are_bounded();
+	test_texts_are_cut_at_whole_letters();
 	test_a_writer_stays_in_its_room();
 	test_frames_come_whole();
 	test_lengths_out_of_bounds_are_bad();
