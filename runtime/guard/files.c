@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * files - opens, writes and closes each file; nothing is open while ladderd lives.
+ * files - opens, writes and closes each file; nothing is open while ladderd lives. The device of a file is looked for
+ * at each write, so that its number may be another one than before.
  */
 #define _DEFAULT_SOURCE
 #include "guard/files.h"
@@ -12,31 +13,36 @@
 #include <string.h>
 #include <unistd.h>
 
-static void copy(struct guard_files *to, const struct guard_files *from)
+static void copy(struct guard_files *to, struct place *at, const struct guard_files *from)
 {
 	memset(to, 0, sizeof(*to));
 	memcpy(to, from, offsetof(struct guard_files, file) + from->head.count * sizeof(from->file[0]));
+	for (int i = 0; i < to->head.count; i++)
+		place_learn(&at[i], to->file[i].path);
 }
 
 void files_know(struct files *files, const struct guard_files *known)
 {
-	copy(&files->known, known);
+	copy(&files->known, files->known_at, known);
 	files->more.head.count = 0;
 	files->told = files->written = false;
 }
 
 void files_more(struct files *files, const struct guard_files *more)
 {
-	copy(&files->more, more);
+	copy(&files->more, files->more_at, more);
 	files->told = files->written = false;
 }
 
 /* A converter's highest step is one below its reference: it refuses the number of the reference. 0 or -errno. */
-static int write_one(const struct guard_file *file)
+static int write_one(const struct guard_file *file, const struct place *at)
 {
-	const int fd = open(file->path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
-	int error = fd < 0 ? -errno : -EINVAL;
-	char text[24];
+	char path[GUARD_PATH], text[24];
+	int error = place_find(at, file->path, path);
+	const int fd = error ? -1 : open(path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+
+	if (!error)
+		error = fd < 0 ? -errno : -EINVAL;
 
 	for (int i = 0; fd >= 0 && i < 2 && error == -EINVAL; i++) {
 		const int len = snprintf(text, sizeof(text), "%lld\n", (long long)file->number - i);
@@ -51,12 +57,12 @@ static int write_one(const struct guard_file *file)
 	return error;
 }
 
-static bool write_all(struct files *files, const struct guard_files *all)
+static bool write_all(struct files *files, const struct guard_files *all, const struct place *at)
 {
 	bool good = true;
 
 	for (int i = 0; i < all->head.count; i++) {
-		const int error = write_one(&all->file[i]);
+		const int error = write_one(&all->file[i], &at[i]);
 
 		if (error && !files->told)
 			dprintf(STDERR_FILENO, "ladder-guard: \"%s\" is not safe: %s; the guard tries again\n",
@@ -73,8 +79,8 @@ bool files_write(struct files *files)
 
 	if (files->written)
 		return true;
-	known = write_all(files, &files->known);
-	more = write_all(files, &files->more);
+	known = write_all(files, &files->known, files->known_at);
+	more = write_all(files, &files->more, files->more_at);
 	files->written = known && more;
 	return files->written;
 }

@@ -244,6 +244,50 @@ ok(until_true(sub { get('err') =~ m{ladder-guard: "\S*/pwm0/duty_cycle" is not s
 kill 'TERM', $pid;
 finish($pid);
 
+# A chip comes back with another number, and its old one is that of another chip: the guard writes the right one.
+sub make_chip { # a link in the class, as the kernel makes it
+	my ($device, $number) = @_;
+	my $at = "devices/$device/pwm/pwmchip$number";
+	show("$at/npwm", "1\n");
+	show("$at/export", '');
+	show("$at/pwm0/$_", '0') for qw(period duty_cycle enable);
+	symlink '../../../' . $device =~ s{.*/}{}r, "$sys/$at/device" or die;
+	make_path("$sys/class/pwm");
+	symlink "../../$at", "$sys/class/pwm/pwmchip$number" or die;
+}
+sub duty_of { return 0 + (get("sys/class/pwm/pwmchip$_[0]/pwm0/duty_cycle") || 0) }
+for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its name', '1-0040', '1-0041', "pca9685\n", 1],
+	      ['elsewhere, without a name', '1-0040', '1-0041', '', 0], ['gone', '1-0040', undef, '', 0]) {
+	my ($how, $was, $is, $name, $found) = @$case;
+	my $copied = "$dir/ladderd";
+	copy($ladderd, $copied) or die;
+	chmod 0755, $copied;
+	make_devices();
+	remove_tree("$sys/class/pwm");
+	make_chip("i2c-1/$was", 0);
+	show("devices/i2c-1/$was/name", $name) if $name;
+	my $its = put('named.io', slurp($map) =~ s/pwmchip0/$was/r);
+	$pid = start_guard($copied, $rung, '--io', $its);
+	ok(until_true(sub { duty_of(0) == 4_288_000 }), "$how: it writes") or diag get('err');
+	kill 'STOP', child_of($pid);
+	unlink $copied;
+	unlink "$sys/class/pwm/pwmchip0";
+	remove_tree("$sys/devices/i2c-1/$was");
+	make_chip('i2c-2/2-0040', 0);
+	if ($is) {
+		make_chip("i2c-1/$is", 3);
+		show("devices/i2c-1/$is/name", $name) if $name;
+	}
+	kill 'KILL', child_of($pid);
+	my $told = qr{ladder-guard: "\S*/pwmchip0/pwm0/duty_cycle" is not safe: No such device; the guard tries again};
+	ok(until_true(sub { $found ? duty_of(3) == $safe : get('err') =~ $told }),
+		$found ? 'the guard finds the chip' : 'the guard tells that it is not there') or diag get('err');
+	is(duty_of(0), 0, 'and does not touch the other chip');
+	is(duty_of(3), 0, 'nor this one') if $is && !$found;
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
 # All lines of a wrong map are told, and nothing is driven.
 $map = put('wrong.io', <<'END');
 BOARD "Wrong"
