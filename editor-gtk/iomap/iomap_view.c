@@ -34,6 +34,7 @@ struct _LadderIomapView {
 	LadderBoardLink *link;  /* NULL: none yet                              */
 	struct iomap_scan *scan;
 	bool connected;         /* lines and devices are those of the board, or will be */
+	char *untold;           /* why the connected board does not tell them; NULL: it does, or none is connected */
 	struct panel_watch *watch;
 	struct io_machine machine;
 	struct io_devices devices;
@@ -511,13 +512,15 @@ static void look_for_devices(LadderIomapView *view)
 
 static void look(LadderIomapView *view);
 
-static void devices_came(gpointer owner, struct board_devices *came)
+static void devices_came(gpointer owner, struct board_devices *came, const char *why)
 {
 	LadderIomapView *view = owner;
 
-	if (!came) { /* the board does not tell: the table offers what this machine has, as without it */
+	if (!came) { /* the table offers what this machine has, as without a board */
 		if (view->connected && view->watch) {
 			view->connected = false;
+			g_free(view->untold);
+			view->untold = *why ? g_strdup(why) : NULL;
 			look(view);
 		}
 	} else if (view->connected && view->watch) {
@@ -544,13 +547,23 @@ static void look(LadderIomapView *view)
 	tell(view, NULL);
 }
 
+static void ask_board(LadderIomapView *view)
+{
+	g_clear_pointer(&view->untold, g_free);
+	view->connected = true;
+	look(view);
+}
+
 static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
 
 	(void)action;
 	(void)unused;
-	look(view);
+	if (view->untold) /* another ladderd may run there now */
+		ask_board(view);
+	else
+		look(view);
 }
 
 /* The board is there, or has gone. */
@@ -559,8 +572,9 @@ static void link_changed(LadderIomapView *view)
 	const bool connected = ladder_board_link_state(view->link) == LINK_CONNECTED &&
 			       ladder_board_link_may(view->link, SERVICE_DEVICES);
 
-	if (!view->watch || connected == view->connected)
+	if (!view->watch || connected == (view->connected || view->untold))
 		return; /* or the view is disposed */
+	g_clear_pointer(&view->untold, g_free);
 	view->connected = connected;
 	look(view);
 }
@@ -659,6 +673,18 @@ static void show_message(LadderIomapView *view)
 	g_free(text);
 }
 
+/* Behind an error, if there is one. */
+static void say_untold(LadderIomapView *view)
+{
+	char *untold = g_strdup_printf(_("“%s” does not tell its lines and devices (%s). Those to choose from are of this machine."),
+				       ladder_board_link_board(view->link), view->untold);
+	char *both = g_strdup_printf("%s%s%s", view->said ? view->said : "", view->said ? "  " : "", untold);
+
+	g_free(untold);
+	g_free(view->said);
+	view->said = both;
+}
+
 static void find_said(LadderIomapView *view, const struct io_check *check,
 		      const struct io_text *io)
 {
@@ -670,6 +696,8 @@ static void find_said(LadderIomapView *view, const struct io_check *check,
 		view->said = iomap_first_error(check, io, view->as_text);
 		view->said_wrong = view->said != NULL;
 	}
+	if (view->untold && !scanned)
+		say_untold(view);
 	if (!view->said)
 		view->said = iomap_first_doubt(check);
 	if (!view->said && view->machine.diags.count)
@@ -884,6 +912,7 @@ static void ladder_iomap_view_finalize(GObject *object)
 	iomap_scan_free(view->scan);
 	g_free(view->refused);
 	g_free(view->said);
+	g_free(view->untold);
 	g_free(view->board_shown);
 	G_OBJECT_CLASS(ladder_iomap_view_parent_class)->finalize(object);
 }

@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/online/board_devices.h"
 
+#include "editor-gtk/kit/i18n.h"
+
 #include "online/machine.h"
 
 #include <string.h>
@@ -105,6 +107,11 @@ static bool take(struct asking *asking, struct wire_reader *in)
 	return !in->failed;
 }
 
+static const char *why_not(const struct board_answer *answer)
+{
+	return answer->end == DESK_GONE ? "" : *answer->text ? answer->text : _("its answer makes no sense");
+}
+
 static void answered(gpointer data, struct board_answer *answer)
 {
 	struct asking *asking = data;
@@ -122,7 +129,7 @@ static void answered(gpointer data, struct board_answer *answer)
 		send(asking, false);
 	} else {
 		if (owner)
-			asking->came(owner, good && ready ? g_steal_pointer(&asking->devices) : NULL);
+			asking->came(owner, good && ready ? g_steal_pointer(&asking->devices) : NULL, why_not(answer));
 		asking_free(asking);
 	}
 	g_clear_object(&owner);

@@ -18,13 +18,14 @@ struct board_devices {
 };
 void board_devices_free(struct board_devices *devices);
 
-/** board_devices_came - @devices: taken over by the handler: board_devices_free() */
-typedef void (*board_devices_came)(gpointer data, struct board_devices *devices);
+/** board_devices_came - @devices: taken over by the handler: board_devices_free(); NULL: the board does not tell, and
+ * @why says why, translated; "": it has gone. */
+typedef void (*board_devices_came)(gpointer data, struct board_devices *devices, const char *why);
 
 /**
  * board_devices_ask - has the board look for them now
  * @owner: if it is disposed before, @came is not called
- * @came: with @owner; not called if the board does not tell, or goes
+ * @came: with @owner; called once
  */
 void board_devices_ask(LadderBoardLink *link, GObject *owner, board_devices_came came);
 #endif

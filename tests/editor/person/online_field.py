@@ -5,13 +5,16 @@
 The board is a ladderd of this machine. Its gateway is the client made from docs/online.md.
 """
 import os
+import socket
+import struct
 import sys
+import threading
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, main, until  # noqa: E402
 from iomap import row_says  # noqa: E402
 from iomap_pages import open_map  # noqa: E402
-from online import Board, connect, says  # noqa: E402
+from online import Board, connect, press, says  # noqa: E402
 import client  # noqa: E402  of tests/online, whose folder online.py adds
 
 PROGRAM = '''RUNGBOARD 1
@@ -139,5 +142,71 @@ def there(screen):
     board.stop()
 
 
+class OldBoard:
+    """Between a desk and a board: the board knows no service 42, as ladderd before the lists of devices."""
+
+    def __init__(self, board):
+        self.path, self.where = board.folder + '/link', 'unix:%s/old' % board.folder
+        self.listener = socket.socket(socket.AF_UNIX)
+        self.listener.bind(board.folder + '/old')
+        self.listener.listen()
+        self.asked = 0
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        while True:
+            desk, board = self.listener.accept()[0], socket.socket(socket.AF_UNIX)
+            board.connect(self.path)
+            threading.Thread(target=self.pass_on, args=(desk, board, client.DEVICES, 250), daemon=True).start()
+            threading.Thread(target=self.pass_on, args=(board, desk, 250, client.DEVICES), daemon=True).start()
+
+    def pass_on(self, source, target, what, other):
+        """Frames of the service `what` become those of `other`."""
+        data = b''
+        while more := source.recv(65536):
+            data += more
+            while len(data) >= 4 and len(data) >= 4 + (size := struct.unpack('<I', data[:4])[0]):
+                service = data[4]
+                if service == what:
+                    self.asked, service = self.asked + (what == client.DEVICES), other
+                target.sendall(data[:4] + bytes([service]) + data[5:4 + size])
+                data = data[4 + size:]
+        target.close()
+
+
+def older(screen):
+    """a board that does not know the list of devices: the table says so once, offers what this machine has, and works"""
+    board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng')
+    old = OldBoard(board)
+    for name, text in ('plant.rung', PROGRAM), ('plant.io', MAP):
+        with open(os.path.join(screen.home, name), 'w') as out:
+            out.write(text)
+    editor = Editor(screen, os.path.join(screen.home, 'plant.rung'))
+    editor.to_sheet()
+    open_map(editor)
+    connect(editor, old.where)
+    says(editor, 'plant · RUN')
+    told = '“plant” does not tell its lines and devices (this board is too old or too small for that).'
+    says(editor, told)
+    editor.shot('field-older')
+    editor.tab('Modbus and modules (4)')
+    says(editor, told)
+    editor.find('%IW0, Value: 77, stale', 'push button')
+    editor.tab('Pins (1)')
+    editor.find('%QX1.0, Value: 1', 'push button')
+    assert old.asked == 1, old.asked
+    press(editor, 'Stop')
+    editor.find('Stop the program on “plant”?', 'label')
+    editor.keys('Return')
+    says(editor, 'plant · STOP')
+    assert old.asked == 1, old.asked
+    editor.click(editor.find('Disconnect', 'push button'))
+    until(lambda: not [node for node in editor.all(told, 'label') if told in node.name], 'the message to go')
+    connect(editor, board.where)
+    says(editor, 'plant · STOP')
+    says(editor, 'Lines and devices to choose from are those of “plant”.')
+    board.stop()
+
+
 if __name__ == "__main__":
-    main([quality, there])
+    main([quality, there, older])
