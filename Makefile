@@ -65,7 +65,7 @@ OFTEN    := $(addprefix runtime/ladderd/,$(if $(CROSS)$(STATIC),,cycle.c) stats.
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c scan/declared.c \
             scan/retain_*.c scan/still_table.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
-            hal/gpio_find.c hal/hal_open.c hal/iomap*.c $(addprefix hal/,channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c))
+            hal/gpio_find.c hal/hal_open.c hal/iomap*.c $(addprefix hal/,channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c iio_libiio.c iio_calls.c))
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/carry.c scan/declared.c scan/recorder.c scan/fb_alarm.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_modbus.c scan/fb_pid.c scan/fb_store.c scan/fb_sun.c scan/fn_bits.c scan/fn_convert.c \
             scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c \
@@ -137,14 +137,16 @@ GPIO_C_uapi  := hal/gpio_uapi.c hal/gpio_find.c
 GPIO_C_none  := hal/gpiod_none.c
 GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none))
 GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
-GPIO_LIB = $(IIO_LIB) $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
-# IIO=libiio|none: the driver iio uses libiio if it is installed for the target, or is left out.
+GPIO_LIB = $(if $(filter libiio,$(IIO)),-ldl) $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
+# IIO=libiio|none: the driver iio uses libiio if its header is installed for the target, or is left out. The library
+# is loaded when a map needs it.
 IIO      ?= $(if $(filter 1,$(STATIC) $(SMALL)),none,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --exists libiio 2>/dev/null && echo libiio)))
 override IIO := $(or $(IIO),none)
 CHANNELS_C := $(addprefix hal/,channel_rows.c channel_scale.c channels.c channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c)
-IIO_LIB  := $(if $(filter libiio,$(IIO)),$(shell $(PKG_CONFIG) --libs libiio))
+IIO_C_none   := hal/iio_none.c
+IIO_C_libiio := hal/iio_libiio.c hal/iio_calls.c
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,$(CHANNELS_C) hal/iomap_channel.c hal/iomap_net.c)
-DRIVERS  := $(call obj,$(patsubst hal/iio_none.c,hal/iio_$(IIO).c,$(HAL_CORE)) $(GPIO_C))
+DRIVERS  := $(call obj,$(patsubst hal/iio_none.c,$(IIO_C_$(IIO)),$(HAL_CORE)) $(GPIO_C))
 # The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
 CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
@@ -251,8 +253,8 @@ $(HAL_TEST)/fake_iio/%.o: tests/hal/%.c Makefile
 	$(CC) $(STD) -Itests/hal/fake_iio $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
 IIO_TEST := $(call obj,tests/hal/iio.c $(filter-out hal/iio_none.c,$(HAL_CORE)) hal/gpiod_none.c)
 $(HAL_TEST)/iio_fake: $(HAL_TEST)/fake_iio/iio_libiio.o $(HAL_TEST)/fake_iio/fake_iio.o
-$(HAL_TEST)/iio_real: $(call obj,hal/iio_libiio.c tests/hal/iio_sys.c)
-$(HAL_TEST)/iio_real: LIBIIO = $(IIO_LIB)
+$(HAL_TEST)/iio_real: $(call obj,$(IIO_C_libiio) tests/hal/iio_sys.c)
+$(HAL_TEST)/iio_real: LIBIIO = -Wl,--export-dynamic -ldl
 $(HAL_TEST)/iio_fake $(HAL_TEST)/iio_real: $(IIO_TEST) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBIIO) -lm
 $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
@@ -276,7 +278,7 @@ $(SICK_DISK): $(LADDERD) $(DRIVERS) $(call obj,tests/hal/disk_fake.c) $(BUILD)/l
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 HAL_KINDS := v1 v2 uapi
-HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/iio_fake $(if $(IIO_LIB),$(HAL_TEST)/iio_real) $(HAL_TEST)/channel_map $(HAL_TEST)/channels $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
+HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/iio_fake $(if $(filter libiio,$(IIO)),$(HAL_TEST)/iio_real) $(HAL_TEST)/channel_map $(HAL_TEST)/channels $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES) $(SICK_DISK)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/channels.t tests/hal/guard.t tests/hal/retain.t

@@ -28,7 +28,7 @@ struct device {
 /* A search, so that the devices of a library are listed once for all points. */
 struct device_search {
 	const char *sys;         /* "/sys"                                   */
-	void *context;           /* of libiio                                */
+	void *context;           /* of the driver iio                        */
 };
 
 struct device_driver {

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
  * iio - analog inputs and outputs of the kernel. libiio's local context finds devices and channels; the values
- * are then read from and written to their files, which a signal handler can do, too.
+ * are then read from and written to their files, which a signal handler can do, too. Without a point of this
+ * driver the library is not loaded.
  *
  * A device is named by its name, its label or its number: ads1115, tank, iio:device0. Values are in V, A and
  * °C: the kernel gives thousandths of them (Linux, ABI/testing/sysfs-bus-iio).
  */
 #include "hal/device.h"
+#include "hal/iio_calls.h"
 #include "hal/sysfs.h"
 
 #include <errno.h>
-#include <iio.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -37,65 +39,90 @@ static const struct kind *kind_of(const char *channel)
 	return &other;
 }
 
-static struct iio_context *context_of(struct device_search *search)
+/* Of a search. */
+struct library {
+	struct iio_calls call;
+	struct iio_context *context; /* NULL: it has failed                    */
+	unsigned int count;          /* of devices                             */
+};
+
+/* NULL: it is not installed, or no memory. */
+static const struct library *library_of(struct device_search *search)
 {
-	if (!search->context)
-		search->context = iio_create_local_context();
-	return search->context;
+	struct library *library = search->context;
+
+	if (library)
+		return library;
+	library = calloc(1, sizeof(*library));
+	if (library && !iio_calls_find(&library->call)) {
+		free(library);
+		return NULL;
+	}
+	search->context = library;
+	if (!library)
+		return NULL;
+	library->context = library->call.create_local_context();
+	if (library->context)
+		library->count = library->call.context_get_devices_count(library->context);
+	return library;
 }
 
 static void iio_end(struct device_search *search)
 {
-	if (search->context)
-		iio_context_destroy(search->context);
+	struct library *library = search->context;
+
+	if (library && library->context)
+		library->call.context_destroy(library->context);
+	free(library);
 	search->context = NULL;
 }
 
-static const char *name_of(const struct iio_device *device)
+static const char *name_of(const struct iio_calls *call, const struct iio_device *device)
 {
-	const char *name = iio_device_get_name(device);
+	const char *name = call->device_get_name(device);
 
-	return name ? name : iio_device_get_id(device);
+	return name ? name : call->device_get_id(device);
 }
 
-static const char *label_of(const struct iio_device *device)
+static const char *label_of(const struct iio_calls *call, const struct iio_device *device)
 {
-	const char *label = iio_device_get_label(device);
+	const char *label = call->device_get_label(device);
 
 	return label ? label : "";
 }
 
-static bool is_named(const struct iio_device *device, const char *name)
+static bool is_named(const struct iio_calls *call, const struct iio_device *device, const char *name)
 {
-	return strcmp(iio_device_get_id(device), name) == 0 || strcmp(name_of(device), name) == 0 ||
-	       strcmp(label_of(device), name) == 0;
+	return strcmp(call->device_get_id(device), name) == 0 || strcmp(name_of(call, device), name) == 0 ||
+	       strcmp(label_of(call, device), name) == 0;
 }
 
 /* libiio also lists sensors of hwmon and triggers; these have no channels of their own here. */
-static struct iio_device *device_at(struct iio_context *context, unsigned int i)
+static struct iio_device *device_at(const struct library *library, unsigned int i)
 {
-	struct iio_device *device = iio_context_get_device(context, i);
+	struct iio_device *device = library->call.context_get_device(library->context, i);
 
-	return strncmp(iio_device_get_id(device), "iio:device", 10) == 0 ? device : NULL;
+	return strncmp(library->call.device_get_id(device), "iio:device", 10) == 0 ? device : NULL;
 }
 
-static struct iio_device *find_device(struct iio_context *context, const char *wanted,
+static struct iio_device *find_device(const struct library *library, const char *wanted,
 				      struct trouble *why)
 {
-	const unsigned int count = context ? iio_context_get_devices_count(context) : 0;
+	const struct iio_calls *call = &library->call;
 	char known[LIMIT_ARG] = "", twice[LIMIT_ARG] = "";
 	struct iio_device *found = NULL;
 	int matches = 0;
 
-	for (unsigned int i = 0; i < count; i++) {
-		struct iio_device *device = device_at(context, i);
+	for (unsigned int i = 0; i < library->count; i++) {
+		struct iio_device *device = device_at(library, i);
 
 		if (!device)
 			continue;
-		device_known(known, sizeof(known), *label_of(device) ? label_of(device) : name_of(device));
-		if (!is_named(device, wanted))
+		device_known(known, sizeof(known), *label_of(call, device) ? label_of(call, device) :
+								     name_of(call, device));
+		if (!is_named(call, device, wanted))
 			continue;
-		device_known(twice, sizeof(twice), iio_device_get_id(device));
+		device_known(twice, sizeof(twice), call->device_get_id(device));
 		found = device;
 		matches++;
 	}
@@ -107,53 +134,54 @@ static struct iio_device *find_device(struct iio_context *context, const char *w
 }
 
 /* The file of an attribute of a channel; false: it has none. */
-static bool file_of(const struct iio_channel *channel, const char *attribute, const char *folder,
-		    char *out, size_t size)
+static bool file_of(const struct iio_calls *call, const struct iio_channel *channel, const char *attribute,
+		    const char *folder, char *out, size_t size)
 {
-	const char *name = iio_channel_attr_get_filename(channel, attribute);
+	const char *name = call->channel_attr_get_filename(channel, attribute);
 
 	return name && sysfs_path(out, size, folder, name, "");
 }
 
 /* `raw` needs the scale, `input` has it already. */
-static bool find_value(const struct iio_channel *channel, const char *folder, struct device *out)
+static bool find_value(const struct iio_calls *call, const struct iio_channel *channel, const char *folder,
+		       struct device *out)
 {
-	const struct kind *kind = kind_of(iio_channel_get_id(channel));
+	const struct kind *kind = kind_of(call->channel_get_id(channel));
 	char path[DEVICE_PATH];
 	double scale = 1;
 
 	out->offset = 0;
 	out->most = INT32_MAX;
-	if (file_of(channel, "raw", folder, out->path, sizeof(out->path))) {
-		if (file_of(channel, "scale", folder, path, sizeof(path)))
+	if (file_of(call, channel, "raw", folder, out->path, sizeof(out->path))) {
+		if (file_of(call, channel, "scale", folder, path, sizeof(path)))
 			sysfs_read_number(path, &scale);
-		if (file_of(channel, "offset", folder, path, sizeof(path)))
+		if (file_of(call, channel, "offset", folder, path, sizeof(path)))
 			sysfs_read_number(path, &out->offset);
-	} else if (!file_of(channel, "input", folder, out->path, sizeof(out->path))) {
+	} else if (!file_of(call, channel, "input", folder, out->path, sizeof(out->path))) {
 		return false;
 	}
 	out->scale = (scale != 0 ? scale : 1) * kind->scale;
 	return true;
 }
 
-static const struct iio_channel *find_channel(const struct iio_device *device, const char *folder,
-					      const struct io_point *point, struct device *out,
-					      struct trouble *why)
+static const struct iio_channel *find_channel(const struct iio_calls *call, const struct iio_device *device,
+					      const char *folder, const struct io_point *point,
+					      struct device *out, struct trouble *why)
 {
 	const struct io_channel *wanted = point->channel;
-	const unsigned int count = iio_device_get_channels_count(device);
+	const unsigned int count = call->device_get_channels_count(device);
 	const struct iio_channel *other = NULL;
 	char known[LIMIT_ARG] = "";
 
 	for (unsigned int i = 0; i < count; i++) {
-		const struct iio_channel *channel = iio_device_get_channel(device, i);
+		const struct iio_channel *channel = call->device_get_channel(device, i);
 
-		if (!find_value(channel, folder, out))
+		if (!find_value(call, channel, folder, out))
 			continue;
-		device_known(known, sizeof(known), iio_channel_get_id(channel));
-		if (strcmp(iio_channel_get_id(channel), wanted->name) != 0)
+		device_known(known, sizeof(known), call->channel_get_id(channel));
+		if (strcmp(call->channel_get_id(channel), wanted->name) != 0)
 			continue;
-		if (iio_channel_is_output(channel) == point->output)
+		if (call->channel_is_output(channel) == point->output)
 			return channel;
 		other = channel;
 	}
@@ -169,19 +197,23 @@ static const struct iio_channel *find_channel(const struct iio_device *device, c
 static bool iio_find(struct device_search *search, const struct io_point *point, struct device *out,
 		     struct trouble *why)
 {
-	const struct iio_device *device = find_device(context_of(search), point->channel->device, why);
+	const char *wanted = point->channel->device;
+	const struct library *library = library_of(search);
+	const struct iio_device *device = library ? find_device(library, wanted, why) : NULL;
 	char devices[DEVICE_PATH], folder[DEVICE_PATH];
 
+	if (!library)
+		return trouble_set(why, DIAG_IO_NO_LIBRARY, "%.30s", wanted);
 	if (!device)
 		return false;
 	if (!sysfs_path(devices, sizeof(devices), search->sys, "bus/iio/devices", "") ||
-	    !sysfs_path(folder, sizeof(folder), devices, iio_device_get_id(device), ""))
-		return trouble_set(why, DIAG_IO_NO_DEVICE, "%.30s", point->channel->device);
-	if (!find_channel(device, folder, point, out, why))
+	    !sysfs_path(folder, sizeof(folder), devices, library->call.device_get_id(device), ""))
+		return trouble_set(why, DIAG_IO_NO_DEVICE, "%.30s", wanted);
+	if (!find_channel(&library->call, device, folder, point, out, why))
 		return false;
 	out->home = (uint32_t)strlen(folder);
 	if (access(out->path, point->output ? W_OK : R_OK) != 0)
-		return device_denied(why, point->channel->device, out->path);
+		return device_denied(why, wanted, out->path);
 	return true;
 }
 
@@ -211,22 +243,22 @@ static bool iio_parse(const struct device *device, const char *text, double *num
 	return sysfs_number(text, number);
 }
 
-static void see_device(const struct iio_device *device, const char *folder, device_visit *visit,
-		       void *context)
+static void see_device(const struct iio_calls *call, const struct iio_device *device, const char *folder,
+		       device_visit *visit, void *context)
 {
-	const unsigned int count = iio_device_get_channels_count(device);
+	const unsigned int count = call->device_get_channels_count(device);
 
 	for (unsigned int i = 0; i < count; i++) {
-		const struct iio_channel *channel = iio_device_get_channel(device, i);
+		const struct iio_channel *channel = call->device_get_channel(device, i);
 		struct device at = { .scale = 1 };
 		struct device_seen seen = {
-			.driver = DRIVER_iio, .device = name_of(device), .label = label_of(device),
-			.channel = iio_channel_get_id(channel), .output = iio_channel_is_output(channel),
-			.unit = kind_of(iio_channel_get_id(channel))->unit, .problem = "",
+			.driver = DRIVER_iio, .device = name_of(call, device), .label = label_of(call, device),
+			.channel = call->channel_get_id(channel), .output = call->channel_is_output(channel),
+			.unit = kind_of(call->channel_get_id(channel))->unit, .problem = "",
 		};
 		double number;
 
-		if (!find_value(channel, folder, &at))
+		if (!find_value(call, channel, folder, &at))
 			continue;
 		seen.has_value = sysfs_read_number(at.path, &number);
 		if (seen.has_value)
@@ -237,17 +269,16 @@ static void see_device(const struct iio_device *device, const char *folder, devi
 
 void iio_list(struct device_search *search, device_visit *visit, void *context)
 {
-	struct iio_context *devices = context_of(search);
-	const unsigned int count = devices ? iio_context_get_devices_count(devices) : 0;
+	const struct library *library = library_of(search);
 	char folder[DEVICE_PATH], path[DEVICE_PATH];
 
-	if (!sysfs_path(folder, sizeof(folder), search->sys, "bus/iio/devices", ""))
+	if (!library || !sysfs_path(folder, sizeof(folder), search->sys, "bus/iio/devices", ""))
 		return;
-	for (unsigned int i = 0; i < count; i++) {
-		const struct iio_device *device = device_at(devices, i);
+	for (unsigned int i = 0; i < library->count; i++) {
+		const struct iio_device *device = device_at(library, i);
 
-		if (device && sysfs_path(path, sizeof(path), folder, iio_device_get_id(device), ""))
-			see_device(device, path, visit, context);
+		if (device && sysfs_path(path, sizeof(path), folder, library->call.device_get_id(device), ""))
+			see_device(&library->call, device, path, visit, context);
 	}
 }
 

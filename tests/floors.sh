@@ -61,7 +61,7 @@ editor-gtk/window $doors $sheets online editor-gtk/panels editor-gtk/render hal
 "
 # Libraries that a room may include with < >, by the beginning of the path; all others
 # belong to libc.
-foreign='gpiod.h:hal iio.h:hal/iio_libiio.c modbus.h:runtime/modbus/line.c avahi-client/:runtime/online/finder_avahi.c avahi-common/:runtime/online/finder_avahi.c md4c.h:editor-gtk/kit/ gtk/:editor-gtk/ glib:editor-gtk/ gio/:editor-gtk/ adwaita.h:editor-gtk/ gtksourceview/:editor-gtk/ pango/:editor-gtk/ cairo:editor-gtk/ libintl.h:editor-gtk/'
+foreign='gpiod.h:hal iio.h:hal/iio_calls.c modbus.h:runtime/modbus/line.c avahi-client/:runtime/online/finder_avahi.c avahi-common/:runtime/online/finder_avahi.c md4c.h:editor-gtk/kit/ gtk/:editor-gtk/ glib:editor-gtk/ gio/:editor-gtk/ adwaita.h:editor-gtk/ gtksourceview/:editor-gtk/ pango/:editor-gtk/ cairo:editor-gtk/ libintl.h:editor-gtk/'
 # Rooms of the editor that are built and tested without a toolkit.
 plain='editor-gtk/edit'
 

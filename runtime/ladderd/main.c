@@ -260,6 +260,8 @@ static int run(struct daemon *daemon)
 		make_real_time((int)options->priority);
 	if (options->priority && !options->no_pm_qos)
 		latency = hold_wake_up();
+	if (!options->priority)
+		source_leave_code();
 	requests_heed();
 	status = run_lines(daemon, limit_ns);
 	if (latency >= 0)

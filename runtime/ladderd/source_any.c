@@ -2,6 +2,7 @@
  *
  * source_any - loads a rung file, which it checks and translates, or a code image.
  */
+#define _GNU_SOURCE /* dl_iterate_phdr(), madvise() */
 #include "ladderd/source.h"
 
 #include "engine/ladder.h"
@@ -9,7 +10,34 @@
 #include <stdlib.h>
 #include <string.h>
 #ifdef __GLIBC__
+#include <link.h>
 #include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+/* Pages that cannot be written are those of the file. Whoever uses one maps it again. */
+static int leave_pages(struct dl_phdr_info *info, size_t size, void *page)
+{
+	const uintptr_t mask = *(const uintptr_t *)page - 1;
+
+	(void)size;
+	for (int i = 0; i < info->dlpi_phnum; i++) {
+		const ElfW(Phdr) *part = &info->dlpi_phdr[i];
+		const uintptr_t begin = (info->dlpi_addr + part->p_vaddr) & ~mask;
+		const uintptr_t end = (info->dlpi_addr + part->p_vaddr + part->p_memsz) & ~mask;
+
+		if (part->p_type == PT_LOAD && !(part->p_flags & PF_W) && begin < end)
+			madvise((void *)begin, end - begin, MADV_DONTNEED); /* only a hint */
+	}
+	return 0;
+}
+
+void source_leave_code(void)
+{
+	uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+
+	dl_iterate_phdr(leave_pages, &page);
+}
 
 /* This C library keeps what is freed, the more the larger it was. */
 static void give_back(void)
@@ -17,6 +45,10 @@ static void give_back(void)
 	malloc_trim(0);
 }
 #else
+void source_leave_code(void)
+{
+}
+
 static void give_back(void)
 {
 }

@@ -58,6 +58,10 @@ bool source_settle(struct source *source)
 	return source->image;
 }
 
+void source_leave_code(void)
+{
+}
+
 void source_free(struct source *source)
 {
 	free(source->image);

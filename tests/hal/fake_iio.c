@@ -3,6 +3,8 @@
  * fake_iio - libiio's local context, as far as hal/iio_libiio.c calls it, of the folder FAKE_SYS.
  */
 #define _GNU_SOURCE /* scandir, versionsort */
+#include "hal/iio_calls.h"
+
 #include <dirent.h>
 #include <iio.h>
 #include <stdio.h>
@@ -33,6 +35,9 @@ struct iio_context {
 /* For the test: how many are not destroyed. */
 extern int fake_iio_contexts;
 int fake_iio_contexts;
+/* By the test: the library is not installed. */
+extern bool fake_iio_missing;
+bool fake_iio_missing;
 
 static bool has(const struct iio_device *device, const char *file)
 {
@@ -193,4 +198,12 @@ const char *iio_channel_attr_get_filename(const struct iio_channel *channel, con
 			   strcmp(attribute, "offset") == 0 ? channel->file[2] : "";
 
 	return *file ? file : NULL;
+}
+
+bool iio_calls_find(struct iio_calls *out)
+{
+#define CALL(type, name, ...) out->name = iio_##name;
+	IIO_CALLS(CALL)
+#undef CALL
+	return !fake_iio_missing;
 }

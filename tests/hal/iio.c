@@ -10,6 +10,7 @@
 #define DEVICES "bus/iio/devices/"
 
 extern int fake_iio_contexts;
+extern bool fake_iio_missing;
 
 static bool near(double a, double b)
 {
@@ -163,6 +164,29 @@ static void test_errors(void)
 	field_end(&f);
 }
 
+/* The machine has no libiio. */
+static void test_missing(void)
+{
+	struct field f;
+	char text[300] = "";
+
+	make_devices();
+	field_begin(&f);
+	add(&f, "%ID0", "ads1115", "voltage0", UNIT_VOLT);
+	fake_iio_missing = true;
+	CHECK(!hal_check(&f.map, &f.arena, &f.diags));
+	fake_iio_missing = false;
+	if (f.diags.count == 1)
+		diag_print(&f.diags.diag[0], text, sizeof(text));
+	CHECK(strcmp(text, "test.io:2:1: error LD569: \"ads1115\": the driver iio needs the library libiio 0.x; "
+			   "install its package, libiio0") == 0);
+	field_end(&f);
+	field_begin(&f);
+	add(&f, "%ID0", "ads1115", "voltage0", UNIT_VOLT);
+	CHECK_AS(hal_check(&f.map, &f.arena, &f.diags), "when it is installed, it is found");
+	field_end(&f);
+}
+
 static int seen;
 
 static void see(void *context, const struct device_seen *at)
@@ -184,9 +208,13 @@ int main(void)
 	test_broken_wire();
 	test_output();
 	test_errors();
+	test_missing();
 	make_devices();
 	channels_list(field_sys, see, NULL);
 	CHECK(seen == 6);
+	fake_iio_missing = true;
+	channels_list(field_sys, see, NULL);
+	CHECK_AS(seen == 6, "a list without the library is one without its devices");
 	CHECK_AS(fake_iio_contexts == 0, "all contexts of the library are freed");
 	sys_remove("");
 	return tap_done();

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
  * iio_sys - shows FAKE_SYS to the real libiio in place of /sys. The library's calls of libc come here, because
- * the program that it is linked to has functions with these names.
+ * the program that loads it exports functions with these names.
  */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,9 @@
 /* The test asks for it; only the fake counts. */
 extern int fake_iio_contexts;
 int fake_iio_contexts;
+/* By the test: the library is not installed. */
+extern bool fake_iio_missing;
+bool fake_iio_missing;
 
 static const char *elsewhere(const char *path, char room[400])
 {
@@ -35,6 +39,14 @@ static void find_real(const char *name, void *out)
 /* Both names of each, whichever the library was built with. */
 #define IN_PLACE_OF(name, type, ...) type in_place_of_##name(__VA_ARGS__) __asm__(#name); \
 	type in_place_of_##name(__VA_ARGS__)
+
+IN_PLACE_OF(dlopen, void *, const char *name, int flags)
+{
+	void *(*real)(const char *, int);
+
+	find_real("dlopen", &real);
+	return fake_iio_missing ? NULL : real(name, flags);
+}
 
 #define OPENDIR(name) \
 IN_PLACE_OF(name, void *, const char *path) \
