@@ -12,7 +12,7 @@
 #   expected.show   output of `ladder show main.rung`; expected.ascii: with --ascii
 #   expected.ladder output of `ladder export --as ld`, and its messages
 #   expected.st     output of `ladder export --as st`, and its messages; expected.lists: --as il;
-#                   expected.networks: --as fbd
+#                   expected.networks: --as fbd; the file `pous` names those that are converted
 #   expected.classic output of `ladder export --as classicladder`, and its messages;
 #                   expected.numeric: --as numeric
 #   expected.test   standard error of `ladder test main.scn`
@@ -118,7 +118,8 @@ sub produce_why {
 sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
-	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
+	my @pous = -e "$dir/pous" && $command{$kind}[0] eq 'export' ? split ' ', slurp("$dir/pous") : ();
+	my ($out, $err, $status) = run_case($dir, @{$command{$kind}}, @pous);
 	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|^st$|lists|networks|classic|numeric/ ? "$out$err" : $out;
 	my $wanted = $kind eq 'fault' || ($kind =~ /diag|^test|^st$|lists|networks|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);

@@ -137,6 +137,10 @@ static bool refuse(const struct copy *copy, const char *name, enum pou_language 
 {
 	const struct pou *pou = &project_of(copy)->pou[copy->pou];
 
+	if (pou->included)
+		return diag_add(why, (struct diag){ .id = DIAG_CONVERT_INCLUDED, .line = pou->line, .pou = name,
+						    .file = g_intern_string(pou->file) },
+				"%s" DIAG_AND "%s", name, pou->file);
 	return diag_add(why, (struct diag){ .id = DIAG_CONVERT_LANGUAGE, .file = copy->file, .line = pou->line,
 					    .pou = name },
 			"%s" DIAG_AND "%s" DIAG_AND "%s", name, pou_language_word(pou->language),

@@ -120,6 +120,10 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 		return;
 	}
 	row->rung = diag->rung - 1;
+	row->pou = pou_of(project, diag->pou);
+	if (row->pou >= 0 && project->pou[row->pou].included && !diag->rung)
+		return; /* its lines are those of another file */
+	row->pou = -1;
 	if (!diag->rung && diag->line) /* the project of an unreadable text may lack the POU */
 		row->pou = ladder_document_list_at(document, diag->line, &row->row);
 	if (row->pou >= 0)

@@ -111,8 +111,14 @@ static enum status write_converted(struct call *call, const char *path, const ch
 
 static void refuse_pou(const struct pou *pou, const struct project *project, enum pou_language to)
 {
-	report_diag((struct diag){ .id = DIAG_CONVERT_LANGUAGE, .file = pou->file, .line = pou->line },
-		    "%s" DIAG_AND "%s" DIAG_AND "%s", project_text(project, pou->name),
+	struct diag place = { .id = DIAG_CONVERT_LANGUAGE, .file = pou->file, .line = pou->line };
+
+	if (pou->included) {
+		place.id = DIAG_CONVERT_INCLUDED;
+		report_diag(place, "%s" DIAG_AND "%s", project_text(project, pou->name), pou->file);
+		return;
+	}
+	report_diag(place, "%s" DIAG_AND "%s" DIAG_AND "%s", project_text(project, pou->name),
 		    pou_language_word(pou->language), pou_language_word(to));
 }
 

@@ -131,6 +131,34 @@ static void test_reasons(void)
 	g_free(made);
 }
 
+/* A block of a file that is included: the reason has the place in that file. */
+static void test_included(void)
+{
+	static const char text[] = "RUNGBOARD 1\n\nINCLUDE \"belt.rung\"\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+				   "END_PROGRAM\n";
+	static const char belt[] = "RUNGBOARD 1\n\n\nPROGRAM Belt LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL), *path = g_build_filename(folder, "main.rung", NULL);
+	char *other = g_build_filename(folder, "belt.rung", NULL);
+	LadderDocument *outer = document;
+
+	CHECK(g_file_set_contents(path, text, -1, NULL) && g_file_set_contents(other, belt, -1, NULL));
+	document = ladder_document_new();
+	CHECK(ladder_document_open(document, path, NULL) && pou_of("Belt") >= 0);
+	for (int to = LANGUAGE_IL; to <= LANGUAGE_FBD; to++) {
+		CHECK(!pou_convert(document, pou_of("Belt"), (enum pou_language)to, &why));
+		CHECK_AS(why.errors == 1 && why.diag[0].id == DIAG_CONVERT_INCLUDED && why.diag[0].line == 4 &&
+			 g_str_has_suffix(why.diag[0].file, "belt.rung"), "its file is named, with the line there");
+	}
+	g_object_unref(document);
+	document = outer;
+	remove(path);
+	remove(other);
+	remove(folder);
+	g_free(other);
+	g_free(path);
+	g_free(folder);
+}
+
 static void test_errors(void)
 {
 	static const char text[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO Missing | COIL %QX0.0 |\nEND_PROGRAM\n";
@@ -148,6 +176,7 @@ int main(void)
 	CHECK(ladder_document_project(document));
 	test_all();
 	test_reasons();
+	test_included();
 	test_errors();
 	g_object_unref(document);
 	return tap_done();
