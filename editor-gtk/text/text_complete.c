@@ -283,11 +283,29 @@ static void populate_async(GtkSourceCompletionProvider *provider,
 	g_object_unref(task);
 }
 
+/* GTK 4.8 and GtkSourceView 5.6 place the list beside the cursor, and fail if that is off the screen. */
+static bool is_seen(GtkTextView *view)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(view);
+	GdkRectangle seen, cursor;
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	gtk_text_view_get_iter_location(view, &at, &cursor);
+	gtk_text_view_get_visible_rect(view, &seen);
+	return gtk_widget_get_mapped(GTK_WIDGET(view)) && cursor.y < seen.y + seen.height &&
+	       cursor.y + cursor.height > seen.y && cursor.x >= seen.x && cursor.x <= seen.x + seen.width;
+}
+
+/* The text may have been scrolled or hidden since the words were asked for. */
 static GListModel *populate_finish(GtkSourceCompletionProvider *provider,
 				   GAsyncResult *result, GError **error)
 {
-	(void)provider;
-	return g_task_propagate_pointer(G_TASK(result), error);
+	GListModel *words = g_task_propagate_pointer(G_TASK(result), error);
+
+	if (words && (!LADDER_WORDS(provider)->view || !is_seen(GTK_TEXT_VIEW(LADDER_WORDS(provider)->view))))
+		g_list_store_remove_all(G_LIST_STORE(words));
+	return words;
 }
 
 /* Each letter asks the engine again. */
@@ -381,6 +399,7 @@ G_DEFINE_FINAL_TYPE_WITH_CODE(LadderWords, ladder_words, G_TYPE_OBJECT,
 
 static void ladder_words_finalize(GObject *object)
 {
+	g_clear_weak_pointer(&LADDER_WORDS(object)->view);
 	g_object_unref(LADDER_WORDS(object)->document);
 	G_OBJECT_CLASS(ladder_words_parent_class)->finalize(object);
 }
@@ -403,7 +422,7 @@ void text_complete_attach(GtkSourceView *view, LadderDocument *document, const i
 	words->document = g_object_ref(document);
 	words->pou = pou;
 	words->part = part;
-	words->view = view;
+	g_set_weak_pointer(&words->view, view);
 	g_object_set(gtk_source_view_get_completion(view), "select-on-show", TRUE, NULL);
 	gtk_source_completion_add_provider(gtk_source_view_get_completion(view),
 					   GTK_SOURCE_COMPLETION_PROVIDER(words));

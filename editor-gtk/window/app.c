@@ -15,8 +15,10 @@
 #include "editor-gtk/kit/installed.h"
 #include "editor-gtk/kit/memory.h"
 #include "editor-gtk/kit/theme.h"
+#include "editor-gtk/kit/gtk48/blink.h"
 #include "editor-gtk/kit/gtk48/gl.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/window/recent.h"
@@ -472,6 +474,7 @@ static void windows_changed(GListModel *windows, guint at, guint removed, guint 
 
 		if (ADW_IS_MESSAGE_DIALOG(window))
 			g_signal_connect(window, "map", G_CALLBACK(spoken_parts), NULL);
+		blink_follow(GTK_WINDOW(window));
 		g_object_unref(window);
 	}
 }
@@ -482,6 +485,7 @@ static void startup(GtkApplication *application)
 	gtk_source_init();
 	app_style();
 	popover_init();
+	slow_bar_choose_all();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 	/* A text that the keys reach is not marked as a whole; Ctrl+A does that. */

@@ -5,7 +5,6 @@
 #include "editor-gtk/window/below.h"
 
 #include "editor-gtk/kit/gtk48/shrink.h"
-#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
@@ -43,7 +42,6 @@ static GtkWidget *panel_in(AdwBin *place)
 		adw_bin_set_child(place, maker->make(maker->part));
 		spoken_parts(adw_bin_get_child(place));
 		shrink_buttons(adw_bin_get_child(place));
-		slow_bar_choose_all(adw_bin_get_child(place));
 	}
 	return adw_bin_get_child(place);
 }

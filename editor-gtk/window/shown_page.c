@@ -6,7 +6,6 @@
 
 #include "editor-gtk/document/pou_convert.h"
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
@@ -112,7 +111,6 @@ static void put_child(LadderShownPage *page, GtkWidget *child)
 	gtk_box_append(GTK_BOX(page), child);
 	go_to_start(child);
 	spoken_parts(child);
-	slow_bar_choose_all(child);
 	if (focus)
 		gtk_widget_child_focus(child, GTK_DIR_TAB_FORWARD);
 	g_signal_emit_by_name(page->core->window, "place-changed");

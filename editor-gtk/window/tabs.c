@@ -10,7 +10,6 @@
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/iomap/iomap_view.h"
 #include "editor-gtk/kit/gtk48/shrink.h"
-#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/gtk48/tab_seen.h"
@@ -150,7 +149,6 @@ static AdwTabPage *insert_page(struct tabs *tabs, int at, GtkWidget *child,
 	page_follow(tabs->core, page);
 	spoken_parts(child);
 	shrink_buttons(child);
-	slow_bar_choose_all(child);
 	spoken_parts(GTK_WIDGET(tabs->core->front->tab_bar));
 	return page;
 }
@@ -239,7 +237,6 @@ static GtkWidget *symbols_in(AdwBin *place, struct tabs *tabs)
 		adw_bin_set_child(place, symbols);
 		spoken_parts(symbols);
 		shrink_buttons(symbols);
-		slow_bar_choose_all(symbols);
 	}
 	return symbols;
 }

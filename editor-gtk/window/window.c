@@ -10,7 +10,6 @@
 #include "editor-gtk/document/pou_convert.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/popover.h"
-#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/still.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -1330,6 +1329,5 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	show_state(window);
 	window->disk_timer = g_timeout_add_seconds(DISK_SECONDS, look_at_disk, window);
 	spoken_parts(GTK_WIDGET(window));
-	slow_bar_choose_all(GTK_WIDGET(window));
 	return window;
 }

@@ -88,6 +88,70 @@ static void make(GtkScrollbar *scrollbar)
 	g_signal_connect_swapped(range, "change-value", G_CALLBACK(by_hand), bar);
 }
 
+/* ---- bars that change while the window is drawn ---- */
+
+/* Is the window of @widget being drawn? */
+static gboolean is_drawing(GtkWidget *widget)
+{
+	GdkFrameClock *clock = gtk_widget_get_frame_clock(widget);
+	const GSignalInvocationHint *hint = clock ? g_signal_get_invocation_hint(clock) : NULL;
+
+	return hint && hint->signal_id == g_signal_lookup("paint", GDK_TYPE_FRAME_CLOCK);
+}
+
+/* What GtkRange does when its adjustment has changed. */
+static void lay_out_slider(GtkWidget *range)
+{
+	GtkAdjustment *of = gtk_range_get_adjustment(GTK_RANGE(range));
+
+	gtk_widget_queue_allocate(gtk_widget_get_first_child(range));
+	gtk_accessible_update_property(GTK_ACCESSIBLE(range),
+		GTK_ACCESSIBLE_PROPERTY_VALUE_MAX, gtk_adjustment_get_upper(of),
+		GTK_ACCESSIBLE_PROPERTY_VALUE_MIN, gtk_adjustment_get_lower(of),
+		GTK_ACCESSIBLE_PROPERTY_VALUE_NOW, gtk_adjustment_get_value(of), -1);
+}
+
+static gboolean lay_out_later(gpointer range)
+{
+	g_object_set_data(range, "slider-due", NULL);
+	lay_out_slider(range);
+	return G_SOURCE_REMOVE;
+}
+
+static void range_changed(GtkWidget *range)
+{
+	if (!is_drawing(range)) {
+		lay_out_slider(range);
+		return;
+	}
+	if (g_object_get_data(G_OBJECT(range), "slider-due"))
+		return;
+	g_object_set_data(G_OBJECT(range), "slider-due", range);
+	g_idle_add_full(G_PRIORITY_HIGH_IDLE, lay_out_later, g_object_ref(range), g_object_unref);
+}
+
+static void take_over(GtkWidget *range, const char *name)
+{
+	GtkAdjustment *of = gtk_range_get_adjustment(GTK_RANGE(range));
+
+	g_signal_handlers_block_matched(of, G_SIGNAL_MATCH_ID | G_SIGNAL_MATCH_DATA,
+		g_signal_lookup(name, GTK_TYPE_ADJUSTMENT), 0, NULL, NULL, range);
+	g_signal_connect_object(of, name, G_CALLBACK(range_changed), range, G_CONNECT_SWAPPED);
+}
+
+/* Once for each bar. A slow one does not hear of values. */
+static void wait_for_drawing(GtkWidget *scrollbar)
+{
+	GtkWidget *range = gtk_widget_get_first_child(scrollbar);
+
+	if (g_object_get_data(G_OBJECT(range), "slider-waits"))
+		return;
+	g_object_set_data(G_OBJECT(range), "slider-waits", range);
+	take_over(range, "changed");
+	if (!g_object_get_data(G_OBJECT(scrollbar), "slow-bar"))
+		take_over(range, "value-changed");
+}
+
 /* ---- which bars are shown ---- */
 
 static GtkPolicyType policy_of(GtkAdjustment *along)
@@ -145,14 +209,27 @@ void slow_bar_choose(GtkScrolledWindow *scroller)
 	bars_changed(scroller);
 }
 
-void slow_bar_choose_all(GtkWidget *root)
+/* A popup is laid out on its own. */
+static gboolean widget_mapped(GSignalInvocationHint *hint, guint count, const GValue *values, gpointer data)
 {
-	if (GTK_IS_SCROLLED_WINDOW(root))
-		slow_bar_choose(GTK_SCROLLED_WINDOW(root));
-	for (GtkWidget *child = gtk_widget_get_first_child(root); child;
-	     child = gtk_widget_get_next_sibling(child))
-		if (!GTK_IS_NATIVE(child)) /* a popup is laid out on its own */
-			slow_bar_choose_all(child);
+	GtkWidget *widget = g_value_get_object(&values[0]);
+
+	(void)hint;
+	(void)count;
+	(void)data;
+	if (GTK_IS_SCROLLED_WINDOW(widget)) {
+		wait_for_drawing(gtk_scrolled_window_get_hscrollbar(GTK_SCROLLED_WINDOW(widget)));
+		wait_for_drawing(gtk_scrolled_window_get_vscrollbar(GTK_SCROLLED_WINDOW(widget)));
+	}
+	if (GTK_IS_SCROLLED_WINDOW(widget) && !GTK_IS_POPOVER(gtk_widget_get_native(widget)))
+		slow_bar_choose(GTK_SCROLLED_WINDOW(widget));
+	return TRUE;
+}
+
+void slow_bar_choose_all(void)
+{
+	g_type_class_unref(g_type_class_ref(GTK_TYPE_WIDGET)); /* makes its signals */
+	g_signal_add_emission_hook(g_signal_lookup("map", GTK_TYPE_WIDGET), 0, widget_mapped, NULL, NULL);
 }
 
 void slow_bar_make(GtkScrolledWindow *scroller)

@@ -14,8 +14,13 @@
  *
  * - Blank window, slow_bar_choose(): with automatic policy GtkScrolledWindow shows or hides a
  *   bar while it is allocated. Widgets above it may then be left without allocation, and what
- *   they hold is not drawn until their size changes. To see it: tests/editor/person/panes.py
- *   without the calls.
+ *   they hold is not drawn until their size changes. To see it: search the manual in windows of
+ *   several sizes, or run tests/editor/person/panes.py, without slow_bar_choose_all().
+ *
+ * - "Trying to snapshot GtkGizmo … without a current allocation", and a slider that stays where it
+ *   was: GtkTextView lays out its first lines, and scrolls, while it is drawn. The slider asks for
+ *   a layout then, and is drawn before it. Bars wait until the window has been drawn. To see it:
+ *   the same without the calls of wait_for_drawing().
  */
 #ifndef EDITOR_SLOW_BAR_H
 #define EDITOR_SLOW_BAR_H
@@ -25,9 +30,9 @@
 /** slow_bar_choose - shows the bars that are needed; decided after the layout, not in it. A bar
  * that is always or never shown stays so. Its adjustments stay the same from now on. */
 void slow_bar_choose(GtkScrolledWindow *scroller);
-/** slow_bar_choose_all - slow_bar_choose() for each one that is @root or below it now, except in
- * popups. It may be called again when more are added. */
-void slow_bar_choose_all(GtkWidget *root);
+/** slow_bar_choose_all - slow_bar_choose() for each one that is mapped from now on, in any window,
+ * also of GTK; except in popups. Once for the program. */
+void slow_bar_choose_all(void);
 /** slow_bar_make - slow_bar_choose(), and makes both bars of @scroller slow, as long as it lives. */
 void slow_bar_make(GtkScrolledWindow *scroller);
 

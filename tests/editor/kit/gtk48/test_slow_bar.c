@@ -87,15 +87,19 @@ static bool has_policy(GtkWidget *which, GtkPolicyType across, GtkPolicyType alo
 	return has_across == across && has_along == along;
 }
 
-/* Bars come and go after the layout, wherever they are; one that is never shown stays so. */
+/* Bars come and go after the layout, in any window; one that is never shown stays so, and those of popups. */
 static void test_all(void)
 {
 	GtkWidget *window = gtk_window_new(), *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
 	GtkWidget *outer = gtk_scrolled_window_new(), *fixed = gtk_scrolled_window_new();
-	GtkWidget *child = gtk_drawing_area_new();
+	GtkWidget *child = gtk_drawing_area_new(), *button = gtk_menu_button_new();
+	GtkWidget *popover = gtk_popover_new(), *inner = gtk_scrolled_window_new();
 
 	gtk_widget_set_size_request(child, 20, 20000);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(fixed), child);
+	gtk_popover_set_child(GTK_POPOVER(popover), inner);
+	gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
+	gtk_box_append(GTK_BOX(box), button);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(fixed), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
 	gtk_widget_set_vexpand(outer, TRUE);
@@ -104,12 +108,16 @@ static void test_all(void)
 	gtk_box_append(GTK_BOX(box), fixed);
 	gtk_window_set_child(GTK_WINDOW(window), box);
 	gtk_window_set_default_size(GTK_WINDOW(window), 300, 400);
-	slow_bar_choose_all(window);
-	CHECK(has_policy(outer, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL));
+	slow_bar_choose_all();
 	screen_show(window);
-	CHECK_SOON(has_policy(fixed, GTK_POLICY_NEVER, GTK_POLICY_ALWAYS));
-	slow_bar_choose_all(window);
 	CHECK(has_policy(outer, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL));
+	CHECK_SOON(has_policy(fixed, GTK_POLICY_NEVER, GTK_POLICY_ALWAYS));
+	gtk_menu_button_popup(GTK_MENU_BUTTON(button));
+	CHECK_SOON(gtk_widget_get_mapped(inner));
+	CHECK(has_policy(inner, GTK_POLICY_AUTOMATIC, GTK_POLICY_AUTOMATIC));
+	gtk_menu_button_popdown(GTK_MENU_BUTTON(button));
+	gtk_widget_set_size_request(child, 20, 20);
+	CHECK_SOON(has_policy(fixed, GTK_POLICY_NEVER, GTK_POLICY_EXTERNAL));
 	gtk_window_destroy(GTK_WINDOW(window));
 }
 
