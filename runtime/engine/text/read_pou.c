@@ -25,11 +25,11 @@ static const struct {
 };
 
 /* Does an action begin here, of a POU that is no chart? */
-static bool begins_action(const struct reader *r)
+bool read_begins_action(const struct reader *r)
 {
 	struct lex lex = r->lex;
 
-	if (!r->plain || !lex_is(&lex, "ACTION"))
+	if (!lex_is(&lex, "ACTION"))
 		return false;
 	lex.newlines = lex.comments = false;
 	return lex_next(&lex) == TOKEN_NAME;
@@ -38,7 +38,7 @@ static bool begins_action(const struct reader *r)
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
 {
 	*kind = POU_ACTION;
-	if (begins_action(r))
+	if (read_begins_action(r))
 		return true;
 	for (size_t i = 0; i < POU_ACTION; i++)
 		if (lex_is(&r->lex, pou_word((enum pou_kind)i))) {
@@ -517,7 +517,7 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	add_edges(r, &pou->vars);
 	while (kind != POU_ACTION) { /* inside it, as TwinCAT has them */
 		reader_skip_newlines(r);
-		if (begins_action(r))
+		if (read_begins_action(r))
 			read_pou(r, POU_ACTION);
 		else if (!reader_skip_objects(r))
 			break;

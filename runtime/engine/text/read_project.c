@@ -402,10 +402,12 @@ static bool begins_member(const struct reader *r)
 					     "PROPERTY" };
 	bool found = false;
 
-	if (!r->plain || (r->pou && r->pou->sfc))
+	if (r->pou && r->pou->sfc)
 		return false;
-	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
+	for (size_t i = 0; !found && i < (r->plain ? sizeof(words) / sizeof(*words) : 2); i++)
 		found = lex_is(&r->lex, words[i]);
+	if (!r->plain && found && lex_is(&r->lex, "ACTION"))
+		return read_begins_action(r);
 	return found && !reader_peek(r, "(") && !reader_peek(r, ";");
 }
 

@@ -285,4 +285,6 @@ void read_config(struct reader *r, struct config *config);
 /** read_ends_block - does a line begin here that cannot stand inside VAR or an instruction
  * list? A name or label of the same spelling can. */
 bool read_ends_block(const struct reader *r);
+/** read_begins_action - does `ACTION Name` begin here, an action of a POU that is no chart? */
+bool read_begins_action(const struct reader *r);
 #endif

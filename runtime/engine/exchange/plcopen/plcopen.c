@@ -4,6 +4,7 @@
  */
 #include "engine/exchange/plcopen/plcopen_convert.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/limits.h"
 
 #include <stdlib.h>
@@ -90,7 +91,7 @@ static bool repeats(const char *name)
 	static const char *const endings[] = {
 		"/objectid", "/projectstructure", "/interfaceasplaintext", "/fbdcalltype",
 		"/fbdelementtype", "/fbdattributes", "/inputparamtypes", "/outputparamtypes",
-		"/sfcelementid", "/projectinformation",
+		"/sfcelementid", "/projectinformation", "/sfcsettings",
 	};
 	const size_t len = name ? strlen(name) : 0;
 
@@ -129,23 +130,119 @@ static void take_repeated(struct xml_node *project)
 	}
 }
 
-/* CODESYS: lists of global variables. */
-static void put_lists(struct plcopen *c, struct xml_node *node)
+static void take_data(struct xml_node *data)
 {
-	for (struct xml_node *add = node ? node->first : NULL; add; add = add->next)
+	data->taken = true;
+	if (data->parent)
+		data->parent->taken = true;
+	xml_take(data, "name");
+	xml_take(data, "handleUnknown");
+}
+
+/* Whether a text of the project says GVL.Name. */
+static bool is_said(struct xml_node *project, const char *name)
+{
+	const size_t len = strlen(name);
+
+	for (struct xml_node *node = project; node && len; node = next_of(node))
+		for (const char *at = node->text; at && *at; at++)
+			if (at[len - 1] && ascii_same(at, name, len) && at[len] == '.')
+				return true;
+			else if (memchr(at, '\0', len))
+				break;
+	return false;
+}
+
+static void put_list(struct plcopen *c, struct xml_node *project, struct xml_node *list)
+{
+	const char *name = xml_take(list, "name");
+	const bool space = name && plc_is_name(name) && is_said(project, name);
+
+	plc_put(c, space ? "\nNAMESPACE %s\n\n" : "\n", name);
+	plc_variables(c, list, "VAR_GLOBAL");
+	if (space)
+		plc_put(c, "\nEND_NAMESPACE\n");
+}
+
+/* CODESYS: lists of global variables, behind the project or in the resource of an application. */
+static void put_lists(struct plcopen *c, struct xml_node *project)
+{
+	for (struct xml_node *add = project->first; add; add = add->next)
 		for (struct xml_node *data = xml_is(add, "addData") ? add->first : NULL; data;
 		     data = data->next) {
 			struct xml_node *list = xml_look(data, "globalVars");
 
 			if (!list)
 				continue;
-			add->taken = data->taken = true;
-			xml_take(data, "name");
-			xml_take(data, "handleUnknown");
-			xml_take(list, "name");
-			plc_put(c, "\n");
-			plc_variables(c, list, "VAR_GLOBAL");
+			take_data(data);
+			for (; list; list = list->next)
+				if (xml_is(list, "globalVars"))
+					put_list(c, project, list);
 		}
+}
+
+/* ---- what stands in the application of a device ---- */
+
+static struct xml_node *child_or_new(struct plcopen *c, struct xml_node *parent, const char *name)
+{
+	struct xml_node *child = parent ? xml_look(parent, name) : NULL;
+
+	return child || !parent ? child : xml_make(c->arena, parent, name);
+}
+
+/* Where the schema has an element that stands in data. */
+static struct xml_node *place_of(struct plcopen *c, struct xml_node *project, const struct xml_node *node)
+{
+	struct xml_node *types, *instances, *place;
+
+	if (xml_is(node, "pou") || xml_is(node, "dataType")) {
+		types = child_or_new(c, project, "types");
+		return child_or_new(c, types, xml_is(node, "pou") ? "pous" : "dataTypes");
+	}
+	if (!xml_is(node, "resource"))
+		return NULL;
+	instances = child_or_new(c, child_or_new(c, project, "instances"), "configurations");
+	place = xml_look(instances, "configuration");
+	return place || !instances ? place : xml_make(c->arena, instances, "configuration");
+}
+
+/* Lists of a resource: they stand beside those behind the project. */
+static void move_lists(struct plcopen *c, struct xml_node *project, struct xml_node *resource)
+{
+	struct xml_node *add = NULL, *data = NULL, *next;
+
+	for (struct xml_node *each = resource->first; each; each = next) {
+		next = each->next;
+		if (!xml_is(each, "globalVars") || !xml_value(each, "name"))
+			continue;
+		if (!data) {
+			add = xml_make(c->arena, project, "addData");
+			data = add ? xml_make(c->arena, add, "data") : NULL;
+		}
+		if (data)
+			xml_move(each, data);
+	}
+}
+
+/* CODESYS and TwinCAT put all of an application into data behind the project: its resource, and in data of that
+ * its POUs and types. They go where the schema has them. */
+static void adopt(struct plcopen *c, struct xml_node *project)
+{
+	struct xml_node *next;
+
+	for (struct xml_node *node = project; node; node = next) {
+		struct xml_node *data = node->parent, *place = NULL;
+
+		next = next_of(node);
+		if (data && xml_is(data, "data") && data->parent && xml_is(data->parent, "addData"))
+			place = place_of(c, project, node);
+		if (!place || place == data)
+			continue;
+		take_data(data);
+		if (xml_is(node, "resource"))
+			move_lists(c, project, node);
+		xml_move(node, place);
+	}
 }
 
 /* ---- the whole ---- */
@@ -193,6 +290,7 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 	struct xml_node *instances = xml_child(project, "instances");
 
 	take_repeated(project);
+	adopt(c, project);
 	c->types = xml_look(types, "dataTypes");
 	plc_find_pous(c, xml_child(types, "pous"));
 	plc_find_own(c, project);

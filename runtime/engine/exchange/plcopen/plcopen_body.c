@@ -201,6 +201,72 @@ bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *
 	}
 }
 
+/* ---- actions ---- */
+
+bool plc_has_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name)
+{
+	const char *dot = strchr(name, '.');
+	const struct xml_node *list;
+
+	if (dot)
+		pou = NULL;
+	for (int i = 0; dot && i < c->pous; i++)
+		if (strlen(c->pou[i].name) == (size_t)(dot - name) && ascii_same(c->pou[i].name, name, (size_t)(dot - name)))
+			pou = &c->pou[i];
+	list = pou && pou->kind != POU_FUNCTION ? xml_look(pou->node, "actions") : NULL;
+	for (const struct xml_node *each = list ? list->first : NULL; each; each = each->next)
+		if (xml_is(each, "action") && xml_value(each, "name") &&
+		    plc_same(xml_value(each, "name"), dot ? dot + 1 : name))
+			return true;
+	return false;
+}
+
+/* An action of a chart has no networks; another one is a body like that of its POU. */
+static void put_action_body(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body)
+{
+	struct xml_node *element;
+	const enum plcopen_language language = plc_language(body, &element);
+
+	if (language == PLCOPEN_SFC) {
+		xml_take_all(body);
+		plc_report(c, REPORT_LOST, element, "%s",
+			   report_said(c->report, REPORTED("an action that is a chart itself does nothing here")));
+		return;
+	}
+	if (pou->language == PLCOPEN_SFC || !element || language <= PLCOPEN_IL) {
+		plc_put_inner(c, pou, body, "  ");
+		return;
+	}
+	body->taken = element->taken = true;
+	c->rungs = 0;
+	put_drawn(c, pou, language, element);
+}
+
+void plc_actions(struct plcopen *c, struct plcopen_pou *pou)
+{
+	struct xml_node *list = pou->kind == POU_FUNCTION ? NULL : xml_child(pou->node, "actions");
+
+	for (struct xml_node *each = list ? list->first : NULL; each; each = each->next) {
+		const char *name = xml_take(each, "name");
+
+		if (!xml_is(each, "action") || !name)
+			continue;
+		each->taken = true;
+		c->at = each->line;
+		if (pou->language != PLCOPEN_SFC)
+			c->pou_name = plc_print(c, "%s.%s", pou->name, name);
+		plc_put(c, "\n");
+		if (*plc_documentation(c, each)) {
+			plc_comment(c, plc_documentation(c, each));
+			plc_put(c, "\n");
+		}
+		plc_put(c, "ACTION %s:\n", plc_renamed(c, name));
+		put_action_body(c, pou, xml_child(each, "body"));
+		plc_put(c, "END_ACTION\n");
+		c->pou_name = pou->name;
+	}
+}
+
 /* ---- POUs ---- */
 
 static const char *const language_word[] = { "ST", "ST", "IL", "LD", "FBD", "SFC" };
@@ -236,7 +302,7 @@ static void put_heading(struct plcopen *c, struct plcopen_pou *pou, enum plcopen
 
 static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 {
-	struct plc_part before;
+	struct plc_part before, behind = { .lines = 0 };
 	enum plcopen_language language;
 
 	c->pou_name = pou->name;
@@ -249,6 +315,11 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	c->made.name = NULL;
 	before = plc_part_begin(c);
 	language = put_body(c, pou);
+	if (language != PLCOPEN_SFC) {
+		behind = plc_part_begin(c);
+		plc_actions(c, pou);
+		plc_part_swap(c, &behind);
+	}
 	plc_part_swap(c, &before);
 	put_heading(c, pou, language);
 	plc_interface(c, pou);
@@ -256,6 +327,8 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	c->at = pou->node->line;
 	plc_put(c, "END_%s\n", pou->kind == POU_FUNCTION ? "FUNCTION" :
 		pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM");
+	if (language != PLCOPEN_SFC)
+		plc_part_append(c, &behind);
 	c->count.pous++;
 	c->pou_name = NULL;
 }
@@ -295,9 +368,7 @@ void plc_find_pous(struct plcopen *c, struct xml_node *pous)
 
 void plc_pous(struct plcopen *c)
 {
-	for (int i = 0; i < c->pous; i++) {
+	for (int i = 0; i < c->pous; i++)
 		put_pou(c, &c->pou[i]);
-		plc_own_behind(c, &c->pou[i]);
-	}
 	plc_own_others(c);
 }

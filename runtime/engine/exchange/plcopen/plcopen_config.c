@@ -72,12 +72,39 @@ static const char *good_name(struct plcopen *c, struct xml_node *node, const cha
 	return made;
 }
 
+static bool is_zero(const char *every)
+{
+	return every && (!strcmp(every, "PT0S") || !strcmp(every, "T#0s") || !strcmp(every, "0"));
+}
+
+/* CODESYS gives what is no whole number of milliseconds in its settings alone; NULL: nothing is given. */
+static const char *set_interval(struct plcopen *c, struct xml_node *task)
+{
+	struct xml_node *add = xml_look(task, "addData");
+
+	for (struct xml_node *data = add ? add->first : NULL; data; data = data->next) {
+		struct xml_node *settings = xml_look(data, "TaskSettings");
+		const char *every = settings ? xml_value(settings, "Interval") : NULL;
+		const char *unit = settings ? xml_value(settings, "IntervalUnit") : NULL;
+		char *end;
+
+		if (!every || !unit || strtod(every, &end) <= 0 || *end)
+			continue;
+		add->taken = true;
+		xml_take_all(data);
+		return plc_print(c, "T#%s%s", every, unit);
+	}
+	return NULL;
+}
+
 static void put_task(struct plcopen *c, struct xml_node *task)
 {
 	const char *name = good_name(c, task, xml_take(task, "name"), "Task");
 	const char *every = xml_take(task, "interval"), *single = xml_take(task, "single");
 	const char *priority = xml_take(task, "priority");
 
+	if (is_zero(every) && set_interval(c, task))
+		every = set_interval(c, task);
 	task->taken = true;
 	c->at = task->line;
 	plc_put(c, "  TASK %s (", name);
@@ -104,6 +131,8 @@ static void put_instance(struct plcopen *c, struct xml_node *instance, const cha
 	c->at = instance->line;
 	if (!type || !*type)
 		type = xml_take(instance, "type");
+	if ((!type || !*type) && plc_pou(c, name)) /* CODESYS names the program alone */
+		type = name;
 	if (!type || !*type) {
 		plc_report(c, REPORT_LOST, instance,
 			   report_said(c->report, REPORTED("the instance \"%s\" names no program and is left out")), name);
@@ -240,7 +269,8 @@ static void put_configuration(struct plcopen *c, struct xml_node *configuration)
 
 	c->at = configuration->line;
 	plc_put(c, "\nCONFIGURATION %s\n",
-		good_name(c, configuration, xml_take(configuration, "name"), "Config"));
+		xml_value(configuration, "name") ?
+		good_name(c, configuration, xml_take(configuration, "name"), "Config") : "Config");
 	put_globals(c, configuration);
 	put_resources(c, configuration);
 	if (access)

@@ -115,10 +115,8 @@ const char *plc_make(struct plcopen *c, struct plcopen_pou *pou, const char *ste
 void plc_find_own(struct plcopen *c, struct xml_node *project);
 /** plc_own_project - writes all of it; false: the XML says something else, or there is none. */
 bool plc_own_project(struct plcopen *c, struct xml_node *project);
-/** plc_own_pou - the same of a POU. */
+/** plc_own_pou - the same of a POU, and of the actions that stand behind it. */
 bool plc_own_pou(struct plcopen *c, const struct plcopen_pou *pou);
-/** plc_own_behind - the actions that stand behind @pou. */
-void plc_own_behind(struct plcopen *c, const struct plcopen_pou *pou);
 /** plc_own_others - what the XML does not have: subroutines. */
 void plc_own_others(struct plcopen *c);
 
@@ -135,6 +133,10 @@ struct plc_part plc_part_begin(struct plcopen *c);
 void plc_part_swap(struct plcopen *c, struct plc_part *part);
 /** plc_part_append - writes all of @part, which ends. */
 void plc_part_append(struct plcopen *c, struct plc_part *part);
+/** plc_has_action - whether @name is an action of @pou, or, as Other.Name, of another POU. */
+bool plc_has_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name);
+/** plc_actions - the actions of a POU. */
+void plc_actions(struct plcopen *c, struct plcopen_pou *pou);
 /** plc_put_inner - the body of an action: text, rungs or statements. false: it has none of these. */
 bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body,
 		   const char *indent);

@@ -540,12 +540,27 @@ enum word plc_catalog(const struct plcopen *c, const char *type)
 	return word != WORD_COUNT ? word : word_find(type, len);
 }
 
-enum plc_word plc_word(const struct plcopen *c, const char *type)
+/* The call of an action has no pins but EN and ENO. */
+static bool calls_action(const struct plcopen *c, const struct plc_graph *graph, const struct plc_element *block)
 {
+	for (int i = 0; i < block->ins; i++)
+		if (!plc_same(plc_in(graph, block, i)->name, "EN"))
+			return false;
+	for (int i = 0; i < block->outs; i++)
+		if (!plc_same(plc_out(graph, block, i)->name, "ENO"))
+			return false;
+	return !block->instance && plc_has_action(c, graph->pou, block->name);
+}
+
+enum plc_word plc_word(const struct plcopen *c, const struct plc_graph *graph, const struct plc_element *block)
+{
+	const char *type = block->name;
 	const struct plcopen_pou *pou = plc_pou(c, type);
 	const enum word word = plc_catalog(c, type);
 	struct convert_word convert;
 
+	if (calls_action(c, graph, block))
+		return PLC_ACTION;
 	if (pou)
 		return pou->kind == POU_FUNCTION ? PLC_FUNCTION :
 		       pou->kind == POU_BLOCK ? PLC_FUNCTION_BLOCK : PLC_UNKNOWN;

@@ -55,7 +55,7 @@ struct plc_element {
 };
 
 /* What a block is here. */
-enum plc_word { PLC_UNKNOWN, PLC_FUNCTION, PLC_FUNCTION_BLOCK };
+enum plc_word { PLC_UNKNOWN, PLC_FUNCTION, PLC_FUNCTION_BLOCK, PLC_ACTION };
 
 struct plc_graph {
 	struct plcopen_pou *pou;
@@ -82,7 +82,7 @@ bool plc_graph_read(struct plcopen *c, struct plcopen_pou *pou, struct xml_node 
 struct plc_pin *plc_condition_pin(struct plcopen *c, struct plc_graph *graph,
 				  struct xml_node *condition);
 /** plc_word - what the type of a block is in this project. */
-enum plc_word plc_word(const struct plcopen *c, const char *type);
+enum plc_word plc_word(const struct plcopen *c, const struct plc_graph *graph, const struct plc_element *block);
 /** plc_catalog - the built-in function or block of this name; WORD_COUNT: none, or the project has
  * its own. */
 enum word plc_catalog(const struct plcopen *c, const char *type);
@@ -132,9 +132,10 @@ const char *plc_lines_value(struct plc_lines *lines, struct plc_pin *pin);
 
 /* ---- plcopen_parts.c: steps that belong together ---- */
 struct plc_group {
-	int first, count;       /* of graph.step                                 */
+	int first, count;       /* of graph.step; count 0: a label alone          */
 	const char *label;      /* NULL: none                                    */
-	struct xml_node *node;  /* its first element                             */
+	int y;                  /* of the label                                  */
+	struct xml_node *node;  /* its label, or its first element               */
 	const char *comment;    /* ""                                            */
 	const char *missing;    /* a type of a block that is not known; NULL: none */
 };

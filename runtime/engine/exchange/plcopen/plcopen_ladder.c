@@ -530,7 +530,7 @@ static bool meet_assignment(struct sketch *s, struct plc_element *e)
 
 static void meet_box(struct sketch *s, struct plc_element *e)
 {
-	const enum plc_word word = plc_word(s->c, e->name);
+	const enum plc_word word = plc_word(s->c, s->graph, e);
 	const bool function = word == PLC_FUNCTION;
 	struct plc_pin *enabling = plc_input(s->graph, e, "EN"), *power = enabling;
 	const int index = (int)(e - s->graph->element);
@@ -541,6 +541,13 @@ static void meet_box(struct sketch *s, struct plc_element *e)
 	if (s->met[index])
 		return;
 	s->met[index] = true;
+	if (word == PLC_ACTION) {
+		s->odd = s->odd || !enabling || !enabling->sources || enabling->negated || enabling->edge != PLC_NO_EDGE;
+		if (!s->odd)
+			add_link(s, net_of_pin(s, enabling), out_net(s, e),
+				 cell_of(s, e, plc_print(s->c, "CALL %s", plc_renamed(s->c, e->name))));
+		return;
+	}
 	if (meet_logic(s, e) || meet_assignment(s, e))
 		return;
 	if (word == PLC_UNKNOWN || (!function && (!e->instance || !plc_is_name(e->instance) || enabling)) ||
@@ -1006,6 +1013,10 @@ static bool put_group(struct plcopen *c, struct plc_graph *graph, const struct p
 {
 	if (group->missing) {
 		put_unknown(c, graph, group, indent);
+		return true;
+	}
+	if (!group->count) {
+		put_heading(c, group, indent, true);
 		return true;
 	}
 	if (put_rung(c, graph, group, group->first, group->count, indent))

@@ -226,9 +226,21 @@ static const char *further_outputs(struct plc_lines *l, const struct plc_element
 	return all;
 }
 
+/* Whether a further output but ENO is used. */
+static bool uses_value(const struct plc_lines *l, const struct plc_element *e)
+{
+	for (int i = 0; i < e->outs; i++) {
+		const struct plc_pin *pin = plc_out(l->graph, e, i);
+
+		if (pin->uses && !plc_same(pin->name, "ENO") && !is_both(l, e, pin->name))
+			return true;
+	}
+	return false;
+}
+
 static void call_unknown(struct plc_lines *l, const struct plc_element *e)
 {
-	if (plc_word(l->c, e->name) == PLC_UNKNOWN)
+	if (plc_word(l->c, l->graph, e) == PLC_UNKNOWN)
 		l->unknown = true;
 }
 
@@ -347,7 +359,7 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 		l->wire[e->first_out + result] = plc_print(l->c, "%s(%s)", plc_renamed(l->c, e->name), all);
 		return;
 	}
-	if (has_enable(l, e) && result >= 0 && plc_out(l->graph, e, result)->uses)
+	if (has_enable(l, e) && ((result >= 0 && plc_out(l->graph, e, result)->uses) || uses_value(l, e)))
 		all = guard(l, e, all);
 	begin_line(l, e);
 	if (result >= 0 && plc_out(l->graph, e, result)->uses) {
@@ -360,7 +372,7 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 
 static bool is_function(const struct plc_lines *l, const struct plc_element *e)
 {
-	const enum plc_word word = plc_word(l->c, e->name);
+	const enum plc_word word = plc_word(l->c, l->graph, e);
 
 	return word == PLC_FUNCTION || (word == PLC_UNKNOWN && !e->instance);
 }
@@ -539,7 +551,7 @@ static struct value guarded(struct plc_lines *l, const struct plc_element *e, st
 	const char *ran = pin->sources == 1 ? l->guard[source->element] : NULL;
 
 	if (!ran || e->storage != PLC_NO_STORAGE ||
-	    source->output != result_of(l, &l->graph->element[source->element]))
+	    (source->output >= 0 && plc_same(plc_out(l->graph, &l->graph->element[source->element], source->output)->name, "ENO")))
 		return value;
 	return (struct value){ plc_print(l->c, "MOVE(EN := %s, IN := %s)", ran, value.text), TIE_ATOM };
 }

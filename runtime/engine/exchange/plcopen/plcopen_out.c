@@ -92,11 +92,39 @@ void plco_named(struct out *out, const char *element, const char *attribute, con
 	out->depth += !empty;
 }
 
+const char *plco_numbers(struct out *out, const char *text)
+{
+	const char *from = text;
+	struct sink_memory memory;
+	struct sink sink;
+	struct lex lex;
+
+	if (!out->project->words.as_numbers)
+		return text;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END) {
+		const char *word = lex.token.kind != TOKEN_NAME ? NULL :
+				   words_number(lex.token.text, lex.token.len);
+
+		if (!word)
+			continue;
+		sink_write(&sink, from, (size_t)(lex.token.text - from));
+		sink_text(&sink, word);
+		from = lex.token.text + lex.token.len;
+	}
+	sink_text(&sink, from);
+	text = plco_print(out, "%s", memory.failed ? text : sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return text;
+}
+
 void plco_text(struct out *out, const char *name, const char *text)
 {
 	sink_repeat(&out->sink, "  ", out->depth);
 	sink_printf(&out->sink, "<%s>", name);
-	plco_escape(out, text);
+	plco_escape(out, plco_numbers(out, text));
 	sink_printf(&out->sink, "</%s>\n", name);
 }
 

@@ -47,6 +47,9 @@ void plco_formatted(struct out *out, const char *name, const char *text);
 void plco_documentation(struct out *out, const char *comment);
 /** plco_bare - comments without their delimiters; in the arena. */
 const char *plco_bare(struct out *out, const char *comment);
+/** plco_numbers - @text with UDINT_TO_REAL instead of DWORD_TO_REAL if that means the same in this project
+ * alone, as in files of CODESYS; in the arena. */
+const char *plco_numbers(struct out *out, const char *text);
 /** plco_lost - a line of the report. */
 void plco_lost(struct out *out, enum report_kind kind, int line, int rung, const char *text, ...)
 	__attribute__((format(printf, 5, 6)));

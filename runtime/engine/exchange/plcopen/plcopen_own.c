@@ -152,17 +152,12 @@ bool plc_own_pou(struct plcopen *c, const struct plcopen_pou *pou)
 			return false;
 		}
 		put_part(c, part);
+		put_behind(c, pou->name);
 		count_pou(c, pou->node);
 		xml_take_all(pou->node);
 		return true;
 	}
 	return false;
-}
-
-void plc_own_behind(struct plcopen *c, const struct plcopen_pou *pou)
-{
-	if (c->own)
-		put_behind(c, pou->name);
 }
 
 void plc_own_others(struct plcopen *c)

@@ -14,6 +14,7 @@ struct parts {
 	struct plc_graph *graph;
 	struct plc_groups *groups;
 	int *last;              /* of each component: its last step              */
+	bool *leads;            /* of each label: something stands behind it     */
 };
 
 static const struct plc_element *step_of(const struct plc_graph *graph, int step)
@@ -21,18 +22,35 @@ static const struct plc_element *step_of(const struct plc_graph *graph, int step
 	return &graph->element[graph->step[step]];
 }
 
-/* The label that stands at or above @e and below all steps before it; each is used once. */
-static struct plc_element *label_before(const struct plc_graph *graph, const struct plc_element *e,
-					const struct plc_element *last)
+static bool is_above(const struct plc_element *a, const struct plc_element *b)
+{
+	return a->y != b->y ? a->y < b->y : a < b;
+}
+
+/* The lowest label that stands above @e. */
+static struct plc_element *label_of(const struct plc_graph *graph, const struct plc_element *e)
 {
 	struct plc_element *found = NULL;
 
 	for (int i = 0; i < graph->elements; i++) {
 		struct plc_element *label = &graph->element[i];
-		const bool above = label->y != e->y ? label->y < e->y : label < e;
-		const bool below = !last || (label->y != last->y ? label->y > last->y : label > last);
 
-		if (label->kind == PLC_LABEL && above && below && !label->busy)
+		if (label->kind == PLC_LABEL && is_above(label, e) && (!found || is_above(found, label)))
+			found = label;
+	}
+	return found;
+}
+
+/* The highest label above @below, if that is given, behind which nothing stands. */
+static struct plc_element *label_alone(const struct parts *p, const struct plc_element *below)
+{
+	struct plc_element *found = NULL;
+
+	for (int i = 0; i < p->graph->elements; i++) {
+		struct plc_element *label = &p->graph->element[i];
+
+		if (label->kind == PLC_LABEL && !label->busy && !p->leads[i] &&
+		    (!below || is_above(label, below)) && (!found || is_above(label, found)))
 			found = label;
 	}
 	return found;
@@ -53,12 +71,23 @@ static struct plc_group *add_group(struct parts *p, int first, struct plc_elemen
 
 	if (!group)
 		return NULL;
-	*group = (struct plc_group){ .first = first, .comment = "", .node = step_of(p->graph, first)->node };
+	*group = (struct plc_group){ .first = first, .comment = "",
+				     .node = label ? label->node : step_of(p->graph, first)->node };
 	if (label) {
 		label->busy = true;
 		group->label = label->name;
+		group->y = label->y;
 	}
 	return group;
+}
+
+/* Each label has a group, also if nothing stands behind it. */
+static void add_labels_alone(struct parts *p, const struct plc_element *below, int first)
+{
+	struct plc_element *label;
+
+	while ((label = label_alone(p, below)) && add_group(p, first, label))
+		;
 }
 
 static void find_groups(struct parts *p)
@@ -67,13 +96,22 @@ static void find_groups(struct parts *p)
 	struct plc_group *group = NULL;
 	int end = -1;
 
-	for (int i = 0; i < p->graph->steps; i++)
-		p->last[step_of(p->graph, i)->component] = i;
 	for (int i = 0; i < p->graph->steps; i++) {
 		const struct plc_element *e = step_of(p->graph, i);
-		struct plc_element *label = labels ?
-			label_before(p->graph, e, i ? step_of(p->graph, i - 1) : NULL) : NULL;
+		const struct plc_element *label = labels ? label_of(p->graph, e) : NULL;
 
+		p->last[e->component] = i;
+		if (label)
+			p->leads[label - p->graph->element] = true;
+	}
+	for (int i = 0; i < p->graph->steps; i++) {
+		const struct plc_element *e = step_of(p->graph, i);
+		struct plc_element *label = labels ? label_of(p->graph, e) : NULL;
+
+		if (label && label->busy)
+			label = NULL;
+		if (label)
+			add_labels_alone(p, label, i);
 		if (i > end || label)
 			group = add_group(p, i, label);
 		if (!group)
@@ -82,6 +120,8 @@ static void find_groups(struct parts *p)
 		if (p->last[e->component] > end)
 			end = p->last[e->component];
 	}
+	if (labels)
+		add_labels_alone(p, NULL, p->graph->steps);
 }
 
 /* What is not known about the blocks of a group. */
@@ -97,7 +137,7 @@ static void find_unknown(struct parts *p)
 		const struct plc_element *e = &p->graph->element[i];
 		struct plc_group *group;
 
-		if (e->kind != PLC_BLOCK || plc_word(p->c, e->name) != PLC_UNKNOWN)
+		if (e->kind != PLC_BLOCK || plc_word(p->c, p->graph, e) != PLC_UNKNOWN)
 			continue;
 		group = &p->groups->group[p->last[e->component]];
 		if (!group->missing)
@@ -111,7 +151,7 @@ static void find_unknown(struct parts *p)
 static int distance(const struct plc_graph *graph, const struct plc_group *group,
 		    const struct plc_element *comment)
 {
-	int least = 1 << 30;
+	int least = group->count ? 1 << 30 : abs(group->y - comment->y);
 
 	for (int i = 0; i < group->count; i++) {
 		const int down = step_of(graph, group->first + i)->y - comment->y;
@@ -166,11 +206,12 @@ static void report_idle(struct plcopen *c, struct plc_graph *graph)
 
 void plc_groups_make(struct plcopen *c, struct plc_graph *graph, struct plc_groups *groups)
 {
-	struct parts parts = { c, graph, groups, NULL };
+	struct parts parts = { c, graph, groups, NULL, NULL };
 
 	*groups = (struct plc_groups){ .group = NULL };
 	parts.last = arena_alloc(c->arena, sizeof(int) * ((size_t)graph->elements + 1));
-	if (!parts.last)
+	parts.leads = arena_alloc(c->arena, (size_t)graph->elements + 1);
+	if (!parts.last || !parts.leads)
 		return;
 	for (int i = 0; i < graph->elements; i++)
 		graph->element[i].busy = false;

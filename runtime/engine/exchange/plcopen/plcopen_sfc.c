@@ -295,6 +295,89 @@ static const char *action_name(struct chart *chart, const struct plc_element *st
 	return name;
 }
 
+/* ---- what CODESYS does in a step: a main, an entry and an exit action ---- */
+
+static const struct set_action { const char *guid, *qualifier, *end; } set_actions[] = {
+	{ "700a583f-b4d4-43e4-8c14-629c7cd3bec8", "N", "active" },
+	{ "a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", "P1", "entry" },
+	{ "a2621e18-7de3-4ea6-ae6d-89e9e0b7befd", "P0", "exit" },
+};
+
+/* These repeat a name, a qualifier or what is drawn, or have this value. */
+static bool says_nothing(const struct xml_node *attribute, const char *guid)
+{
+	static const char *const repeated[] = {
+		"38391c6d-6d4a-42f8-8ee7-9f45e5adafa8", "6844a48e-46c2-4cc8-a185-a478f3b99cc0",
+		"e174fc0d-80b0-4a9e-a530-ca239c249a50", "23bdaa98-72ec-41f7-817b-9dede5697086",
+		"7d894980-aeea-405c-a0f6-e2b26429c58f",
+	};
+	const char *text = attribute->text ? attribute->text : "";
+
+	for (size_t i = 0; i < sizeof(repeated) / sizeof(*repeated); i++)
+		if (!strcmp(guid, repeated[i]))
+			return true;
+	return !*text || !strcmp(text, "FALSE") || !strcmp(text, "0");
+}
+
+static void put_set_action(struct chart *chart, const struct plc_element *step, const struct set_action *set,
+			   const char *name, struct plc_part *lines)
+{
+	struct plcopen *c = chart->c;
+	const char *made;
+
+	if (!plc_has_action(c, chart->pou, name)) {
+		made = plc_print(c, "%s_%s", step->name, set->end);
+		plc_part_swap(c, &chart->root->actions);
+		plc_put(c, "\nACTION %s:\n  %s();\nEND_ACTION\n", made, plc_renamed(c, name));
+		plc_part_swap(c, &chart->root->actions);
+		name = made;
+	}
+	plc_part_swap(c, lines);
+	c->at = step->node->line;
+	plc_put(c, "  %s(%s);\n", plc_renamed(c, name), set->qualifier);
+	plc_part_swap(c, lines);
+}
+
+static void put_attributes(struct chart *chart, const struct plc_element *step, struct xml_node *attributes,
+			   struct plc_part *lines)
+{
+	for (struct xml_node *each = attributes->first; each; each = each->next) {
+		const char *guid = xml_value(each, "guid"), *name = each->text ? plc_trim(chart->c, each->text) : "";
+		bool taken = !guid || says_nothing(each, guid);
+
+		for (size_t i = 0; step && *name && !taken && i < sizeof(set_actions) / sizeof(*set_actions); i++)
+			if (!strcmp(guid, set_actions[i].guid)) {
+				put_set_action(chart, step, &set_actions[i], name, lines);
+				taken = true;
+			}
+		if (taken)
+			xml_take_all(each);
+	}
+}
+
+/* @step: NULL: of another element. */
+static void put_set_actions(struct chart *chart, const struct plc_element *step, struct xml_node *node,
+			    struct plc_part *lines)
+{
+	static const char end[] = "/sfc/element";
+	struct xml_node *add = xml_look(node, "addData");
+
+	for (struct xml_node *data = add ? add->first : NULL; data; data = data->next) {
+		const char *name = xml_value(data, "name");
+		struct xml_node *attributes = xml_look(data, "attributes");
+
+		if (!name || !attributes || strlen(name) < strlen(end) ||
+		    strcmp(name + strlen(name) - strlen(end), end) != 0)
+			continue;
+		add->taken = data->taken = attributes->taken = true;
+		xml_take(data, "name");
+		xml_take(data, "handleUnknown");
+		put_attributes(chart, step, attributes, lines);
+	}
+}
+
+/* ---- lines of a step ---- */
+
 static void put_action(struct chart *chart, const struct plc_element *step, struct xml_node *action,
 		       struct plc_part *lines)
 {
@@ -304,6 +387,7 @@ static void put_action(struct chart *chart, const struct plc_element *step, stru
 	bool timed;
 
 	action->taken = true;
+	put_set_actions(chart, NULL, action, NULL);
 	if (!qualifier || !*qualifier)
 		qualifier = "N";
 	name = action_name(chart, step, action);
@@ -364,6 +448,7 @@ static void put_step(struct chart *chart, struct plc_element *step)
 	struct plc_part lines = plc_part_begin(c);
 
 	plc_part_swap(c, &lines);
+	put_set_actions(chart, step, step->node, &lines);
 	put_actions(chart, step, &lines);
 	c->at = step->node->line;
 	plc_put(c, "\n");
@@ -428,6 +513,9 @@ static void put_items(struct chart *chart)
 	if (!chart->to)
 		return;
 	find_targets(chart);
+	for (int i = 0; i < chart->graph->elements; i++)
+		if (chart->graph->element[i].kind != PLC_STEP)
+			put_set_actions(chart, NULL, chart->graph->element[i].node, NULL);
 	before = plc_part_begin(c);
 	put_transitions(chart);
 	plc_part_swap(c, &before);
@@ -442,28 +530,6 @@ static void put_items(struct chart *chart)
 		}
 	}
 	plc_part_append(c, &before);
-}
-
-static void put_named_actions(struct plcopen *c, struct plcopen_pou *pou)
-{
-	struct xml_node *list = xml_child(pou->node, "actions");
-
-	for (struct xml_node *each = list ? list->first : NULL; each; each = each->next) {
-		const char *name = xml_take(each, "name");
-
-		if (!xml_is(each, "action") || !name)
-			continue;
-		each->taken = true;
-		c->at = each->line;
-		plc_put(c, "\n");
-		if (*plc_documentation(c, each)) {
-			plc_comment(c, plc_documentation(c, each));
-			plc_put(c, "\n");
-		}
-		plc_put(c, "ACTION %s:\n", name);
-		plc_put_inner(c, pou, xml_child(each, "body"), "  ");
-		plc_put(c, "END_ACTION\n");
-	}
 }
 
 void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
@@ -482,5 +548,5 @@ void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
 	if (chart.compute)
 		plc_put(c, "END_ACTION\n");
 	plc_part_append(c, &chart.actions);
-	put_named_actions(c, pou);
+	plc_actions(c, pou);
 }

@@ -76,7 +76,7 @@ static void put_written(struct out *out, const char *language, void (*write)(str
 	out->sink = sink_to_memory(&memory);
 	write(out);
 	out->sink = before;
-	plco_formatted(out, language, sink_memory_text(&memory));
+	plco_formatted(out, language, plco_numbers(out, sink_memory_text(&memory)));
 	sink_memory_free(&memory);
 }
 
@@ -193,12 +193,39 @@ static void put_used(struct out *out, const struct pou *pou, bool constant)
 		plco_close(out, "externalVars");
 }
 
+/* Of a POU that is no chart. */
+static void put_actions(struct out *out, const struct pou *owner)
+{
+	const struct project *project = out->project;
+	bool open = false;
+
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *action = &project->pou[i];
+
+		if (action->kind != POU_ACTION || pou_owner(project, action) != (int)(owner - project->pou))
+			continue;
+		if (!open)
+			plco_open(out, "actions");
+		open = true;
+		plco_named(out, "action", "name", pou_own_name(project, action), false);
+		out->pou = action;
+		plco_body(out, action);
+		out->pou = owner;
+		plco_documentation(out, plco_id(out, action->comment));
+		plco_close(out, "action");
+	}
+	if (open)
+		plco_close(out, "actions");
+}
+
 static void put_pou(struct out *out, const struct pou *pou)
 {
 	const struct var *result = result_of(pou);
 	const size_t from = out->text.len;
 
 	out->pou = pou;
+	if (pou->kind == POU_ACTION && pou_owner(out->project, pou) >= 0)
+		return; /* it stands in its owner */
 	if (pou->kind == POU_SUBROUTINE || pou->kind == POU_ACTION) {
 		plco_lost(out, REPORT_LOST, pou->line, 0, report_said(out->report,
 			 REPORTED("the format has no subroutines: %s is left out")), plco_id(out, pou->name));
@@ -221,6 +248,8 @@ static void put_pou(struct out *out, const struct pou *pou)
 	plco_close(out, "interface");
 	if (pou->language == LANGUAGE_SFC)
 		plco_chart_actions(out, pou);
+	else
+		put_actions(out, pou);
 	plco_body(out, pou);
 	plco_documentation(out, plco_id(out, pou->comment));
 	plco_close(out, "pou");

@@ -45,7 +45,7 @@ static int index_of(const struct diagram *d, const struct fbd_box *box)
 }
 
 /* A wire from a variable is a copy of it: what it is later does not change the wire. */
-static const char *function_of(const struct fbd_box *box)
+static const char *function_of(struct diagram *d, const struct fbd_box *box)
 {
 	static const struct { const char *sign, *name; } signs[] = {
 		{ "+", "ADD" }, { "-", "SUB" }, { "*", "MUL" }, { "/", "DIV" }, { "**", "EXPT" }, { "=", "EQ" },
@@ -56,7 +56,7 @@ static const char *function_of(const struct fbd_box *box)
 	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
 		if (!strcmp(signs[i].sign, box->type))
 			return signs[i].name;
-	return box->kind == FBD_VALUE ? "MOVE" : box->type;
+	return box->kind == FBD_VALUE ? "MOVE" : plco_numbers(d->out, box->type);
 }
 
 /* IN1, IN2 … of an operator; IN of one with a single input. */
@@ -156,15 +156,62 @@ static const char *modifiers(struct diagram *d, struct input input)
 
 /* ---- boxes ---- */
 
+static void put_move(struct diagram *d, int x, int y, struct input enable, struct input value, int id)
+{
+	struct out *out = d->out;
+
+	plco_open(out, "block localId=\"%d\" typeName=\"MOVE\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", id,
+		  3 * PIN, WIDTH, ++out->order);
+	put_position(out, x, y);
+	plco_open(out, "inputVariables");
+	plco_open(out, "variable formalParameter=\"EN\"%s", modifiers(d, enable));
+	put_connection(d, enable);
+	plco_close(out, "variable");
+	plco_open(out, "variable formalParameter=\"IN\"");
+	put_connection(d, value);
+	plco_close(out, "variable");
+	plco_close(out, "inputVariables");
+	plco_line(out, "inOutVariables");
+	plco_open(out, "outputVariables");
+	plco_open(out, "variable formalParameter=\"OUT\"");
+	plco_line(out, "connectionPointOut");
+	plco_close(out, "variable");
+	plco_close(out, "outputVariables");
+	plco_close(out, "block");
+}
+
+/* Other tools store outputs of an instance in any scan: those of a call with EN go through a MOVE
+ * with the same EN. */
+static struct input enabled(struct diagram *d, int box, int pin)
+{
+	const struct fbd_box *from = &d->graph->box[box];
+	const struct input value = { d->id[box], pin_name(d, from, pin), false, NULL };
+
+	for (int i = from->first_pin; from->kind == FBD_BLOCK && i < from->first_pin + from->pins; i++) {
+		const struct fbd_pin *p = &d->graph->pin[i];
+		struct input enable;
+		int id;
+
+		if (p->output || strcmp(p->name, "EN") != 0 || !d->input[i].id)
+			continue;
+		enable = find_input(d, i, 0);
+		id = ++d->out->ids;
+		put_move(d, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, enable, value, id);
+		return (struct input){ id, "OUT", false, NULL };
+	}
+	return value;
+}
+
 static void put_stored(struct diagram *d, int box, int pin)
 {
 	const struct fbd_pin *p = &d->graph->pin[pin];
+	const struct input value = enabled(d, box, pin);
 	struct out *out = d->out;
 
 	plco_open(out, "outVariable localId=\"%d\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", ++out->ids, PIN,
 		  WIDTH, ++out->order);
-	put_position(out, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN);
-	put_connection(d, (struct input){ d->id[box], pin_name(d, &d->graph->box[box], pin), false, NULL });
+	put_position(out, x_of(d, box) + WIDTH + PIN + (value.id == d->id[box] ? 0 : COLUMN / 2), y_of(d, box) + PIN);
+	put_connection(d, value);
 	plco_text(out, "expression", p->operand);
 	plco_close(out, "outVariable");
 }
@@ -205,7 +252,7 @@ static void put_box(struct diagram *d, int number)
 	const char *named = box->instance ? plco_print(out, " instanceName=\"%s\"", box->instance) : "";
 
 	plco_open(out, "block localId=\"%d\" typeName=\"%s\"%s height=\"%d\" width=\"%d\" executionOrderId=\"%d\"",
-		  d->id[number], function_of(box), named, PIN * (box->pins + 1), WIDTH, ++out->order);
+		  d->id[number], function_of(d, box), named, PIN * (box->pins + 1), WIDTH, ++out->order);
 	put_position(out, x_of(d, number), y_of(d, number));
 	put_pins(d, box);
 	plco_close(out, "block");
@@ -322,6 +369,16 @@ static void put_comment(struct out *out, const char *text)
 	out->y += 60;
 }
 
+static void put_label(struct out *out, const struct fbd_network *network)
+{
+	if (!network->label)
+		return;
+	plco_open(out, "label localId=\"%d\" label=\"%s\"", ++out->ids, plco_id(out, network->label));
+	put_position(out, 40, out->y);
+	plco_close(out, "label");
+	out->y += 40;
+}
+
 static void put_heading(struct diagram *d)
 {
 	struct out *out = d->out;
@@ -331,12 +388,7 @@ static void put_heading(struct diagram *d)
 	put_comment(out, title);
 	for (int i = 0; i < d->graph->note_count; i++)
 		put_comment(out, plco_bare(out, plco_id(out, out->pou->st->item[d->graph->note[i]].text)));
-	if (!d->network->label)
-		return;
-	plco_open(out, "label localId=\"%d\" label=\"%s\"", ++out->ids, plco_id(out, d->network->label));
-	put_position(out, 40, out->y);
-	plco_close(out, "label");
-	out->y += 40;
+	put_label(out, d->network);
 }
 
 static void put_network(struct diagram *d)
@@ -372,6 +424,7 @@ static void put_off(struct out *out, const struct fbd_network *network, int numb
 	out->sink = before;
 	plco_lost(out, REPORT_LOST, network->line, number, "%s", report_said(out->report,
 		  REPORTED("the network is OFF and becomes a comment")));
+	put_label(out, network);
 	put_comment(out, sink_memory_text(&memory));
 	sink_memory_free(&memory);
 }

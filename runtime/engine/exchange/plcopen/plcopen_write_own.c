@@ -10,6 +10,7 @@
 
 #include "engine/text/text.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Some characters cannot stand in XML. */
@@ -21,6 +22,11 @@ static bool is_possible(const char *text)
 	return true;
 }
 
+static bool is_plain(const struct project *project)
+{
+	return project->source_count > 0 && project->source[0].plain;
+}
+
 static bool has_spaces(const struct project *project)
 {
 	for (int i = 0; i < project->part_count; i++)
@@ -29,11 +35,11 @@ static bool has_spaces(const struct project *project)
 	return false;
 }
 
-static void put_characters(struct out *out, const char *text)
+/* What stands behind <![CDATA[. */
+static void put_rest(struct out *out, const char *text)
 {
 	const char *end;
 
-	sink_text(&out->sink, "<![CDATA[");
 	while ((end = strstr(text, "]]>"))) {
 		sink_write(&out->sink, text, (size_t)(end - text) + 2);
 		sink_text(&out->sink, "]]><![CDATA[");
@@ -41,6 +47,12 @@ static void put_characters(struct out *out, const char *text)
 	}
 	sink_text(&out->sink, text);
 	sink_text(&out->sink, "]]></part>\n");
+}
+
+static void put_characters(struct out *out, const char *text)
+{
+	sink_text(&out->sink, "<![CDATA[");
+	put_rest(out, text);
 }
 
 /* The program, block or function whose actions stand behind it. */
@@ -107,6 +119,34 @@ static void put_piece(struct out *out, int number, uint32_t *head, const char **
 	sink_memory_free(&memory);
 }
 
+/* Plain IEC text says more than a rung file can: it stands there as a whole, all its files one behind
+ * the other. */
+static void put_plain(struct out *out, const char **all)
+{
+	for (int i = 0; i < out->project->source_count && *all; i++) {
+		size_t len;
+		char *text = text_write_source(out->project, i, &len);
+
+		if (!text || !is_possible(text) || strlen(text) != len)
+			*all = NULL;
+		if (*all && len) {
+			sink_repeat(&out->sink, "  ", out->depth);
+			sink_text(&out->sink, i ? "<part><![CDATA[\n" : "<part><![CDATA[");
+			put_rest(out, plco_numbers(out, text));
+		}
+		free(text);
+	}
+}
+
+static void put_pieces(struct out *out, const char **all)
+{
+	uint32_t head = 0;
+
+	for (int i = -1; i <= out->project->part_count && *all; i++)
+		if (!names_file(out, i))
+			put_piece(out, i, &head, all);
+}
+
 static void cut(struct out *out, size_t len)
 {
 	out->text.len = len;
@@ -126,13 +166,9 @@ void plco_own(struct out *out)
 	const char *from = out->text.failed ? NULL : strstr(out->text.text, "<project"), *all = "";
 	const size_t len = out->text.len;
 	uint64_t digest;
-	uint32_t head = 0;
 
 	if (!from || !out->digest)
 		return;
-	for (int i = 0; i < out->project->source_count; i++)
-		if (out->project->source[i].plain) /* it says more than a rung file can */
-			return;
 	/* As if it ended here. */
 	sink_text(&out->sink, "</project>\n");
 	if (out->text.failed)
@@ -143,9 +179,10 @@ void plco_own(struct out *out)
 	plco_open(out, "addData");
 	plco_open(out, "data name=\"%s\" handleUnknown=\"discard\"", PLCOPEN_OWN);
 	plco_open(out, "text xmlns=\"%s\" digest=\"%016llx\"", PLCOPEN_OWN, (unsigned long long)digest);
-	for (int i = -1; i <= out->project->part_count && all; i++)
-		if (!names_file(out, i))
-			put_piece(out, i, &head, &all);
+	if (is_plain(out->project))
+		put_plain(out, &all);
+	else
+		put_pieces(out, &all);
 	plco_close(out, "text");
 	plco_close(out, "data");
 	plco_close(out, "addData");

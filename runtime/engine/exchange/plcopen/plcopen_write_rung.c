@@ -407,6 +407,24 @@ static void put_inverter(struct drawing *d, const struct network_element *e)
 	put_with_text(d, e, "NOT", "IN", NULL, NULL);
 }
 
+/* The call of an action is a box with its name. */
+static void put_call(struct drawing *d, const struct network_element *e)
+{
+	d->ref[e - d->net.element].pin = "ENO";
+	open_box(d, e, plco_id(d->out, cell_of(d, e)->operand), NULL);
+	plco_open(d->out, "inputVariables");
+	open_pin(d, "EN", false);
+	put_sources(d, e->in);
+	close_pin(d);
+	plco_close(d->out, "inputVariables");
+	plco_line(d->out, "inOutVariables");
+	plco_open(d->out, "outputVariables");
+	put_output(d, "ENO");
+	plco_close(d->out, "outputVariables");
+	plco_documentation(d->out, plco_id(d->out, cell_of(d, e)->comment));
+	plco_close(d->out, "block");
+}
+
 static void put_element(struct drawing *d, const struct network_element *e)
 {
 	switch ((int)e->word) {
@@ -450,6 +468,9 @@ static void put_element(struct drawing *d, const struct network_element *e)
 	case ELEM_COMPARE:
 		put_expression(d, e);
 		break;
+	case ELEM_CALL:
+		put_call(d, e);
+		break;
 	case ELEM_ASSIGN:
 		put_assignment(d, e);
 		d->ref[e - d->net.element].pin = "ENO";
@@ -465,6 +486,24 @@ static void put_element(struct drawing *d, const struct network_element *e)
 
 /* ---- rungs ---- */
 
+/* An action of the same POU, or Other.Name. */
+static bool calls_action(const struct drawing *d, const struct network_element *e)
+{
+	const struct project *project = d->out->project;
+	const char *name = plco_id(d->out, cell_of(d, e)->operand);
+	const struct pou *own = d->out->pou;
+	const char *whole;
+	int found;
+
+	if (own->kind == POU_ACTION && pou_owner(project, own) >= 0)
+		own = &project->pou[pou_owner(project, own)];
+	whole = plco_print(d->out, "%s.%s", plco_id(d->out, own->name), name);
+	found = project_find_pou(project, whole, strlen(whole));
+	if (found < 0)
+		found = project_find_pou(project, name, strlen(name));
+	return found >= 0 && project->pou[found].kind == POU_ACTION;
+}
+
 /* The word of the first element that the format does not have; NULL: it has all. */
 static const char *missing(const struct drawing *d)
 {
@@ -472,8 +511,11 @@ static const char *missing(const struct drawing *d)
 		const enum word word = (enum word)d->net.element[i].word;
 
 		if (word == ELEM_STOP || word == ELEM_END || word == ELEM_CALL || word == ELEM_FOR ||
-		    word == ELEM_NEXT || word == ELEM_EXECUTE)
+		    word == ELEM_NEXT || word == ELEM_EXECUTE) {
+			if (word == ELEM_CALL && calls_action(d, &d->net.element[i]))
+				continue;
 			return words_row(&d->out->project->words, word)->word;
+		}
 	}
 	return NULL;
 }
@@ -488,6 +530,18 @@ static void put_comment(struct out *out, int y, const char *text)
 	plco_close(out, "comment");
 }
 
+static void put_label(struct drawing *d)
+{
+	struct out *out = d->out;
+
+	if (!d->rung->label)
+		return;
+	plco_open(out, "label localId=\"%d\" label=\"%s\"", ++out->ids, plco_id(out, d->rung->label));
+	put_position(out, LEFT, out->y);
+	plco_close(out, "label");
+	out->y += ROW / 2;
+}
+
 static void put_heading(struct drawing *d)
 {
 	struct out *out = d->out;
@@ -497,12 +551,7 @@ static void put_heading(struct drawing *d)
 		    *title ? title : comment);
 	if (*title || *comment)
 		out->y += ROW;
-	if (!d->rung->label)
-		return;
-	plco_open(out, "label localId=\"%d\" label=\"%s\"", ++out->ids, plco_id(out, d->rung->label));
-	put_position(out, LEFT, out->y);
-	plco_close(out, "label");
-	out->y += ROW / 2;
+	put_label(d);
 }
 
 static void put_as_comment(struct drawing *d, const char *word)
@@ -515,6 +564,7 @@ static void put_as_comment(struct drawing *d, const char *word)
 	else
 		plco_lost(d->out, REPORT_LOST, (int)d->rung->line, d->number, "%s", report_said(d->out->report,
 			  REPORTED("the rung is OFF and becomes a comment")));
+	put_label(d);
 	put_comment(d->out, d->out->y, text ? text : "");
 	d->out->y += ROW;
 	free(text);

@@ -90,6 +90,43 @@ void xml_take_all(struct xml_node *node)
 	}
 }
 
+static void append(struct xml_node *node, struct xml_node *to)
+{
+	node->parent = to;
+	node->next = NULL;
+	if (to->last)
+		to->last->next = node;
+	else
+		to->first = node;
+	to->last = node;
+}
+
+void xml_move(struct xml_node *node, struct xml_node *to)
+{
+	struct xml_node *from = node->parent, *before = NULL;
+
+	for (struct xml_node *each = from->first; each != node; each = each->next)
+		before = each;
+	if (before)
+		before->next = node->next;
+	else
+		from->first = node->next;
+	if (from->last == node)
+		from->last = before;
+	append(node, to);
+}
+
+struct xml_node *xml_make(struct arena *arena, struct xml_node *parent, const char *name)
+{
+	struct xml_node *node = arena_alloc(arena, sizeof(*node));
+
+	if (!node)
+		return NULL;
+	*node = (struct xml_node){ .name = name, .line = parent->line, .taken = true };
+	append(node, parent);
+	return node;
+}
+
 const char *xml_text(struct arena *arena, struct xml_node *node, int *line)
 {
 	const struct xml_node *only = NULL;

@@ -56,6 +56,10 @@ const char *xml_value(const struct xml_node *node, const char *name);
 bool xml_flag(struct xml_node *node, const char *name);
 /** xml_take_all - marks @node, its attributes and all below it. */
 void xml_take_all(struct xml_node *node);
+/** xml_move - makes @node the last child of @to. */
+void xml_move(struct xml_node *node, struct xml_node *to);
+/** xml_make - a new last child, marked as taken; NULL: no memory. @name lives as long as @arena. */
+struct xml_node *xml_make(struct arena *arena, struct xml_node *parent, const char *name);
 /** xml_text - the text of @node and of all elements in it, which are marked; "": none. */
 const char *xml_text(struct arena *arena, struct xml_node *node, int *line);
 #endif
