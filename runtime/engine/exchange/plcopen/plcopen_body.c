@@ -314,11 +314,16 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	c->made.count = 0;
 	c->made.name = NULL;
 	before = plc_part_begin(c);
+	c->added = plc_part_begin(c);
+	plc_part_swap(c, &c->added);
 	language = put_body(c, pou);
 	if (language != PLCOPEN_SFC) {
 		behind = plc_part_begin(c);
 		plc_actions(c, pou);
+		plc_part_append(c, &c->added);
 		plc_part_swap(c, &behind);
+	} else {
+		plc_part_append(c, &c->added);
 	}
 	plc_part_swap(c, &before);
 	put_heading(c, pou, language);

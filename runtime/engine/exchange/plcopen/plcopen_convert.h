@@ -23,6 +23,9 @@ struct plcopen_pou {
 	enum plcopen_language language; /* that of the file                        */
 };
 
+/* Text that waits until what stands above it is written. */
+struct plc_part { struct sink_memory text; int *place, lines; };
+
 struct plcopen {
 	struct arena *arena;
 	const char *file;
@@ -43,11 +46,9 @@ struct plcopen {
 	struct { struct plc_rename { const char *from, *to; } *one; int count; } rename;
 	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
 	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
+	struct plc_part added;  /* actions that the import adds to this POU       */
 	struct { int types, pous, variables, rungs, networks, steps, own; } count;
 };
-
-/* Text that waits until what stands above it is written. */
-struct plc_part { struct sink_memory text; int *place, lines; };
 
 /* ---- plcopen_text.c ---- */
 void plc_put(struct plcopen *c, const char *format, ...) __attribute__((format(printf, 2, 3)));

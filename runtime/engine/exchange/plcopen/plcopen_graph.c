@@ -18,7 +18,7 @@ static const struct { const char *name; enum plc_kind kind; } kinds[] = {
 	{ "coil", PLC_COIL }, { "block", PLC_BLOCK }, { "inVariable", PLC_IN },
 	{ "outVariable", PLC_OUT }, { "inOutVariable", PLC_INOUT }, { "connector", PLC_CONNECTOR },
 	{ "continuation", PLC_CONTINUATION }, { "label", PLC_LABEL }, { "jump", PLC_JUMP },
-	{ "return", PLC_RETURN }, { "comment", PLC_COMMENT }, { "error", PLC_COMMENT },
+	{ "return", PLC_RETURN }, { "comment", PLC_COMMENT }, { "error", PLC_COMMENT }, { "vendorElement", PLC_COMMENT },
 	{ "step", PLC_STEP }, { "macroStep", PLC_MACRO }, { "transition", PLC_TRANSITION },
 	{ "jumpStep", PLC_JUMP_STEP }, { "selectionDivergence", PLC_CHOICE },
 	{ "selectionConvergence", PLC_CHOICE_END }, { "simultaneousDivergence", PLC_PARALLEL },
@@ -100,6 +100,23 @@ static int read_variables(struct plcopen *c, struct plc_graph *graph, struct xml
 	return count;
 }
 
+/* CODESYS and TwinCAT: the lines of a box EXECUTE. */
+static const char *code_of(struct plcopen *c, struct xml_node *block)
+{
+	struct xml_node *add = xml_look(block, "addData");
+
+	for (struct xml_node *data = add ? add->first : NULL; data; data = data->next) {
+		struct xml_node *code = xml_look(data, "STCode");
+
+		if (!code)
+			continue;
+		add->taken = true;
+		xml_take_all(data);
+		return plc_renamed(c, code->text ? code->text : "");
+	}
+	return NULL;
+}
+
 static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_element *e)
 {
 	struct xml_node *in = xml_child(e->node, "inputVariables");
@@ -109,6 +126,7 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 	e->comment = plc_documentation(c, e->node);
 	e->name = xml_take(e->node, "typeName");
 	e->name = e->name ? e->name : "";
+	e->code = plc_same(e->name, "EXECUTE") ? code_of(c, e->node) : NULL;
 	e->instance = xml_take(e->node, "instanceName");
 	e->instance = e->instance && *e->instance ? plc_renamed(c, e->instance) : NULL;
 	e->first_in = graph->pins;
@@ -167,9 +185,13 @@ static void read_own(struct plcopen *c, struct plc_element *e)
 	case PLC_LABEL:
 	case PLC_JUMP:
 		e->name = xml_take(e->node, "label");
+		if (e->name && plc_same(e->name, "OFF")) /* a heading would take it as its word */
+			e->name = "OFF_1";
 		break;
 	case PLC_COMMENT:
-		e->name = xml_text(c->arena, xml_child(e->node, "content"), NULL);
+		/* The title of a network in CODESYS is an element of its own. */
+		e->name = xml_text(c->arena, xml_child(e->node, xml_is(e->node, "vendorElement") ? "alternativeText" : "content"),
+				   NULL);
 		break;
 	case PLC_JUMP_STEP:
 		e->name = xml_take(e->node, "targetName");
@@ -189,7 +211,7 @@ static bool add_element(struct plcopen *c, struct plc_graph *graph, struct xml_n
 
 	if (!e)
 		return false;
-	*e = (struct plc_element){ .kind = kind_of(node), .node = node, .name = "", .id = "" };
+	*e = (struct plc_element){ .kind = kind_of(node), .node = node, .name = "", .id = "", .number = -1 };
 	if (e->kind == PLC_OTHER)
 		return true;
 	node->taken = true;
@@ -547,7 +569,7 @@ static bool calls_action(const struct plcopen *c, const struct plc_graph *graph,
 		if (!plc_same(plc_in(graph, block, i)->name, "EN"))
 			return false;
 	for (int i = 0; i < block->outs; i++)
-		if (!plc_same(plc_out(graph, block, i)->name, "ENO"))
+		if (!plc_same(plc_out(graph, block, i)->name, "ENO") && plc_out(graph, block, i)->uses)
 			return false;
 	return !block->instance && plc_has_action(c, graph->pou, block->name);
 }
@@ -559,6 +581,8 @@ enum plc_word plc_word(const struct plcopen *c, const struct plc_graph *graph, c
 	const enum word word = plc_catalog(c, type);
 	struct convert_word convert;
 
+	if (block->code)
+		return PLC_EXECUTE;
 	if (calls_action(c, graph, block))
 		return PLC_ACTION;
 	if (pou)

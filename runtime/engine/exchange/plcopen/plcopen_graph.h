@@ -46,6 +46,7 @@ struct plc_element {
 	const char *name;       /* variable, expression, label, type of a block */
 	const char *instance;   /* of a block; NULL: none                       */
 	const char *comment;    /* its documentation; ""                         */
+	const char *code;       /* of a block EXECUTE: its Structured Text; NULL: none */
 	bool negated;
 	enum plc_edge edge;
 	enum plc_storage storage;
@@ -55,7 +56,7 @@ struct plc_element {
 };
 
 /* What a block is here. */
-enum plc_word { PLC_UNKNOWN, PLC_FUNCTION, PLC_FUNCTION_BLOCK, PLC_ACTION };
+enum plc_word { PLC_UNKNOWN, PLC_FUNCTION, PLC_FUNCTION_BLOCK, PLC_ACTION, PLC_EXECUTE };
 
 struct plc_graph {
 	struct plcopen_pou *pou;

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_EDGES = 400, MOST_NETS = 400, RAIL = 0 };
+enum { MOST_EDGES = 400, MOST_NETS = 400, MOST_CODE = 20, RAIL = 0 };
 
 enum piece_kind { PIECE_CELL, PIECE_SERIES, PIECE_PARALLEL };
 
@@ -49,6 +49,8 @@ struct sketch {
 	const char *cell[LIMIT_ROWS][LIMIT_COLS];
 	bool joined[LIMIT_ROWS + 1][LIMIT_COLS + 1];
 	int rows, columns, last_step;
+	const struct plc_element *code[MOST_CODE];
+	int codes;
 };
 
 static struct plc_element *element_of(const struct sketch *s, const struct plc_source *source)
@@ -528,6 +530,17 @@ static bool meet_assignment(struct sketch *s, struct plc_element *e)
 	return true;
 }
 
+static void meet_code(struct sketch *s, struct plc_element *e, const struct plc_pin *power)
+{
+	const bool wired = power && power->sources;
+
+	s->odd = s->odd || s->codes == MOST_CODE || (wired && (power->negated || power->edge != PLC_NO_EDGE));
+	if (s->odd)
+		return;
+	s->code[s->codes++] = e;
+	add_link(s, wired ? net_of_pin(s, power) : RAIL, out_net(s, e), cell_of(s, e, plc_print(s->c, "EXECUTE Box%s", e->id)));
+}
+
 static void meet_box(struct sketch *s, struct plc_element *e)
 {
 	const enum plc_word word = plc_word(s->c, s->graph, e);
@@ -541,6 +554,10 @@ static void meet_box(struct sketch *s, struct plc_element *e)
 	if (s->met[index])
 		return;
 	s->met[index] = true;
+	if (word == PLC_EXECUTE) {
+		meet_code(s, e, enabling);
+		return;
+	}
 	if (word == PLC_ACTION) {
 		s->odd = s->odd || !enabling || !enabling->sources || enabling->negated || enabling->edge != PLC_NO_EDGE;
 		if (!s->odd)
@@ -924,6 +941,18 @@ static void put_rows(struct sketch *s, const char *indent)
 	}
 }
 
+static void put_code(struct sketch *s, const char *indent)
+{
+	struct plcopen *c = s->c;
+
+	for (int i = 0; i < s->codes; i++) {
+		c->at = s->code[i]->node->line;
+		plc_put(c, "%s  EXECUTE Box%s:\n", indent, s->code[i]->id);
+		plc_text(c, s->code[i]->code);
+		plc_put(c, "\n%s  END_EXECUTE\n", indent);
+	}
+}
+
 static void put_heading(struct plcopen *c, const struct plc_group *group, const char *indent, bool first)
 {
 	c->at = group->node->line;
@@ -958,11 +987,13 @@ static bool put_rung(struct plcopen *c, struct plc_graph *graph, const struct pl
 	s->absorbed = calloc((size_t)graph->elements + 1, 1);
 	s->seen = calloc((size_t)graph->elements + 1, sizeof(*s->seen));
 	s->odd = !s->net_of || !s->met || !s->absorbed || !s->seen;
-	/* A block with a number of its own stands where its output leads. */
-	for (int pass = 0; pass < 2; pass++)
-		for (int i = first; i < first + count && !s->odd; i++)
-			if ((graph->element[graph->step[i]].kind == PLC_BLOCK) == (pass == 1))
-				meet_step(s, i);
+	/* A block with a number of its own stands where its output leads: behind outputs and later blocks. */
+	for (int i = first; i < first + count && !s->odd; i++)
+		if (graph->element[graph->step[i]].kind != PLC_BLOCK)
+			meet_step(s, i);
+	for (int i = first + count - 1; i >= first && !s->odd; i--)
+		if (graph->element[graph->step[i]].kind == PLC_BLOCK)
+			meet_step(s, i);
 	if (!s->odd && !interferes(s, first, count) && reduce(s)) {
 		draw_net(s, RAIL, 0, 0, 0);
 		good = !s->odd && s->rows > 0;
@@ -973,6 +1004,7 @@ static bool put_rung(struct plcopen *c, struct plc_graph *graph, const struct pl
 		put_heading(c, group, indent, first == group->first);
 		c->at = graph->element[graph->step[first]].node->line;
 		put_rows(s, indent);
+		put_code(s, indent);
 	}
 	free(s->net_of);
 	free(s->met);

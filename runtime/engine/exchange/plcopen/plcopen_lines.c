@@ -377,10 +377,66 @@ static bool is_function(const struct plc_lines *l, const struct plc_element *e)
 	return word == PLC_FUNCTION || (word == PLC_UNKNOWN && !e->instance);
 }
 
+/* What no pin takes under a condition stands in an action of its own: a network has only calls. Among
+ * statements it is one. */
+static void call_if(struct plc_lines *l, struct plc_element *e, const char *lines, const char *condition)
+{
+	struct plcopen *c = l->c;
+	const char *name;
+
+	if (!l->networks) {
+		begin_line(l, e);
+		plc_put(c, "IF %s THEN\n", condition ? condition : "TRUE");
+		plc_text(c, lines);
+		plc_put(c, "\n%sEND_IF;\n", l->indent);
+		return;
+	}
+	name = plc_make(c, l->graph->pou, "Execute", "BOOL");
+	begin_line(l, e);
+	plc_put(c, "%s := %s\n", name, condition ? condition : "TRUE");
+	begin_line(l, e);
+	plc_put(c, "%s_lines()\n", name);
+	l->guard[e - l->graph->element] = name;
+	plc_part_swap(c, &c->added);
+	c->at = e->node->line;
+	plc_put(c, "\nACTION %s_lines:\n  IF %s THEN\n", name, name);
+	plc_text(c, lines);
+	plc_put(c, "\n  END_IF;\nEND_ACTION\n");
+	plc_part_swap(c, &c->added);
+}
+
+static void call_lines(struct plc_lines *l, struct plc_element *e, enum plc_word word, int depth)
+{
+	const struct plc_pin *pin = has_enable(l, e) ? plc_input(l->graph, e, "EN") : NULL;
+	struct value value = { NULL, TIE_ATOM };
+
+	l->done[e - l->graph->element] = true;
+	if (pin)
+		value = modified(l, e, pin->negated, pin->edge, value_of(l, pin, depth + 1));
+	if (l->failed)
+		return;
+	if (word == PLC_ACTION && !value.text) {
+		begin_line(l, e);
+		plc_put(l->c, "%s()%s\n", plc_renamed(l->c, e->name), l->networks ? "" : ";");
+	} else if (l->graph->pou->kind == POU_FUNCTION && l->networks) {
+		plc_report(l->c, REPORT_LOST, e->node,
+			   report_said(l->c->report, REPORTED("a function has no actions: the box %s is left out")), e->name);
+	} else {
+		call_if(l, e, word == PLC_ACTION ? plc_print(l->c, "    %s();", plc_renamed(l->c, e->name)) : e->code,
+			value.text);
+	}
+}
+
 static void call(struct plc_lines *l, struct plc_element *e, int depth)
 {
+	const enum plc_word word = plc_word(l->c, l->graph, e);
+
 	if (l->done[e - l->graph->element])
 		return;
+	if (word == PLC_ACTION || word == PLC_EXECUTE) {
+		call_lines(l, e, word, depth);
+		return;
+	}
 	if (is_function(l, e))
 		call_function(l, e, depth);
 	else
@@ -413,7 +469,9 @@ static struct value output_value(struct plc_lines *l, struct plc_element *e, int
 		return value;
 	if (is_both(l, e, pin->name))
 		return value_of(l, plc_input(l->graph, e, pin->name), depth + 1);
-	if (!is_function(l, e) && plc_same(pin->name, "ENO")) { /* an instance has run if EN let it */
+	if (!is_function(l, e) && plc_same(pin->name, "ENO") && l->guard[e - l->graph->element]) {
+		value.text = l->guard[e - l->graph->element];
+	} else if (!is_function(l, e) && plc_same(pin->name, "ENO")) { /* an instance has run if EN let it */
 		value.text = "TRUE";
 		value = has_enable(l, e) ? value_of(l, plc_input(l->graph, e, "EN"), depth + 1) : value;
 	} else if (!is_function(l, e))
@@ -550,7 +608,7 @@ static struct value guarded(struct plc_lines *l, const struct plc_element *e, st
 	const struct plc_source *source = &l->graph->source[pin->first];
 	const char *ran = pin->sources == 1 ? l->guard[source->element] : NULL;
 
-	if (!ran || e->storage != PLC_NO_STORAGE ||
+	if (!ran || !is_function(l, &l->graph->element[source->element]) || e->storage != PLC_NO_STORAGE ||
 	    (source->output >= 0 && plc_same(plc_out(l->graph, &l->graph->element[source->element], source->output)->name, "ENO")))
 		return value;
 	return (struct value){ plc_print(l->c, "MOVE(EN := %s, IN := %s)", ran, value.text), TIE_ATOM };

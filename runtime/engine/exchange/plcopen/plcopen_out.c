@@ -92,6 +92,22 @@ void plco_named(struct out *out, const char *element, const char *attribute, con
 	out->depth += !empty;
 }
 
+bool plco_is_action(struct out *out, const char *name)
+{
+	const struct project *project = out->project;
+	const struct pou *own = out->pou;
+	const char *whole;
+	int found;
+
+	if (own->kind == POU_ACTION && pou_owner(project, own) >= 0)
+		own = &project->pou[pou_owner(project, own)];
+	whole = plco_print(out, "%s.%s", plco_id(out, own->name), name);
+	found = project_find_pou(project, whole, strlen(whole));
+	if (found < 0)
+		found = project_find_pou(project, name, strlen(name));
+	return found >= 0 && project->pou[found].kind == POU_ACTION;
+}
+
 const char *plco_numbers(struct out *out, const char *text)
 {
 	const char *from = text;

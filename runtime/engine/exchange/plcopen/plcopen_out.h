@@ -47,6 +47,8 @@ void plco_formatted(struct out *out, const char *name, const char *text);
 void plco_documentation(struct out *out, const char *comment);
 /** plco_bare - comments without their delimiters; in the arena. */
 const char *plco_bare(struct out *out, const char *comment);
+/** plco_is_action - is it an action of the POU in work, or, as Other.Name, of another one? */
+bool plco_is_action(struct out *out, const char *name);
 /** plco_numbers - @text with UDINT_TO_REAL instead of DWORD_TO_REAL if that means the same in this project
  * alone, as in files of CODESYS; in the arena. */
 const char *plco_numbers(struct out *out, const char *text);

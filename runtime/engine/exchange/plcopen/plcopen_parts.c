@@ -162,9 +162,35 @@ static int distance(const struct plc_graph *graph, const struct plc_group *group
 	return least;
 }
 
+/* CODESYS gives no places: then the order of the file tells what belongs together. */
+static bool is_placed(const struct plc_graph *graph)
+{
+	for (int i = 0; i < graph->elements; i++)
+		if (graph->element[i].x || graph->element[i].y)
+			return true;
+	return false;
+}
+
+static int distance_in_file(const struct plc_graph *graph, const struct plc_group *group,
+			    const struct plc_element *comment)
+{
+	int least = 1 << 30;
+
+	for (int i = 0; i < group->count; i++) {
+		const struct plc_element *e = step_of(graph, group->first + i);
+
+		if (e > comment && e - comment < least)
+			least = (int)(e - comment);
+	}
+	return least;
+}
+
 /* A comment belongs to the nearest network. */
 static void place_comments(struct parts *p)
 {
+	int (*away)(const struct plc_graph *, const struct plc_group *, const struct plc_element *) =
+		is_placed(p->graph) ? distance : distance_in_file;
+
 	for (int i = 0; i < p->graph->elements; i++) {
 		const struct plc_element *e = &p->graph->element[i];
 		struct plc_group *near = NULL;
@@ -174,7 +200,7 @@ static void place_comments(struct parts *p)
 			continue;
 		text = plc_trim(p->c, e->name);
 		for (int g = 0; *text && g < p->groups->count; g++)
-			if (!near || distance(p->graph, &p->groups->group[g], e) < distance(p->graph, near, e))
+			if (!near || away(p->graph, &p->groups->group[g], e) < away(p->graph, near, e))
 				near = &p->groups->group[g];
 		if (near)
 			near->comment = plc_print(p->c, "%s%s%s", near->comment, *near->comment ? "\n" : "", text);

@@ -219,6 +219,7 @@ static void put_stored(struct diagram *d, int box, int pin)
 static void put_pins(struct diagram *d, const struct fbd_box *box)
 {
 	struct out *out = d->out;
+	const bool action = box->pins == 1 && !box->instance && plco_is_action(out, box->type);
 
 	plco_open(out, "inputVariables");
 	for (int i = box->first_pin; i < box->first_pin + box->pins; i++) {
@@ -233,7 +234,7 @@ static void put_pins(struct diagram *d, const struct fbd_box *box)
 	plco_close(out, "inputVariables");
 	plco_line(out, "inOutVariables");
 	plco_open(out, "outputVariables");
-	for (int i = box->first_pin; i < box->first_pin + box->pins; i++) {
+	for (int i = box->first_pin; i < box->first_pin + box->pins && !action; i++) {
 		const struct fbd_pin *p = &d->graph->pin[i];
 
 		if (!p->output || (p->open && !strcmp(p->name, "ENO")))

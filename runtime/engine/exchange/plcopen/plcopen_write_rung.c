@@ -189,6 +189,11 @@ static void store(struct drawing *d, int x, int y, const char *name, struct ref 
 	plco_close(d->out, "outVariable");
 }
 
+static bool runs_lines(const struct network_element *e)
+{
+	return e->word == ELEM_CALL || e->word == ELEM_EXECUTE;
+}
+
 static void open_box(struct drawing *d, const struct network_element *e, const char *type,
 		     const char *instance)
 {
@@ -198,8 +203,8 @@ static void open_box(struct drawing *d, const struct network_element *e, const c
 		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" instanceName=\"%s\" height=\"%d\" width=\"%d\"%s",
 			 id, type, instance, ROW, BOX_WIDTH, number(d, e, 0));
 	else
-		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" height=\"%d\" width=\"%d\"", id, type, ROW,
-			 BOX_WIDTH);
+		plco_open(d->out, "block localId=\"%d\" typeName=\"%s\" height=\"%d\" width=\"%d\"%s", id, type, ROW,
+			 BOX_WIDTH, runs_lines(e) ? number(d, e, 0) : "");
 	put_position(d->out, x_of(e), y_of(d, e->row));
 }
 
@@ -407,11 +412,32 @@ static void put_inverter(struct drawing *d, const struct network_element *e)
 	put_with_text(d, e, "NOT", "IN", NULL, NULL);
 }
 
+/* As CODESYS and TwinCAT write it. */
+static void put_code(struct drawing *d, const char *text)
+{
+	struct out *out = d->out;
+
+	plco_open(out, "addData");
+	plco_open(out, "data name=\"http://www.3s-software.com/plcopenxml/fbdcalltype\" handleUnknown=\"implementation\"");
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "<CallType xmlns=\"\">execute</CallType>\n");
+	plco_close(out, "data");
+	plco_open(out, "data name=\"http://www.3s-software.com/plcopenxml/stcode\" handleUnknown=\"implementation\"");
+	sink_repeat(&out->sink, "  ", out->depth);
+	sink_text(&out->sink, "<STCode xmlns=\"\">");
+	plco_escape(out, plco_numbers(out, text));
+	sink_text(&out->sink, "</STCode>\n");
+	plco_close(out, "data");
+	plco_close(out, "addData");
+}
+
 /* The call of an action is a box with its name. */
 static void put_call(struct drawing *d, const struct network_element *e)
 {
+	const bool code = e->word == ELEM_EXECUTE;
+
 	d->ref[e - d->net.element].pin = "ENO";
-	open_box(d, e, plco_id(d->out, cell_of(d, e)->operand), NULL);
+	open_box(d, e, code ? "EXECUTE" : plco_id(d->out, cell_of(d, e)->operand), NULL);
 	plco_open(d->out, "inputVariables");
 	open_pin(d, "EN", false);
 	put_sources(d, e->in);
@@ -421,6 +447,8 @@ static void put_call(struct drawing *d, const struct network_element *e)
 	plco_open(d->out, "outputVariables");
 	put_output(d, "ENO");
 	plco_close(d->out, "outputVariables");
+	if (code)
+		put_code(d, plco_id(d->out, cell_of(d, e)->args));
 	plco_documentation(d->out, plco_id(d->out, cell_of(d, e)->comment));
 	plco_close(d->out, "block");
 }
@@ -469,6 +497,7 @@ static void put_element(struct drawing *d, const struct network_element *e)
 		put_expression(d, e);
 		break;
 	case ELEM_CALL:
+	case ELEM_EXECUTE:
 		put_call(d, e);
 		break;
 	case ELEM_ASSIGN:
@@ -486,24 +515,6 @@ static void put_element(struct drawing *d, const struct network_element *e)
 
 /* ---- rungs ---- */
 
-/* An action of the same POU, or Other.Name. */
-static bool calls_action(const struct drawing *d, const struct network_element *e)
-{
-	const struct project *project = d->out->project;
-	const char *name = plco_id(d->out, cell_of(d, e)->operand);
-	const struct pou *own = d->out->pou;
-	const char *whole;
-	int found;
-
-	if (own->kind == POU_ACTION && pou_owner(project, own) >= 0)
-		own = &project->pou[pou_owner(project, own)];
-	whole = plco_print(d->out, "%s.%s", plco_id(d->out, own->name), name);
-	found = project_find_pou(project, whole, strlen(whole));
-	if (found < 0)
-		found = project_find_pou(project, name, strlen(name));
-	return found >= 0 && project->pou[found].kind == POU_ACTION;
-}
-
 /* The word of the first element that the format does not have; NULL: it has all. */
 static const char *missing(const struct drawing *d)
 {
@@ -511,8 +522,8 @@ static const char *missing(const struct drawing *d)
 		const enum word word = (enum word)d->net.element[i].word;
 
 		if (word == ELEM_STOP || word == ELEM_END || word == ELEM_CALL || word == ELEM_FOR ||
-		    word == ELEM_NEXT || word == ELEM_EXECUTE) {
-			if (word == ELEM_CALL && calls_action(d, &d->net.element[i]))
+		    word == ELEM_NEXT) {
+			if (word == ELEM_CALL && plco_is_action(d->out, plco_id(d->out, cell_of(d, &d->net.element[i])->operand)))
 				continue;
 			return words_row(&d->out->project->words, word)->word;
 		}
@@ -717,8 +728,8 @@ static bool has_idle_block(struct out *out, const struct rung *rung)
 	if (rung->off || !network_make(rung, out->arena, &net))
 		return false;
 	for (int i = 0; i < net.element_count; i++)
-		if (words_row(&out->project->words, (enum word)net.element[i].word)->kind == WORD_FB &&
-		    (net.element[i].out < 0 || !net.reader_count[net.element[i].out]))
+		if ((words_row(&out->project->words, (enum word)net.element[i].word)->kind == WORD_FB ||
+		     runs_lines(&net.element[i])) && (net.element[i].out < 0 || !net.reader_count[net.element[i].out]))
 			return true;
 	return false;
 }
