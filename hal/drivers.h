@@ -89,6 +89,8 @@ struct driver {
 
 /** driver_row - the driver of a point. Static. Scan-safe: yes. */
 const struct driver *driver_row(enum driver_id id);
+/** driver_find - the driver of that name, in any case; DRIVER_COUNT: none. */
+enum driver_id driver_find(const char *word, size_t len);
 /** gpio_library, gpio_version - "libgpiod" and "1.6.3" or "none", or "uAPI" and "v2".
  * Static. */
 const char *gpio_library(void);

@@ -65,8 +65,7 @@ bool complain(struct reader *reader, enum diag_id id, const struct map_word *wor
 			word->text);
 }
 
-/* The driver of that name, in any case; DRIVER_COUNT: none. */
-static enum driver_id driver_find(const char *word, size_t len)
+enum driver_id driver_find(const char *word, size_t len)
 {
 	int id = 0;
 

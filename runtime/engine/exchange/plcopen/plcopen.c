@@ -144,7 +144,7 @@ static bool is_said(struct xml_node *project, const char *name)
 {
 	const size_t len = strlen(name);
 
-	for (struct xml_node *node = project; node && len; node = next_of(node))
+	for (struct xml_node *node = project; node && len; node = xml_next(node))
 		for (const char *at = node->text; at && *at; at++)
 			if (at[len - 1] && ascii_same(at, name, len) && at[len] == '.')
 				return true;
@@ -233,7 +233,7 @@ static void adopt(struct plcopen *c, struct xml_node *project)
 	for (struct xml_node *node = project; node; node = next) {
 		struct xml_node *data = node->parent, *place = NULL;
 
-		next = next_of(node);
+		next = xml_next(node);
 		if (data && xml_is(data, "data") && data->parent && xml_is(data->parent, "addData"))
 			place = place_of(c, project, node);
 		if (!place || place == data)
