@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/gtk48/toast.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/below.h"
 
@@ -123,7 +124,7 @@ static void bookmarks_changed(struct messages *messages)
 
 void messages_toast(struct messages *messages, const char *text)
 {
-	adw_toast_overlay_add_toast(messages->toasts, adw_toast_new(text));
+	toast_show(messages->toasts, text);
 }
 
 void messages_log(struct messages *messages, enum log_kind kind, const char *text)
