@@ -72,6 +72,32 @@ static inline void run_copy(uint8_t *m, const uint32_t *pc)
 	put(m, pc[1], value);
 }
 
+/* Values may overlap: a word of %M begins at any byte. They are read whole before they are
+ * written; a processor that reads odd addresses by bytes would else read what it wrote. */
+static inline void copy_2(uint8_t *to, const uint8_t *from)
+{
+	uint16_t value;
+
+	memcpy(&value, from, sizeof(value));
+	memcpy(to, &value, sizeof(value));
+}
+
+static inline void copy_4(uint8_t *to, const uint8_t *from)
+{
+	uint32_t value;
+
+	memcpy(&value, from, sizeof(value));
+	memcpy(to, &value, sizeof(value));
+}
+
+static inline void copy_8(uint8_t *to, const uint8_t *from)
+{
+	uint64_t value;
+
+	memcpy(&value, from, sizeof(value));
+	memcpy(to, &value, sizeof(value));
+}
+
 /* @size: bytes to copy; 0: the value is widened, or is a text. */
 static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 {
@@ -83,13 +109,13 @@ static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 		*to = *from;
 		break;
 	case 2:
-		memcpy(to, from, 2);
+		copy_2(to, from);
 		break;
 	case 4:
-		memcpy(to, from, 4);
+		copy_4(to, from);
 		break;
 	case 8:
-		memcpy(to, from, 8);
+		copy_8(to, from);
 		break;
 	default:
 		run_copy(m, pc);
@@ -358,7 +384,7 @@ static bool poke(struct vm *vm, const uint32_t *at)
 	    led.where + size > run->offset + (uint64_t)run->count * code_run_size(run) ||
 	    (run->type == IEC_BOOL && (size != 1 || *from > 1)))
 		return false;
-	memcpy(vm->memory + led.where, from, size);
+	memmove(vm->memory + led.where, from, size);
 	return true;
 }
 #endif
@@ -397,9 +423,9 @@ static INLINE bool find_short(const uint8_t *m, const uint32_t *at, uint32_t n, 
 static INLINE void copy_short(uint8_t *m, uint32_t to, uint32_t from, uint32_t n)
 {
 	if (n & CODE_LONG)
-		memcpy(m + to, m + from, 4);
+		copy_4(m + to, m + from);
 	else
-		memcpy(m + to, m + from, 2);
+		copy_2(m + to, m + from);
 }
 
 /* AGET or APUT of it; false: it is another one, or there is none. */
@@ -473,7 +499,7 @@ static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 
 	if (!find_element(m, at + SIZE + 1, n >> 1, n & 1 ? &to : &from))
 		return false;
-	memcpy(m + to, m + from, at[SIZE]);
+	memmove(m + to, m + from, at[SIZE]);
 	return true;
 }
 
@@ -1127,7 +1153,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 		case VM_BLOCK:
 			if (!pay(&budget, pc[3] / 8))
 				goto out_of_budget;
-			memcpy(m + pc[1], m + pc[2], pc[3]);
+			memmove(m + pc[1], m + pc[2], pc[3]);
 			pc += 4;
 			break;
 		case VM_CALL:

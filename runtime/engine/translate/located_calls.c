@@ -195,6 +195,56 @@ static bool has_parts(struct located *l, uint32_t whole)
 	return list_parts(l, whole, l->left);
 }
 
+/* ---- places that overlap ---- */
+
+/* From the first bit of the first part to the last bit of the last one. False: not known. */
+static bool bits_of(struct located *l, const struct parts *parts, uint64_t *first, uint64_t *end)
+{
+	const struct meaning *m = parts->count ? meaning_at(l, parts->part[0]) : NULL;
+
+	if (!m || m->addr.area == AREA_NONE)
+		return false;
+	*first = m->addr.byte * UINT64_C(8) + m->addr.bit;
+	m = meaning_at(l, parts->part[parts->count - 1]);
+	if (!m || m->addr.area == AREA_NONE)
+		return false;
+	*end = m->addr.byte * UINT64_C(8) + m->addr.bit + m->addr.bits;
+	return true;
+}
+
+/* Parts of two variables: those of one variable are the same or apart. */
+static bool may_overlap(struct located *l, uint32_t from, uint32_t to)
+{
+	const struct meaning *a = meaning_at(l, from), *b = meaning_at(l, to);
+	uint64_t first[2], end[2];
+
+	if (!is_located(a) || !is_located(b) || a->addr.area != b->addr.area || a->var == b->var)
+		return false;
+	l->left->count = l->right->count = 0;
+	return meaning_is_indexed(a) || meaning_is_indexed(b) || !list_parts(l, from, l->left) ||
+	       !list_parts(l, to, l->right) || !bits_of(l, l->left, &first[0], &end[0]) ||
+	       !bits_of(l, l->right, &first[1], &end[1]) || (first[0] < end[1] && first[1] < end[0]);
+}
+
+static uint32_t copy_like(struct located *l, const struct meaning *m)
+{
+	const uint32_t copy = temps_whole(l->temps, &(struct meaning){
+		.kind = m->kind, .type = m->type, .word = m->word,
+		.array = m->kind == MEANING_ARRAY ? m->array : (struct var_array){ 0 } });
+
+	l->failed |= !copy;
+	return copy;
+}
+
+/* A copy of @from, so that no part is read after another one was written over it. @good: as of add_move(). */
+static uint32_t kept(struct located *l, uint32_t from, uint32_t good)
+{
+	const uint32_t copy = copy_like(l, meaning_at(l, from));
+
+	move_parts(l, from, copy, good);
+	return copy;
+}
+
 /* ---- calls ---- */
 
 static bool is_argument(const struct il *il, int at)
@@ -237,13 +287,10 @@ static bool begin_copy(struct located *l, const struct word_row *row, const stru
 		return false;
 	*out = (struct copied){
 		.from = arg->operand,
-		.to = temps_whole(l->temps, &(struct meaning){
-			.kind = m->kind, .type = m->type, .word = m->word,
-			.array = m->kind == MEANING_ARRAY ? m->array : (struct var_array){ 0 } }),
+		.to = copy_like(l, m),
 		.takes = arg->kind == IL_ARG_IN, .gives_back = pin->dir != PIN_IN,
 		.computed = meaning_is_indexed(m), .reads = arg->kind == IL_ARG_IN && meaning_is_indexed(m),
 	};
-	l->failed |= !out->to;
 	return true;
 }
 
@@ -354,6 +401,8 @@ static bool copy_move(struct located *l, int at, int end)
 		return false;
 	good = temps_bool(l->temps);
 	begin_good(l, at, end, 0, good);
+	if (may_overlap(l, in, out))
+		in = kept(l, in, good);
 	move_parts(l, in, out, good);
 	if (eno) {
 		add_op(l, OP_LD, 0, good);
@@ -383,22 +432,33 @@ static int stores_end(struct located *l, int at)
 static bool copy_result(struct located *l, int at, int end)
 {
 	const struct il_line *line = l->from->line;
-	const struct meaning *of = meaning_at(l, line[at].operand);
-	bool any = false;
+	uint32_t from = line[at].operand, good = 0, read = 0;
+	const struct meaning *of = meaning_at(l, from);
+	bool any = false, overlaps = false;
 
 	for (int i = at + 1; i < end; i++) {
 		const struct meaning *m = meaning_at(l, line[i].operand);
 
 		if (!same_whole(of, m) || !has_parts(l, line[i].operand))
 			return false;
-		any |= is_located(of) || is_located(m);
+		any = any || is_located(of) || is_located(m);
+		overlaps = overlaps || may_overlap(l, from, line[i].operand);
+	}
+	if (overlaps) {
+		read = meaning_is_indexed(of) ? temps_bool(l->temps) : 0;
+		good = read ? begin_chain(l, 0) : 0;
+		from = kept(l, from, good);
+		if (read) {
+			add_op(l, OP_LD, 0, good);
+			add_op(l, OP_ST, 0, read);
+		}
 	}
 	for (int i = at + 1; i < end && any; i++) {
 		l->like.line = line[i].line;
 		l->like.row = line[i].row;
 		l->like.col = line[i].col;
 		if (is_located(of) || is_located(meaning_at(l, line[i].operand))) {
-			move_parts(l, line[at].operand, line[i].operand, 0);
+			move_parts(l, from, line[i].operand, read ? begin_chain(l, read) : 0);
 			continue;
 		}
 		add_line(l, line[at]);
