@@ -4,6 +4,7 @@
  */
 #include "engine/translate/assembler.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* A place for a text of @capacity bytes. */
@@ -75,12 +76,13 @@ void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 	char text[IEC_STRING_MOST];
 	size_t len = literal_string(&literal, text);
 	uint32_t word[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4] = { 0 };
-	struct iec_string *head = (void *)word;
+	const struct iec_string head = {
+		.capacity = (uint16_t)capacity, .length = (uint16_t)(len < capacity ? len : capacity),
+	};
 	uint32_t size = iec_type_size(IEC_STRING, capacity);
 
-	head->capacity = (uint16_t)capacity;
-	head->length = (uint16_t)(len < capacity ? len : capacity);
-	memcpy(head->text, text, head->length);
+	memcpy(word, &head, sizeof(head));
+	memcpy((char *)word + offsetof(struct iec_string, text), text, head.length);
 	words_push(as, &as->init, offset);
 	words_push(as, &as->init, size);
 	for (uint32_t i = 0; i < size / 4; i++)
