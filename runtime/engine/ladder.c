@@ -206,13 +206,14 @@ static bool is_image(const void *bytes, size_t len)
 }
 
 static bool open_image(struct ladder *ladder, const char *file,
-		       const void *bytes, size_t len)
+		       const void *bytes, size_t len, bool made)
 {
 	struct diag place = { .id = DIAG_IMAGE_DAMAGED, .file = file };
 	size_t where;
 
-	if (code_open(bytes, len, &ladder->scratch, &ladder->program, &place.id,
-		      &where)) {
+	if (made && len <= LIMIT_IMAGE ?
+		   code_open_made(bytes, &ladder->scratch, &ladder->program, &place.id, &where) :
+		   code_open(bytes, len, &ladder->scratch, &ladder->program, &place.id, &where)) {
 		ladder->image = bytes;
 		ladder->image_len = len;
 		ladder->program.index = symbol_index_new(&ladder->program, &ladder->arena);
@@ -300,7 +301,7 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 		if (!ladder->loaded)
 			return no_memory(ladder, file);
 		memcpy(ladder->loaded, bytes, len);
-		return open_image(ladder, file, ladder->loaded, len);
+		return open_image(ladder, file, ladder->loaded, len, false);
 	}
 	foreign = find_foreign(ladder, file, bytes, len);
 	if (foreign) {
@@ -688,7 +689,7 @@ static bool make_image(struct ladder *ladder)
 		       no_memory(ladder, project->file);
 	arena_reset(&ladder->scratch);
 	return open_image(ladder, project->file, ladder->image,
-			  ladder->image_len);
+			  ladder->image_len, true);
 }
 
 static bool build(struct ladder *ladder)

@@ -196,12 +196,32 @@ static void store_letter(struct expr *expr, int base, int index)
 							.left = (int16_t)last, .right = -1 });
 }
 
+static bool ends_with_index(const char *text, size_t len)
+{
+	return len && text[len - 1] == ']';
+}
+
+/* Can one of the nodes be a letter? Few statements have any. */
+static bool may_have_letters(const struct expr *expr)
+{
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *at = &expr->node[i];
+
+		if (at->op == EXPR_INDEX || (at->op == EXPR_NAME && ends_with_index(at->text, at->len)))
+			return true;
+	}
+	return expr->target && (expr->target_index >= 0 || expr->target_tail.len ||
+				ends_with_index(expr->target, expr->target_len));
+}
+
 void letters_rewrite(struct scope *scope, const struct pou *pou, struct expr *expr)
 {
 	const int count = expr->count;
 	struct word_table *words = &scope_project(scope)->words;
 	int base, index;
 
+	if (!may_have_letters(expr))
+		return;
 	if (word_is_own(words_find(words, "MID", 3)) || word_is_own(words_find(words, "LEFT", 4)) ||
 	    word_is_own(words_find(words, "REPLACE", 7)))
 		return; /* plain IEC text hides ours */

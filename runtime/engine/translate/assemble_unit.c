@@ -659,6 +659,16 @@ static uint32_t st_kinds_in(const struct st *st, uint32_t line)
 	return kinds;
 }
 
+/* The same of a line of @list: most instructions are of the same line as the one before. */
+static uint32_t kinds_of(struct list *list, uint32_t line)
+{
+	if (line != list->kinds_line || !list->kinds_line) {
+		list->kinds = st_kinds_in(list->pou->st, line);
+		list->kinds_line = line;
+	}
+	return list->kinds;
+}
+
 /* Lines that do something: not those that only end a block. */
 static bool st_does(uint32_t kinds)
 {
@@ -677,12 +687,12 @@ static bool st_has_value(uint32_t kinds)
 }
 
 /* The jump behind the branch above ELSIF has the line of the ELSIF, which did not run for it. */
-static bool st_runs(const struct list *list, const struct il_line *line)
+static bool st_runs(const struct il_line *line, uint32_t kinds)
 {
 	if (line->kind == IL_LABEL)
 		return false;
 	return line->kind != IL_OP || line->op != OP_JMP || line->modifiers & MOD_C ||
-	       st_kinds_in(list->pou->st, line->line) & (bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_JUMP));
+	       kinds & (bit_of(ST_EXIT) | bit_of(ST_CONTINUE) | bit_of(ST_JUMP));
 }
 
 static struct frame *frame_of(const struct list *list)
@@ -778,7 +788,7 @@ static enum iec_type result_type(const struct il_result *now)
  * may share a line: the last one counts. */
 static void note_result(struct list *list, struct frame *frame, int *slot, uint32_t line)
 {
-	const uint32_t kinds = st_kinds_in(list->pou->st, line);
+	const uint32_t kinds = kinds_of(list, line);
 
 	if (*slot == SLOT_FREE && !arena_push(list->as->arena, &frame->result,
 					      &frame->result_count, sizeof(*frame->result))) {
@@ -814,7 +824,7 @@ static void keep_written(struct list *list, const struct il_line *line)
 	int *slot = keeps_results(list) && is_written(list, line) ?
 		    slot_of_line(frame, line->line) : NULL;
 
-	if (!slot || (st_kinds_in(list->pou->st, line->line) && !st_runs(list, line)))
+	if (!slot || (kinds_of(list, line->line) && !st_runs(line, kinds_of(list, line->line))))
 		return;
 	if (list->as->text != &list->as->watch)
 		note_result(list, frame, slot, line->line);

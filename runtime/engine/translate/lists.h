@@ -67,6 +67,7 @@ struct list {
 	uint32_t *label;              /* by folded name: word index + 1       */
 	uint8_t *looped;              /* by folded name: a jump leads back to it */
 	uint32_t label_count;
+	uint32_t kinds_line, kinds;   /* kinds of the statements of the line that was looked at last */
 	struct fixup { uint32_t word, fold; bool jump; } *fixup; /* jump: of JMP */
 	int fixup_count;
 };

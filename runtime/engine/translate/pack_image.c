@@ -568,6 +568,27 @@ static bool is_behind(const struct code_power *a, const struct code_power *b)
 	return a->col > b->col;
 }
 
+/* How many from the first on are in order. */
+static size_t in_order(const struct code_power *power, size_t count)
+{
+	size_t i = 1;
+
+	while (i < count && !is_behind(&power[i - 1], &power[i]))
+		i++;
+	return i < count ? i : count;
+}
+
+/* The first @half and the others are in order each. @first: room for the first ones. */
+static void merge_cells(struct code_power *power, size_t half, size_t count, struct code_power *first)
+{
+	size_t left = 0, right = half;
+
+	memcpy(first, power, half * sizeof(*power));
+	for (size_t at = 0; left < half; at++)
+		power[at] = right < count && is_behind(&first[left], &power[right]) ?
+			    power[right++] : first[left++];
+}
+
 /* By rung, row and column. The sort of the C library is a kilobyte more on a board. */
 static void sort_cells(struct code_power *power, size_t count)
 {
@@ -580,6 +601,22 @@ static void sort_cells(struct code_power *power, size_t count)
 				power[k] = power[k - gap];
 			power[k] = moved;
 		}
+}
+
+/* Structured Text has the results of its lines, then those of its list, each in order. */
+static void order_cells(struct assembler *as, struct code_power *power, size_t count)
+{
+	const size_t half = in_order(power, count);
+	struct code_power *first;
+
+	if (half == count)
+		return;
+	first = in_order(power + half, count - half) == count - half ?
+		arena_alloc(as->arena, half * sizeof(*first)) : NULL;
+	if (first)
+		merge_cells(power, half, count, first);
+	else
+		sort_cells(power, count);
 }
 
 /* The lines of a list have no cells. */
@@ -629,7 +666,7 @@ static void add_power(struct assembler *as, struct maps *maps)
 		add_results(as, maps, i, frame->result, frame->result_count, CODE_LINE);
 		add_results(as, maps, i, frame->listed, frame->listed_count, CODE_LISTED);
 		if ((unit->pou->sfc || frame->listed_count) && maps->power_count > first)
-			sort_cells(maps->power + first, (size_t)(maps->power_count - first));
+			order_cells(as, maps->power + first, (size_t)(maps->power_count - first));
 	}
 }
 
