@@ -124,11 +124,32 @@ static const struct row *row_of(enum pou_language to)
 	return NULL;
 }
 
+enum verb pou_convert_verb(enum pou_language to, bool converts)
+{
+	switch (to) {
+	case LANGUAGE_LD: return converts ? VERB_convert_ld : VERB_show_ld;
+	case LANGUAGE_IL: return converts ? VERB_convert_il : VERB_show_il;
+	case LANGUAGE_ST: return converts ? VERB_convert_st : VERB_show_st;
+	case LANGUAGE_FBD: return converts ? VERB_convert_fbd : VERB_show_fbd;
+	case LANGUAGE_SFC: break;
+	}
+	return VERB_COUNT;
+}
+
 /* A function main without a language in its heading is run only as Structured Text (model/caller.h). */
 static bool is_run_by_itself(const struct project *project, const struct pou *pou)
 {
 	return pou->kind == POU_FUNCTION && pou->unsaid &&
 	       g_ascii_strcasecmp(project_text(project, pou->name), "main") == 0;
+}
+
+bool pou_can_become(const struct project *project, int pou, enum pou_language to)
+{
+	const struct pou *of = &project->pou[pou];
+	const struct row *row = row_of(to);
+
+	return row && !of->included && (row->from | row->by_ladder) & 1u << of->language &&
+	       (to != LANGUAGE_IL || (!is_run_by_itself(project, of) && !pou_has_any_bounds(of)));
 }
 
 /* ---- converting ---- */
@@ -203,8 +224,7 @@ static char *convert_text(LadderDocument *document, const char *text, const char
 	}
 	pou = &project_of(&copy)->pou[copy.pou];
 	*first = row && row->by_ladder & 1u << pou->language;
-	if (!row || pou->included || !((row->from | row->by_ladder) & 1u << pou->language) ||
-	    (to == LANGUAGE_IL && (is_run_by_itself(project_of(&copy), pou) || pou_has_any_bounds(pou))))
+	if (!pou_can_become(project_of(&copy), copy.pou, to))
 		refuse(&copy, name, to, why);
 	else
 		out = write_row(document, &copy, *first ? row_of(LANGUAGE_LD) : row, name, why);

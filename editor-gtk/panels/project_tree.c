@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/panels/project_tree.h"
 
+#include "editor-gtk/document/pou_convert.h"
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/gtk48/list.h"
@@ -621,9 +622,32 @@ static GMenu *button_menu(void)
 
 enum { POU = 1, TYPE = 2, TASK = 4, RUNS = 8 }; /* kinds of a row with a menu of its own */
 
+/* The languages that the selected POU can be shown as or converted to, if there are some. */
+static void append_languages(struct tree *tree, GMenu *section, const char *label, bool converts)
+{
+	const struct project *project = ladder_document_project(tree->document);
+	const int pou = selected_pou(tree);
+	GMenu *languages = g_menu_new();
+
+	for (int to = LANGUAGE_LD; pou >= 0 && to <= LANGUAGE_FBD; to++) {
+		const enum verb verb = pou_convert_verb((enum pou_language)to, converts);
+		GMenuItem *item;
+
+		if (!pou_can_become(project, pou, (enum pou_language)to))
+			continue;
+		item = g_menu_item_new(_(verb_row(verb)->label), NULL);
+		g_menu_item_set_action_and_target(item, "win.language-of", "(ii)", (int)verb, pou);
+		g_menu_append_item(languages, item);
+		g_object_unref(item);
+	}
+	if (g_menu_model_get_n_items(G_MENU_MODEL(languages)))
+		g_menu_append_submenu(section, _(label), G_MENU_MODEL(languages));
+	g_object_unref(languages);
+}
+
 /* The context menu of a POU, a structure, a task or a program below one. A structure cannot be moved: its order has no
  * meaning. */
-static GMenu *row_menu(unsigned of)
+static GMenu *row_menu(struct tree *tree, unsigned of)
 {
 	static const struct {
 		const char *label, *action, *keys;
@@ -654,6 +678,10 @@ static GMenu *row_menu(unsigned of)
 			menu_append(section, _(entries[i].label), entries[i].action,
 				    entries[i].keys ? entries[i].keys : verb_keys(entries[i].verb));
 		}
+	if (of == POU) {
+		append_languages(tree, section, N_("Show as"), false);
+		append_languages(tree, section, N_("Convert to"), true);
+	}
 	g_menu_append_submenu(section, _("New"), G_MENU_MODEL(fresh));
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
 	g_object_unref(section);
@@ -704,7 +732,7 @@ static void show_menu(struct tree *tree, double x, double y)
 
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	popover_menu(tree->panel, of ? row_menu(of) : menu_model(),
+	popover_menu(tree->panel, of ? row_menu(tree, of) : menu_model(),
 		     &(GdkRectangle){ (int)x, (int)y, 1, 1 }, tree->list);
 }
 

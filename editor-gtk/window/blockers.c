@@ -17,6 +17,8 @@ static void forget(struct blockers *blockers)
 	if (blockers->sheet)
 		ladder_grid_view_set_blockers(blockers->sheet, -1, NULL, 0);
 	g_clear_weak_pointer(&blockers->sheet);
+	g_clear_weak_pointer(&blockers->asked);
+	g_clear_pointer(&blockers->place, g_free);
 	g_clear_pointer(&blockers->told, g_free);
 }
 
@@ -132,11 +134,69 @@ static void tell(struct blockers *blockers, const struct why *why)
 	blockers->told = text;
 }
 
+/* ---- conditions and networks ---- */
+
+/* Where the cursor is. Caller frees. */
+static char *place_of(GtkWidget *asked)
+{
+	GtkTextBuffer *text;
+	GtkTextIter at;
+
+	if (LADDER_IS_CANVAS(asked))
+		return ladder_canvas_place(LADDER_CANVAS(asked));
+	text = GTK_TEXT_BUFFER(ladder_text_view_buffer(LADDER_TEXT_VIEW(asked)));
+	gtk_text_buffer_get_iter_at_mark(text, &at, gtk_text_buffer_get_insert(text));
+	return g_strdup_printf("%d", gtk_text_iter_get_line(&at));
+}
+
+/* NULL: nothing can be said. Caller frees. */
+static char *why_of(GtkWidget *asked)
+{
+	return LADDER_IS_FBD_VIEW(asked) ? ladder_fbd_view_why(LADDER_FBD_VIEW(asked)) :
+					   ladder_text_view_why(LADDER_TEXT_VIEW(asked));
+}
+
+/* The text follows the values while the cursor stays, and nothing else is told. */
+static void look_again(struct blockers *blockers)
+{
+	struct messages *messages = blockers->core->messages;
+	char *place = place_of(blockers->asked), *why = NULL;
+	bool stays;
+
+	if (strcmp(place, blockers->place) == 0 && gtk_widget_get_mapped(blockers->asked))
+		why = why_of(blockers->asked);
+	stays = why && (strcmp(why, blockers->told) == 0 || messages_retell(messages, blockers->told, why));
+	if (stays) {
+		g_free(blockers->told);
+		blockers->told = g_steal_pointer(&why);
+	} else {
+		messages_untell(messages, blockers->told);
+		forget(blockers);
+	}
+	g_free(why);
+	g_free(place);
+}
+
+static void tell_text(struct blockers *blockers, GtkWidget *asked, const char *nothing)
+{
+	char *why = why_of(asked);
+
+	forget(blockers);
+	messages_tell(blockers->core->messages, why ? why : nothing);
+	if (!why)
+		return;
+	blockers->told = why;
+	blockers->place = place_of(asked);
+	g_set_weak_pointer(&blockers->asked, asked);
+}
+
 /* Updates marks and text for the scan that is shown. */
 static void look(struct blockers *blockers)
 {
 	struct why *why;
 
+	if (blockers->asked)
+		look_again(blockers);
 	if (!blockers->sheet)
 		return;
 	why = g_new0(struct why, 1);
@@ -164,23 +224,6 @@ static bool meant(LadderGridView *sheet, int *row, int *col)
 	return false;
 }
 
-static void tell_condition(struct blockers *blockers, LadderTextView *list)
-{
-	char *why = ladder_text_view_why(list);
-
-	messages_tell(blockers->core->messages, why ? why :
-		      _("No condition begins in this line whose values are known."));
-	g_free(why);
-}
-
-static void tell_network(struct blockers *blockers, LadderFbdView *networks)
-{
-	char *why = ladder_fbd_view_why(networks);
-
-	messages_tell(blockers->core->messages, why ? why : _("Put the cursor on an input that is TRUE or FALSE"));
-	g_free(why);
-}
-
 void blockers_ask(struct blockers *blockers)
 {
 	LadderGridView *sheet = front_seen_sheet(blockers->core->front);
@@ -197,11 +240,13 @@ void blockers_ask(struct blockers *blockers)
 	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
 	if (!sheet && front_seen_networks(blockers->core->front)) {
-		tell_network(blockers, front_seen_networks(blockers->core->front));
+		tell_text(blockers, GTK_WIDGET(front_seen_networks(blockers->core->front)),
+			  _("Put the cursor on an input that is TRUE or FALSE"));
 		return;
 	}
 	if (!sheet && front_list(blockers->core->front)) {
-		tell_condition(blockers, front_list(blockers->core->front));
+		tell_text(blockers, GTK_WIDGET(front_list(blockers->core->front)),
+			  _("No condition begins in this line whose values are known."));
 		return;
 	}
 	if (!sheet || !meant(sheet, &row, &col)) {
@@ -226,15 +271,27 @@ void blockers_ask(struct blockers *blockers)
 
 /* ---- life ---- */
 
+/* While a simulation stands, no scan is shown. */
+static void moved(struct blockers *blockers)
+{
+	if (blockers->asked)
+		look_again(blockers);
+}
+
 void blockers_init(struct blockers *blockers, struct core *core)
 {
 	blockers->core = core;
 	core_connect(core, core->sim, "shown", G_CALLBACK(look), blockers,
 		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "program-changed", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);
+	core_connect(core, core->window, "cursor-moved", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);
+	core_connect(core, core->window, "place-changed", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);
 }
 
 void blockers_clear(struct blockers *blockers)
 {
 	g_clear_weak_pointer(&blockers->sheet);
+	g_clear_weak_pointer(&blockers->asked);
+	g_clear_pointer(&blockers->place, g_free);
 	g_clear_pointer(&blockers->told, g_free);
 }

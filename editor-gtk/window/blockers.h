@@ -3,7 +3,8 @@
  * blockers - why the element at the cursor has no power, or how power reaches it.
  *
  * trial/why.h finds the reasons. They are marked in the rung and shown in the status bar
- * for the current scan, until the command is given again.
+ * for the current scan, until the command is given again. What is said of a condition or of a network
+ * follows the values, too, and goes when the cursor moves.
  */
 #ifndef EDITOR_BLOCKERS_H
 #define EDITOR_BLOCKERS_H
@@ -16,6 +17,8 @@ struct blockers {
 	LadderGridView *sheet;  /* weak; NULL: nothing is asked */
 	int rung, row, col;     /* 0-based, of the rung                        */
 	char *told;
+	GtkWidget *asked;       /* weak; networks or a text that is asked; NULL: neither */
+	char *place;            /* of the cursor of @asked                     */
 };
 
 void blockers_init(struct blockers *blockers, struct core *core);

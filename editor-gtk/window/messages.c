@@ -78,6 +78,14 @@ void messages_untell(struct messages *messages, const char *text)
 		messages_tell(messages, "");
 }
 
+bool messages_retell(struct messages *messages, const char *before, const char *text)
+{
+	if (strcmp(gtk_label_get_text(messages->message_label), before) != 0)
+		return false;
+	messages_tell(messages, text);
+	return true;
+}
+
 bool messages_can_add(struct messages *messages)
 {
 	LadderDocument *document = messages->core->document;

@@ -29,6 +29,8 @@ void messages_clear(struct messages *messages);
 void messages_tell(struct messages *messages, const char *text);
 /** messages_untell - clears the status bar if it still says @text. */
 void messages_untell(struct messages *messages, const char *text);
+/** messages_retell - shows @text if the status bar still says @before. False: it says something else. */
+bool messages_retell(struct messages *messages, const char *before, const char *text);
 /** messages_over - clears the status bar: what it says is over. A message that was just given stays; it is about what
  * happens now. */
 void messages_over(struct messages *messages);

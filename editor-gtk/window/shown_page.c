@@ -21,7 +21,8 @@ struct _LadderShownPage {
 	LadderDocument *made;        /* in the other language; NULL: refused       */
 	GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou);
 	char *name;                  /* of the POU                                 */
-	enum pou_language to;
+	int pou;                     /* its number, to notice another name         */
+	enum pou_language from, to;
 	GArray *pous;                /* of @made: those that come from the POU     */
 	GtkLabel *label;
 	GtkDropDown *parts;          /* of @pous, if there are several             */
@@ -34,19 +35,12 @@ struct _LadderShownPage {
 
 G_DEFINE_FINAL_TYPE(LadderShownPage, ladder_shown_page, GTK_TYPE_BOX)
 
-/* Nothing can be converted to a chart. */
-static const struct { enum verb show, convert; } verbs[] = {
-	[LANGUAGE_LD] = { VERB_show_ld, VERB_convert_ld }, [LANGUAGE_IL] = { VERB_show_il, VERB_convert_il },
-	[LANGUAGE_SFC] = { VERB_COUNT, VERB_COUNT }, [LANGUAGE_ST] = { VERB_show_st, VERB_convert_st },
-	[LANGUAGE_FBD] = { VERB_show_fbd, VERB_convert_fbd },
-};
-
 bool shown_page_verb(enum verb verb, enum pou_language *to, bool *converts)
 {
-	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++) {
+	for (int i = LANGUAGE_LD; i <= LANGUAGE_FBD; i++) {
 		*to = (enum pou_language)i;
-		*converts = verb == verbs[i].convert;
-		if (verb == verbs[i].show || *converts)
+		*converts = verb == pou_convert_verb(*to, true);
+		if (verb != VERB_COUNT && (verb == pou_convert_verb(*to, false) || *converts))
 			return true;
 	}
 	return false;
@@ -64,6 +58,23 @@ bool ladder_shown_page_is_over(LadderShownPage *page)
 	const int pou = ladder_shown_page_pou(page);
 
 	return pou < 0 || ladder_document_project(page->document)->pou[pou].language == page->to;
+}
+
+bool ladder_shown_page_follow(LadderShownPage *page, bool renamed)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const int pou = ladder_shown_page_pou(page);
+
+	if (pou >= 0) {
+		page->pou = pou;
+		page->from = project->pou[pou].language;
+	}
+	if (!project || pou >= 0 || !renamed || page->pou >= project->pou_count ||
+	    project->pou[page->pou].language != page->from)
+		return false;
+	g_free(page->name);
+	page->name = g_strdup(project_text(project, project->pou[page->pou].name));
+	return true;
 }
 
 GtkWidget *ladder_shown_page_child(LadderShownPage *page)
@@ -162,8 +173,8 @@ static void say(LadderShownPage *page)
 	char *said = g_strdup_printf(text, page->name, pou_language_word(page->to));
 
 	gtk_label_set_text(page->label, said);
-	gtk_button_set_label(page->convert, _(verb_row(verbs[page->to].convert)->label));
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(page->convert), verb_row(verbs[page->to].convert)->action);
+	gtk_button_set_label(page->convert, _(verb_row(pou_convert_verb(page->to, true))->label));
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(page->convert), verb_row(pou_convert_verb(page->to, true))->action);
 	gtk_widget_set_visible(GTK_WIDGET(page->convert), page->made != NULL);
 	g_free(said);
 }
@@ -240,6 +251,7 @@ void ladder_shown_page_set(LadderShownPage *page, int pou, enum pou_language to)
 	g_free(page->name);
 	page->name = g_strdup(project_text(project, project->pou[pou].name));
 	page->to = to;
+	ladder_shown_page_follow(page, false);
 	show_now(page);
 }
 

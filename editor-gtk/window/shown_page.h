@@ -25,6 +25,9 @@ void ladder_shown_page_set(LadderShownPage *page, int pou, enum pou_language to)
 int ladder_shown_page_pou(LadderShownPage *page);
 /** ladder_shown_page_is_over - is the POU gone, or in that language itself? */
 bool ladder_shown_page_is_over(LadderShownPage *page);
+/** ladder_shown_page_follow - after the project changed; @renamed: it has as many POUs as before. True: the POU has
+ * another name, which the page has now, too. */
+bool ladder_shown_page_follow(LadderShownPage *page, bool renamed);
 /** ladder_shown_page_child - the page that was made; NULL: the POU cannot be written in the language. */
 GtkWidget *ladder_shown_page_child(LadderShownPage *page);
 /** ladder_shown_page_title - "Main as ST". Caller frees. */

@@ -207,20 +207,23 @@ void tabs_show(struct tabs *tabs, int pou)
 	select_page(tabs, page);
 }
 
+static void title_shown(AdwTabPage *page)
+{
+	char *title = ladder_shown_page_title(LADDER_SHOWN_PAGE(page_content(page)));
+
+	adw_tab_page_set_title(page, title);
+	g_free(title);
+}
+
 /* One page shows POUs in other languages; the blank makes its name different from that of any POU. */
 void tabs_show_as(struct tabs *tabs, int pou, enum pou_language to)
 {
 	AdwTabPage *page = find_page(tabs, " as");
-	LadderShownPage *shown;
-	char *title;
 
 	if (!page)
 		page = add_page(tabs, ladder_shown_page_new(tabs->core, page_new), " as", "");
-	shown = LADDER_SHOWN_PAGE(page_content(page));
-	ladder_shown_page_set(shown, pou, to);
-	title = ladder_shown_page_title(shown);
-	adw_tab_page_set_title(page, title);
-	g_free(title);
+	ladder_shown_page_set(LADDER_SHOWN_PAGE(page_content(page)), pou, to);
+	title_shown(page);
 	select_page(tabs, page);
 	front_enter(tabs->core->front);
 }
@@ -748,8 +751,11 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 		return true; /* it does not depend on the project */
 	if (strcmp(name, " compare") == 0 || strcmp(name, " preview") == 0)
 		return true; /* they stay, and say that the project cannot be read */
-	if (LADDER_IS_SHOWN_PAGE(widget))
+	if (LADDER_IS_SHOWN_PAGE(widget)) {
+		if (ladder_shown_page_follow(LADDER_SHOWN_PAGE(widget), renamed))
+			title_shown(page);
 		return !ladder_shown_page_is_over(LADDER_SHOWN_PAGE(widget));
+	}
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));

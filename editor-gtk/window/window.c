@@ -282,18 +282,15 @@ static void convert(LadderWindow *window, int pou, enum pou_language to)
 	g_free(why);
 }
 
-static bool do_language(LadderWindow *window, enum verb verb)
+static void do_language_of(LadderWindow *window, enum verb verb, int pou)
 {
-	const int pou = front_pou(&window->front);
 	const struct project *project = ladder_document_project(window->core.document);
 	enum pou_language to;
 	bool converts;
 	char *text;
 
-	if (!shown_page_verb(verb, &to, &converts))
-		return false;
-	if (pou < 0)
-		return true;
+	if (!shown_page_verb(verb, &to, &converts) || !project || pou < 0 || pou >= project->pou_count)
+		return;
 	if (project->pou[pou].language == to) {
 		text = g_strdup_printf(_("“%s” is in %s already"), project_text(project, project->pou[pou].name),
 				       pou_language_word(to));
@@ -304,6 +301,16 @@ static bool do_language(LadderWindow *window, enum verb verb)
 	} else {
 		tabs_show_as(&window->tabs, pou, to);
 	}
+}
+
+static bool do_language(LadderWindow *window, enum verb verb)
+{
+	enum pou_language to;
+	bool converts;
+
+	if (!shown_page_verb(verb, &to, &converts))
+		return false;
+	do_language_of(window, verb, front_pou(&window->front));
 	return true;
 }
 
@@ -654,6 +661,15 @@ static void go_to(GtkWidget *widget, const char *name, GVariant *place)
 	tabs_go(&LADDER_WINDOW(widget)->tabs, pou, rung, row, col);
 }
 
+static void language_of(GtkWidget *widget, const char *name, GVariant *of)
+{
+	int verb, pou;
+
+	(void)name;
+	g_variant_get(of, "(ii)", &verb, &pou);
+	do_language_of(LADDER_WINDOW(widget), (enum verb)verb, pou);
+}
+
 static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 {
 	struct core *core = &LADDER_WINDOW(widget)->core;
@@ -821,6 +837,7 @@ static void install_actions(GtkWidgetClass *class)
 	for (gsize i = 0; i < G_N_ELEMENTS(on_text); i++)
 		gtk_widget_class_install_action(class, on_text[i], "s", act_on_text);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
+	gtk_widget_class_install_action(class, "win.language-of", "(ii)", language_of);
 	for (gsize i = 0; i < G_N_ELEMENTS(on_pou); i++)
 		gtk_widget_class_install_action(class, on_pou[i], "i", act_on_pou);
 	for (gsize i = 0; i < G_N_ELEMENTS(on_type); i++)

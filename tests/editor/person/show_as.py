@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """A ladder is shown as a list and as Structured Text, with values, and converted; a refusal leads to its cell."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -50,6 +51,13 @@ def shows(editor, *parts):
         texts = [node.text() for node in editor.all(role='text')]
         return next((text for text in texts if all(part in text for part in parts)), None)
     return until(look, 'the text with %s' % ', '.join(parts))
+
+
+def darkest(widget):
+    """Red, green and blue of the middle of a widget's lower edge, where nothing is drawn."""
+    x, y = widget.editor.centre(widget)
+    body = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '1x1+%d+%d' % (x, y), 'rgb:-'], capture_output=True).stdout
+    return tuple(body)
 
 
 def described(text):
@@ -141,6 +149,85 @@ def refused(screen):
     editor.finish()
 
 
+BELT = '''RUNGBOARD 1
+
+PROGRAM Belt LD
+RUNG
+  | NO %IX0.3 | COIL %QX0.3 |
+END_PROGRAM
+'''
+
+
+def included(screen):
+    """a program of another file: the reason names that file, for each language, and leads to its page"""
+    path = new_file(screen, PROGRAM.replace('\nPROGRAM', '\nINCLUDE "belt.rung"\n\nPROGRAM'))
+    with open(os.path.join(os.path.dirname(path), 'belt.rung'), 'w') as other:
+        other.write(BELT)
+    editor = Editor(screen, path)
+    row = until(lambda: [node for node in editor.all('Belt', 'label') if node.name == 'Belt'], 'the row in the tree')[0]
+    editor.click(row, count=2)
+    until(lambda: editor.all('%QX0.3'), 'the page')
+    for key, language in ('ctrl+4', 'ST'), ('ctrl+3', 'IL'), ('ctrl+1', 'FBD'):
+        editor.keys(key)
+        says(editor, '“Belt” cannot be shown as ' + language)
+        until(lambda: [node for node in editor.all('"Belt" stands in another file') if 'belt.rung' in node.name], 'the file')
+        until(lambda: editor.all('LD787'), 'its code')
+    editor.shot('show-included')
+    assert not editor.all('is in LD and cannot'), 'the wrong reason'
+    editor.finish()
+
+
+def renamed(screen):
+    """the page stays with its program when that gets another name, and follows it"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+4')
+    says(editor, '“Main” as ST, read-only')
+    row = [node for node in editor.all('Main', 'label') if node.name == 'Main' and node.box()[0] < 215][0]
+    editor.click(row)
+    editor.keys('F2')
+    until(lambda: [node for node in editor.all(role='text') if node.has(12) and node.text() == 'Main'], 'the name to be asked for')
+    editor.keys('ctrl+a')
+    editor.type('Drive')
+    editor.keys('Return')
+    says(editor, '“Drive” as ST, read-only')
+    until(lambda: [node for node in editor.all('Drive as ST') if node.name == 'Drive as ST'], 'the title of its tab')
+    shows(editor, 'PROGRAM Drive ST', 'Motor := (Start OR Motor) AND NOT Stop;')
+    editor.shot('show-renamed')
+    editor.keys('ctrl+z')
+    says(editor, '“Main” as ST, read-only')
+    shows(editor, 'PROGRAM Main ST')
+    editor.finish()
+
+
+def tree(screen):
+    """the menu of a row shows and converts the program of that row, in the languages that it can have"""
+    path = new_file(screen, PROGRAM + '\nPROGRAM Belt ST\n  %QX0.3 := %IX0.3;\nEND_PROGRAM\n')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+
+    def choose(name, *entries):
+        row = [node for node in editor.all(name, 'label') if node.name == name and node.box()[0] < 215][0]
+        editor.click(row, button=3)
+        until(lambda: editor.all('Duplicate…', 'menu item'), 'the menu of the row')
+        for entry in entries:
+            editor.find(entry, 'menu item').press()
+    choose('Main', 'Show as', 'Show as networks')
+    says(editor, '“Main” as FBD, read-only')
+    editor.shot('show-tree')
+    choose('Belt', 'Show as')
+    until(lambda: editor.all('Show as instruction list', 'menu item'), 'a language')
+    assert not editor.all('Show as networks', 'menu item'), 'Structured Text does not become networks'
+    editor.shot('show-tree-menu')
+    editor.find('Show as instruction list', 'menu item').press()
+    says(editor, '“Belt” as IL, read-only')
+    choose('Main', 'Convert to', 'Convert to Structured Text')
+    says(editor, '“Main” is in ST now')
+    assert 'PROGRAM Main ST' in editor.save(path)
+    editor.finish()
+
+
 def chinese(screen):
     """a small window, in Chinese"""
     editor = Chinese(screen, new_file(screen, REFUSED))
@@ -164,7 +251,10 @@ def dark(screen):
     editor.command('Show as ladder')
     says(editor, '“Way” as LD, read-only')
     until(lambda: editor.all('Way_Steps'), 'the ladders')
+    until(lambda: editor.element('NO', 'Go'), 'the condition as a contact')
     editor.shot('show-dark')
+    dark = darkest(editor.sheet())
+    assert max(dark) < 64, 'the sheet is %s in the dark' % (dark,)
     editor.finish()
 
 
@@ -187,4 +277,4 @@ def networks(screen):
 
 
 if __name__ == '__main__':
-    main([shown, converted, refused, networks, chinese, dark])
+    main([shown, converted, refused, included, renamed, tree, networks, chinese, dark])
