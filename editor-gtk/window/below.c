@@ -166,10 +166,16 @@ static void draw_whole_tabs(struct below *below, bool full)
 	graphene_rect_t at;
 
 	for (GtkWidget *tab = gtk_widget_get_first_child(below->switcher); tab;
-	     tab = gtk_widget_get_next_sibling(tab))
-		gtk_widget_set_child_visible(
-			tab, !full || (gtk_widget_compute_bounds(tab, below->switcher, &at) &&
-			at.origin.x >= left && at.origin.x + at.size.width <= right));
+	     tab = gtk_widget_get_next_sibling(tab)) {
+		const bool whole = !full || (gtk_widget_compute_bounds(tab, below->switcher, &at) &&
+			at.origin.x >= left && at.origin.x + at.size.width <= right);
+
+		if (whole == gtk_widget_get_child_visible(tab))
+			continue;
+		gtk_widget_set_child_visible(tab, whole);
+		if (whole) /* GTK lays out no tab that is not drawn */
+			gtk_widget_queue_resize(tab);
+	}
 }
 
 /* Scrolls as little as shows the tab of the current panel; the first tab drawn is whole. */
@@ -200,15 +206,20 @@ static int widest_tab(struct below *below)
 	return widest;
 }
 
-static void show_more(struct below *below)
+static bool is_full(struct below *below)
 {
 	GtkWidget *more = GTK_WIDGET(below->more);
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
 	const int button = gtk_widget_get_visible(more) ? gtk_widget_get_width(more) : 0;
-	const bool full = gtk_widget_get_width(below->switcher) >
-			  gtk_adjustment_get_page_size(along) + button + 1;
 
-	gtk_widget_set_visible(more, full);
+	return gtk_widget_get_width(below->switcher) > gtk_adjustment_get_page_size(along) + button + 1;
+}
+
+static void show_more(struct below *below)
+{
+	const bool full = is_full(below);
+
+	gtk_widget_set_visible(GTK_WIDGET(below->more), full);
 	/* Room to scroll the last tab to where a tab begins. */
 	gtk_widget_set_margin_end(below->switcher, full ? widest_tab(below) : 0);
 	reveal_tab(below);
@@ -223,6 +234,23 @@ static gboolean look_at_room(gpointer data)
 		show_more(below);
 	g_object_unref(below->core->window);
 	return G_SOURCE_REMOVE;
+}
+
+static gboolean look_at_tabs(gpointer data)
+{
+	struct below *below = data;
+
+	if (below->tabs)
+		draw_whole_tabs(below, is_full(below));
+	g_object_unref(below->core->window);
+	return G_SOURCE_REMOVE;
+}
+
+/* By the wheel over the tabs, or because another tab has the focus. */
+static void scrolled(struct below *below)
+{
+	g_object_ref(below->core->window);
+	g_idle_add_full(G_PRIORITY_HIGH_IDLE, look_at_tabs, below, NULL);
 }
 
 /* GTK forbids to show or hide widgets during layout, so it is done in an idle call. */
@@ -242,6 +270,7 @@ void below_init(struct below *below, struct core *core)
 	gtk_menu_button_set_create_popup_func(below->more, fill_more, below, NULL);
 	core_connect(core, along, "changed", G_CALLBACK(room_changed), below,
 		     G_CONNECT_SWAPPED);
+	core_connect(core, along, "value-changed", G_CALLBACK(scrolled), below, G_CONNECT_SWAPPED);
 	core_connect(core, below->stack, "notify::visible-child",
 		     G_CALLBACK(room_changed), below, G_CONNECT_SWAPPED);
 }

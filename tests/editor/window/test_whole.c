@@ -5,6 +5,7 @@
  * also each text in a list, and no list is wider than its place.
  */
 #include "editor-gtk/kit/cell_entry.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"
@@ -277,6 +278,7 @@ int main(void)
 	adw_init();
 	gtk_source_init();
 	app_style();
+	slow_bar_choose_all();
 	map = write_map();
 	for (gsize i = 0; i < G_N_ELEMENTS(languages); i++) {
 		speak(languages[i]);
