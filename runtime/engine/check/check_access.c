@@ -222,8 +222,11 @@ static struct var like(const struct meaning *m)
 {
 	struct var var = { .type = m->type };
 
-	if (m->kind == MEANING_ARRAY)
+	if (m->kind == MEANING_ARRAY) {
 		var.array = m->array;
+		var.dims = m->dims;
+		var.dim = (struct var_array *)(uintptr_t)m->dim;
+	}
 	if (m->type == IEC_NONE)
 		var.fb = (enum word)m->word;
 	if (m->type != IEC_STRING)
@@ -239,7 +242,8 @@ static bool same_type(const struct var *a, const struct var *written)
 {
 	return a->type == written->type && a->fb == written->fb &&
 	       a->array.count == written->array.count &&
-	       (!a->array.count || a->array.low == written->array.low) &&
+	       (!a->array.count || (a->array.low == written->array.low &&
+				    vars_same_bounds(a->dim, a->dims, written->dim, written->dims))) &&
 	       (a->type != IEC_STRING || !a->capacity || a->capacity == written->capacity);
 }
 

@@ -52,8 +52,13 @@ static bool il_report_wrong(struct il_check *c, const struct il_line *line, cons
 	return il_report(&c->fn, line, DIAG_WRONG_TYPE, text);
 }
 
-/* As it is written: without the sign of REF(Name). */
 static const char *il_operand_text(struct il_check *c, const struct il_line *line)
+{
+	return scope_said(c->fn.scope, line->operand);
+}
+
+/* Without REF( ). */
+static const char *il_name_text(struct il_check *c, const struct il_line *line)
 {
 	const char *text = scope_text(c->fn.scope, line->operand);
 
@@ -66,7 +71,7 @@ static bool il_report_near(struct il_check *c, const struct il_line *line, enum 
 {
 	char text[LIMIT_ARG];
 	const enum diag_id better = advice_word(scope_project(c->fn.scope), c->fn.pou, kinds,
-						c->fn.diags, il_operand_text(c, line), text,
+						c->fn.diags, il_name_text(c, line), text,
 						sizeof(text));
 
 	return il_report(&c->fn, line, better != DIAG_COUNT ? better : id, text);
@@ -252,6 +257,9 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 		return true;
 	if (m->kind == MEANING_LITERAL || m->constant)
 		return il_report(&c->fn, line, DIAG_WRITE_CONSTANT, il_operand_text(c, line));
+	if (m->address_of)
+		return il_report(&c->fn, line, m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE,
+				 il_name_text(c, line));
 	if (!m->writable)
 		return il_report(&c->fn, line, m->kind == MEANING_PIN ?
 			      DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT,
@@ -339,7 +347,7 @@ static bool check_load(struct il_check *c, int at)
 	}
 	m = as_value(c, line, m);
 	/* After an error: no result, and no second error. */
-	c->now = (struct il_result){ .there = true, .type = IEC_BOOL };
+	c->now = (struct il_result){ .there = true, .type = m ? IEC_BOOL : IEC_NONE };
 	if (!m)
 		return false;
 	if (line->modifiers & MOD_N && !il_is_bits(il_result_of(c, line, m)))
@@ -621,64 +629,12 @@ static struct il_result value_of(const struct meaning *m)
 
 /* ---- shapes ---- */
 
-static bool is_like(const struct meaning *m, const struct word_pin *pin)
-{
-	if (pin->elements)
-		return m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
-		       m->type == pin->type && m->array.low == pin->low &&
-		       m->array.count == pin->elements &&
-		       (pin->type != IEC_NONE || m->word == pin->word) &&
-		       (pin->type != IEC_STRING || m->capacity == pin->capacity);
-	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) && m->addr.area == AREA_NONE &&
-	       pin->type == IEC_NONE && m->word == pin->word;
-}
-
-/** il_check_shape - is @m a structure, array or instance of the type that @pin declares? */
-static bool il_check_shape(struct il_check *c, const struct il_line *arg,
-			   const struct meaning *m, const struct word_pin *pin)
-{
-	const char *word = pin->type == IEC_NONE ? scope_row(c->fn.scope, pin->word)->word :
-						   iec_type_row(pin->type)->word;
-	const char *operand = il_operand_text(c, arg);
-	char text[2 * LIMIT_ARG], room[16] = "";
-
-	if (is_like(m, pin))
-		return true;
-	if (!pin->elements && m->kind == MEANING_STRUCT && m->word == pin->word && m->addr.area != AREA_NONE) {
-		snprintf(text, sizeof(text), "%.20s" DIAG_AND "%.40s", operand, word);
-		return il_report(&c->fn, arg, DIAG_AT_WHOLE, text);
-	}
-	if (!pin->elements)
-		return il_report_wrong(c, arg, operand, word);
-	if (pin->type == IEC_STRING)
-		snprintf(room, sizeof(room), "[%u]", pin->capacity);
-	snprintf(text, sizeof(text), "%.20s" DIAG_AND "ARRAY[%ld..%lld] OF %.20s%s", operand,
-		 (long)pin->low, (long long)pin->low + pin->elements - 1, word, room);
-	return il_report(&c->fn, arg, m->addr.area == AREA_NONE ? DIAG_WRONG_TYPE : DIAG_AT_WHOLE,
-			 text);
-}
-
-static bool check_in_out(struct il_check *c, const struct il_line *arg,
-			 const struct meaning *m, const struct word_pin *pin)
-{
-	if (pin->type == IEC_NONE)
-		return il_check_shape(c, arg, m, pin) &&
-		       (m->kind == MEANING_INSTANCE || can_write(c, arg, m));
-	if (!is_plain(c, arg, m) || !can_write(c, arg, m))
-		return false;
-	if (m->type == pin->type)
-		return true;
-	return il_report_wrong(c, arg, il_operand_text(c, arg),
-			       iec_type_row(pin->type)->word);
-}
-
 /* The variable of a block or function of the project that @pin was made from; NULL: none. */
 static const struct var *pin_variable(const struct il_check *c, const struct word_pin *pin)
 {
 	const struct project *project = scope_project(c->fn.scope);
-	const bool any = project->enumeration_count || project->ranges;
 
-	for (int i = 0; any && i < project->words.count; i++) {
+	for (int i = 0; i < project->words.count; i++) {
 		const struct word_row *row = project->words.row[i];
 		const struct var_table *table;
 
@@ -690,6 +646,92 @@ static const struct var *pin_variable(const struct il_check *c, const struct wor
 	return NULL;
 }
 
+/* Dimensions of the array that a pin takes. */
+struct pin_dims {
+	const struct var_array *dim;
+	int dims;
+};
+
+static bool is_like(const struct meaning *m, const struct word_pin *pin, struct pin_dims dims)
+{
+	if (pin->elements)
+		return m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
+		       m->type == pin->type && m->array.low == pin->low &&
+		       m->array.count == pin->elements &&
+		       vars_same_bounds(m->dim, m->dims, dims.dim, dims.dims) &&
+		       (pin->type != IEC_NONE || m->word == pin->word) &&
+		       (pin->type != IEC_STRING || m->capacity == pin->capacity);
+	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) && m->addr.area == AREA_NONE &&
+	       pin->type == IEC_NONE && m->word == pin->word;
+}
+
+/* `[1..2, 0..3]` */
+static void print_bounds(const struct word_pin *pin, struct pin_dims dims, char *out, size_t size)
+{
+	const struct var_array one = pin_array(pin), *dim = dims.dims > 1 ? dims.dim : &one;
+	size_t used = 0;
+
+	for (int i = 0; i < (dims.dims > 1 ? dims.dims : 1) && used < size; i++)
+		used += (size_t)snprintf(out + used, size - used, "%s%ld..%lld", i ? ", " : "", (long)dim[i].low,
+					 (long long)dim[i].low + dim[i].count - 1);
+}
+
+/** il_check_shape - is @m a structure, array or instance of the type that @pin declares? */
+static bool il_check_shape(struct il_check *c, const struct il_line *arg,
+			   const struct meaning *m, const struct word_pin *pin, struct pin_dims dims)
+{
+	const char *word = pin->type == IEC_NONE ? scope_row(c->fn.scope, pin->word)->word :
+						   iec_type_row(pin->type)->word;
+	const char *operand = il_operand_text(c, arg);
+	char text[2 * LIMIT_ARG], room[16] = "", bounds[LIMIT_ARG];
+
+	if (is_like(m, pin, dims))
+		return true;
+	if (!pin->elements && m->kind == MEANING_STRUCT && m->word == pin->word && m->addr.area != AREA_NONE) {
+		snprintf(text, sizeof(text), "%.20s" DIAG_AND "%.40s", operand, word);
+		return il_report(&c->fn, arg, DIAG_AT_WHOLE, text);
+	}
+	if (!pin->elements)
+		return il_report_wrong(c, arg, operand, word);
+	if (pin->type == IEC_STRING)
+		snprintf(room, sizeof(room), "[%u]", pin->capacity);
+	print_bounds(pin, dims, bounds, sizeof(bounds));
+	snprintf(text, sizeof(text), "%.20s" DIAG_AND "ARRAY[%.60s] OF %.20s%s", operand, bounds, word, room);
+	return il_report(&c->fn, arg, m->addr.area == AREA_NONE ? DIAG_WRONG_TYPE : DIAG_AT_WHOLE,
+			 text);
+}
+
+static bool check_whole(struct il_check *c, const struct il_line *arg, const struct meaning *m,
+			const struct word_pin *pin)
+{
+	const struct var *var = pin->elements ? pin_variable(c, pin) : NULL;
+
+	return il_check_shape(c, arg, m, pin, var ? (struct pin_dims){ var->dim, var->dims } :
+						    (struct pin_dims){ NULL, 0 });
+}
+
+static bool check_in_out(struct il_check *c, const struct il_line *arg,
+			 const struct meaning *m, const struct word_pin *pin)
+{
+	if (pin->type == IEC_NONE)
+		return check_whole(c, arg, m, pin) &&
+		       (m->kind == MEANING_INSTANCE || can_write(c, arg, m));
+	if (!is_plain(c, arg, m) || !can_write(c, arg, m))
+		return false;
+	if (m->type == pin->type)
+		return true;
+	return il_report_wrong(c, arg, il_operand_text(c, arg),
+			       iec_type_row(pin->type)->word);
+}
+
+/* What a pin may hold; NULL: what its type holds. */
+static const struct var *holder_of(const struct il_check *c, const struct word_pin *pin)
+{
+	const struct project *project = scope_project(c->fn.scope);
+
+	return project->enumeration_count || project->ranges ? pin_variable(c, pin) : NULL;
+}
+
 /* @m: the operand at the pin. */
 static bool check_value(struct il_check *c, const struct il_line *arg,
 			const struct meaning *m, const struct word_pin *pin)
@@ -697,18 +739,18 @@ static bool check_value(struct il_check *c, const struct il_line *arg,
 	bool output = pin->dir == PIN_OUT;
 
 	if (pin->elements)
-		return il_check_shape(c, arg, m, pin) &&
+		return check_whole(c, arg, m, pin) &&
 		       (pin->dir == PIN_IN || can_write(c, arg, m));
 	if (pin->dir == PIN_IN_OUT)
 		return check_in_out(c, arg, m, pin);
 	if (pin->type == IEC_NONE)
-		return il_check_shape(c, arg, m, pin) &&
+		return check_whole(c, arg, m, pin) &&
 		       (!output || can_write(c, arg, m));
 	if (!is_plain(c, arg, m))
 		return false;
 	if (!output)
 		return can_store(c, arg, il_result_of(c, arg, m), pin->type) &&
-		       may_hold(c, arg, il_result_of(c, arg, m), pin_variable(c, pin));
+		       may_hold(c, arg, il_result_of(c, arg, m), holder_of(c, pin));
 	return can_write(c, arg, m) &&
 	       can_store(c, arg, (struct il_result){ .there = true, .type = pin->type },
 			    m->type);
@@ -862,10 +904,11 @@ static bool il_check_same(struct il_check *c, const struct il_line *arg,
 			  const struct meaning *m, const struct meaning *like)
 {
 	const struct word_pin pin = pin_like(like);
+	const struct pin_dims dims = { like->dim, like->kind == MEANING_ARRAY ? like->dims : 0 };
 
 	if (like->addr.area != AREA_NONE) /* a variable with AT cannot be copied whole */
-		return il_check_shape(c, arg, like, &pin);
-	return il_check_shape(c, arg, m, &pin);
+		return il_check_shape(c, arg, like, &pin, dims);
+	return il_check_shape(c, arg, m, &pin, dims);
 }
 
 /* ST of a structure or array. */
@@ -996,6 +1039,9 @@ static bool check_result(struct il_check *c, const struct il_line *arg,
 	pin.low = var->array.low;
 	if (var->type == IEC_NONE)
 		pin.word = var->fb;
+	if (pin.elements)
+		return il_check_shape(c, arg, m, &pin, (struct pin_dims){ var->dim, var->dims }) &&
+		       can_write(c, arg, m);
 	return check_value(c, arg, m, &pin);
 }
 
@@ -1024,7 +1070,7 @@ static bool il_check_own_call(struct il_check *c, int at)
 
 		if (strcasecmp(pin, output ? "ENO" : "EN") == 0)
 			good &= il_check_power(c, arg, output);
-		else if (output && strcasecmp(pin, "OUT") == 0)
+		else if (output && strcasecmp(pin, words_result(row)) == 0)
 			good &= check_result(c, arg, result_var(c, at));
 		else
 			good &= il_check_pin(c, row, arg);

@@ -167,6 +167,14 @@ static bool is_taken(const struct names_check *c, const char *name)
 	return !c->project->words.own_first && words_is_taken(name);
 }
 
+/* No cell and no instruction begins with the name of a type, so it may be R or LD. */
+static bool is_taken_type(const struct names_check *c, const char *name)
+{
+	const size_t len = strlen(name);
+
+	return is_taken(c, name) && word_find(name, len) != WORD_COUNT && !words_is_operator(name, len);
+}
+
 /* ---- declarations ---- */
 
 static bool fits(const struct var *var)
@@ -180,6 +188,14 @@ static bool fits(const struct var *var)
 static bool is_result(const char *name)
 {
 	return ascii_is("OUT", name, strlen(name));
+}
+
+/* In plain IEC text a program or block may declare EN and ENO, as variables like others. */
+static bool may_be_power(const struct names_check *c, const struct pou *pou, const char *name)
+{
+	return c->project->words.own_first && pou && pou->language == LANGUAGE_ST &&
+	       (pou->kind == POU_PROGRAM || pou->kind == POU_BLOCK) &&
+	       (ascii_is("EN", name, strlen(name)) || ascii_is("ENO", name, strlen(name)));
 }
 
 /* Counts elements too; bounded, because each is looked at later. */
@@ -430,9 +446,9 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	/* The printed list of `ladder il` declares its temporaries. */
 	if (var_is_nameless(var))
 		; /* its name is an address */
-	else if (is_reserved(c, name, var->fold) ||
+	else if ((is_reserved(c, name, var->fold) && !may_be_power(c, pou, name)) ||
 	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
-	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
+	    (pou && pou->kind == POU_FUNCTION && is_result(name) && !c->project->words.own_first))
 		report_var(c, DIAG_RESERVED_NAME, pou, var, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_var(c, DIAG_SHADOWS_ADDRESS, pou, var, name);
@@ -454,14 +470,10 @@ static void check_var(struct names_check *c, const struct pou *pou,
 /* ARRAY[1..N] is ARRAY[1..3] if N is 3. */
 static bool is_same_array(const struct var *a, const struct var *b)
 {
-	bool same = a->array.count && a->array.count == b->array.count && a->array.low == b->array.low &&
-		    a->dims == b->dims && a->type == b->type && a->fb == b->fb && a->capacity == b->capacity &&
-		    a->named == b->named && !a->target && !b->target && a->enumeration == b->enumeration &&
-		    !a->range && !b->range;
-
-	for (int i = 0; same && a->dims > 1 && i < a->dims; i++)
-		same = a->dim[i].low == b->dim[i].low && a->dim[i].count == b->dim[i].count;
-	return same;
+	return a->array.count && a->array.count == b->array.count && a->array.low == b->array.low &&
+	       vars_same_bounds(a->dim, a->dims, b->dim, b->dims) && a->type == b->type && a->fb == b->fb &&
+	       a->capacity == b->capacity && a->named == b->named && !a->target && !b->target &&
+	       a->enumeration == b->enumeration && !a->range && !b->range;
 }
 
 /* VAR_EXTERNAL: a global of this name and type. */
@@ -546,7 +558,7 @@ static void check_structures(struct names_check *c)
 			check_members(c, i + 1);
 			continue;
 		}
-		if (is_reserved(c, name, fold) || is_taken(c, name))
+		if (is_reserved(c, name, fold) || is_taken_type(c, name))
 			report_struct(c, DIAG_RESERVED_NAME, structure,
 				      structure->line, structure->name);
 		if (mark && mark->pou)
@@ -575,7 +587,7 @@ static void check_named(struct names_check *c)
 
 		if (!type->like.var)
 			continue;
-		if (is_reserved(c, name, type->fold) || is_taken(c, name))
+		if (is_reserved(c, name, type->fold) || is_taken_type(c, name))
 			report_named(c, DIAG_RESERVED_NAME, type);
 		if (mark && mark->pou)
 			report_named(c, DIAG_DUPLICATE_NAME, type);

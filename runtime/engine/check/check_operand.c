@@ -155,7 +155,8 @@ static const struct meaning *operand_refuse(struct operand_check *c, enum diag_i
 				    struct operand_spot at, uint32_t name,
 				    const struct meaning *m)
 {
-	operand_report(c, id, at, project_text(c->project, name));
+	operand_report(c, id, at, m->address_of && (id == DIAG_NO_REFERENCE || id == DIAG_POINTER_ITSELF) ?
+			   project_text(c->project, name) + 1 : scope_said(c->scope, name));
 	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 	return NULL;
 }
@@ -191,6 +192,8 @@ static enum diag_id write_fault(const struct meaning *m)
 		return meaning_fault(m);
 	if (m->constant || m->kind == MEANING_LITERAL)
 		return DIAG_WRITE_CONSTANT;
+	if (m->address_of)
+		return m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE;
 	if (m->writable)
 		return DIAG_COUNT;
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
@@ -221,7 +224,7 @@ static void check_bool(struct operand_check *c, struct operand_spot at, uint32_t
 		       const struct meaning *m)
 {
 	if (m && m->type != IEC_BOOL)
-		operand_report(c, DIAG_NOT_BOOL, at, project_text(c->project, id));
+		operand_report(c, DIAG_NOT_BOOL, at, scope_said(c->scope, id));
 }
 
 /* A whole array that is written. */

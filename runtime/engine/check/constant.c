@@ -58,7 +58,7 @@ bool il_report_types(struct fn_check *c, const struct il_line *line,
 {
 	const struct il_line *call = line;
 	const char *operand = line->operand ?
-		scope_text(c->scope, line->operand) : "";
+		scope_said(c->scope, line->operand) : "";
 	char text[LIMIT_ARG];
 
 	while (call->kind == IL_ARG_IN && call > c->il->line)

@@ -1326,7 +1326,7 @@ uint32_t scope_type_bytes(struct scope *scope, const char *text, size_t len)
 	const enum iec_type type = iec_type_find(text, len);
 	const int named = named_find(scope->project, names_fold(names, names_intern(names, text, len)));
 	const struct var *like = named < 0 ? NULL : scope->project->named[named].like.var;
-	const enum word word = words_find(&scope->project->words, text, len);
+	const enum word word = words_find_type(&scope->project->words, text, len);
 
 	if (type != IEC_NONE)
 		return type == IEC_STRING ? IEC_STRING_DEFAULT + 1 : iec_type_row(type)->size;
@@ -1348,6 +1348,20 @@ uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)
 const char *scope_text(const struct scope *scope, uint32_t id)
 {
 	return names_text(&scope->project->names, id);
+}
+
+const char *scope_said(struct scope *scope, uint32_t id)
+{
+	struct names *names = &scope->project->names;
+	const char *text = names_text(names, id);
+	char said[LIMIT_ARG];
+	int len;
+
+	if (*text != '&' && *text != '@')
+		return text;
+	len = snprintf(said, sizeof(said), "REF(%.60s)", text + 1);
+	id = names_intern(names, said, (size_t)len);
+	return id ? names_text(names, id) : text + 1;
 }
 
 void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,

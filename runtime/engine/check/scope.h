@@ -191,6 +191,8 @@ const struct word_row *scope_row(const struct scope *scope, enum word word);
 uint32_t scope_bytes(const struct scope *scope, const struct meaning *m);
 /** scope_type_bytes - what SIZEOF gives of the type with this name; 0: there is none. Scan-safe: no. */
 uint32_t scope_type_bytes(struct scope *scope, const char *text, size_t len);
+/** scope_said - scope_text() as it is written: REF(Name) for the place of a variable. Scan-safe: no. */
+const char *scope_said(struct scope *scope, uint32_t id);
 /** scope_tell - the arguments of a message about a name without a meaning, as named_tell(); of
  * DIAG_NO_SUCH_PART the part and the type of what should have it. Scan-safe: no. */
 void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,

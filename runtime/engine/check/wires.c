@@ -111,7 +111,8 @@ static void declare_before(struct wiring *w)
 static bool is_same(const struct var *a, const struct var *b)
 {
 	return a->type == b->type && a->fb == b->fb && a->array.count == b->array.count &&
-	       a->array.low == b->array.low && a->capacity == b->capacity;
+	       a->array.low == b->array.low && a->capacity == b->capacity &&
+	       vars_same_bounds(a->dim, a->dims, b->dim, b->dims);
 }
 
 /* The wire gets the type of @like. */

@@ -407,14 +407,26 @@ static struct expr_tail token_text(const struct lex *lex)
 	return (struct expr_tail){ lex->token.text, (uint16_t)lex->token.len };
 }
 
+bool expr_inverts(const struct lex *lex)
+{
+	struct lex ahead = *lex;
+
+	return lex_is(&ahead, "NOT") && lex_next(&ahead) == TOKEN_NAME && lex_next(&ahead) == TOKEN_SYMBOL &&
+	       lex_is(&ahead, "=>");
+}
+
 /* `MN :=` or `OUT =>` before an argument, if it is there. */
 static bool take_pin(struct parser *parser)
 {
 	struct expr_call *call = &parser->out->call[parser->called - 1];
-	struct lex ahead = *parser->lex;
+	struct lex ahead;
 
 	call->pin = (struct expr_tail){ "", 0 };
 	call->output = false;
+	call->inverted = expr_inverts(parser->lex);
+	if (call->inverted)
+		lex_next(parser->lex);
+	ahead = *parser->lex;
 	if (ahead.token.kind != TOKEN_NAME)
 		return true;
 	lex_next(&ahead);
@@ -454,7 +466,7 @@ static bool add_call(struct parser *parser, const struct expr_call *call)
 /* At the name of a function. @more: its first argument follows. */
 static bool open_call(struct parser *parser, bool *more)
 {
-	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1, false };
+	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1, false, false };
 
 	if (parser->called == LIMIT_EXPR_DEPTH)
 		return refuse(parser, DIAG_EXPR_TOO_DEEP);
@@ -483,7 +495,7 @@ static bool close_argument(struct parser *parser)
 	struct expr_node node = {
 		.op = EXPR_ARG, .text = call->pin.text, .len = call->pin.len,
 		.left = parser->value[--parser->value_count], .right = call->last,
-		.output = call->output,
+		.output = call->output, .inverted = call->inverted,
 	};
 
 	if (!add_node(parser, node))

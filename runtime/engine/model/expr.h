@@ -47,6 +47,7 @@ struct expr_node {
 	bool inner;            /* of EXPR_INDEX: the path goes on from here   */
 	bool lazy;             /* AND_THEN, OR_ELSE: right is not always computed */
 	bool output;           /* of EXPR_ARG: OUT => place                   */
+	bool inverted;         /* of such a one: NOT OUT => place             */
 	bool written;          /* set by the check: a place that gets a value */
 	bool whole;            /* set by the check: it may be an array        */
 };
@@ -67,7 +68,7 @@ struct expr {
 				  index; -1: `target` is the array            */
 	struct expr_open { const char *text; uint16_t len; int16_t base; }
 		open[LIMIT_EXPR_DEPTH]; /* the parser's: arrays before an open [ */
-	struct expr_call { struct expr_tail name, pin; int16_t last; bool output; }
+	struct expr_call { struct expr_tail name, pin; int16_t last; bool output, inverted; }
 		call[LIMIT_EXPR_DEPTH]; /* and functions before an open (     */
 };
 
@@ -101,6 +102,8 @@ bool expr_parse_place(struct lex *lex, struct expr *out, struct diag_list *diags
  * It looks at one or two tokens; the rest may be wrong. Scan-safe: yes.
  */
 bool expr_begins(struct lex lex);
+/** expr_inverts - does `NOT Q =>` begin at the lexer? Scan-safe: yes. */
+bool expr_inverts(const struct lex *lex);
 /** expr_skip - steps over an expression, well formed or not, to the first `,` `;` `:` `]`, dot or
  * parenthesis outside of its own; @end gets where it ends. Scan-safe: yes. */
 void expr_skip(struct lex *lex, const char **end);

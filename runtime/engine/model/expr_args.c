@@ -185,7 +185,8 @@ static enum diag_id find_others(const struct expr *expr, const struct word_row *
 		place = places ? next_any(row, place) : -1;
 		if (place >= 0 && row->pin[place].dir == PIN_OUT) {
 			out->other[out->more].at = arg->left;
-			out->other[out->more++].pin = place;
+			out->other[out->more].inverted = false;
+			out->other[out->more++].pin = (int16_t)place;
 			continue;
 		}
 		if (!arg->output && !is_enable(row, arg)) {
@@ -206,7 +207,8 @@ static enum diag_id find_others(const struct expr *expr, const struct word_row *
 			if (out->other[k].pin == pin)
 				return fail(out, DIAG_DUPLICATE_ARG, -1, arg);
 		out->other[out->more].at = arg->left;
-		out->other[out->more++].pin = pin;
+		out->other[out->more].inverted = arg->inverted;
+		out->other[out->more++].pin = (int16_t)pin;
 	}
 	return DIAG_COUNT;
 }

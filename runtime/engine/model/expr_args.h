@@ -20,7 +20,7 @@ struct expr_args {
 				function also behind the last one         */
 	int more;                /* EN and what follows =>: such arguments, likewise with the
 				  * index of an output, EXPR_EN, EXPR_ENO or EXPR_OUT */
-	struct { int at; int pin; } other[LIMIT_ARGS];
+	struct { int at; int16_t pin; bool inverted; } other[LIMIT_ARGS]; /* inverted: NOT Q => place */
 	int wrong;               /* the pin of the error, or -1              */
 	const char *text;        /* or the name as written; borrowed          */
 	int len;

@@ -245,6 +245,10 @@ static void take_pin(struct st_walk *walk, struct st_part *part)
 	struct lex ahead = walk->lex;
 
 	part->role = ST_INPUT;
+	part->inverted = expr_inverts(&walk->lex);
+	if (part->inverted)
+		lex_next(&walk->lex);
+	ahead = walk->lex;
 	if (ahead.token.kind != TOKEN_NAME)
 		return;
 	lex_next(&ahead);

@@ -83,6 +83,7 @@ enum st_role {
 struct st_part {
 	enum st_role role;
 	struct expr_tail pin; /* of ST_INPUT, ST_OUTPUT, where len 0 is: by its place; of ST_OPEN */
+	bool inverted;        /* of ST_OUTPUT: NOT Q => place                 */
 	const char *text;     /* its first byte                               */
 };
 

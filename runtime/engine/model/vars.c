@@ -81,6 +81,15 @@ struct var_array vars_flat(const struct var_array *dim, int dims)
 				   count > UINT32_MAX ? UINT32_MAX : (uint32_t)count };
 }
 
+bool vars_same_bounds(const struct var_array *a, int a_dims, const struct var_array *b, int b_dims)
+{
+	bool same = a_dims == b_dims || (a_dims <= 1 && b_dims <= 1);
+
+	for (int i = 0; same && a_dims > 1 && i < a_dims; i++)
+		same = a[i].low == b[i].low && a[i].count == b[i].count;
+	return same;
+}
+
 bool var_range_fits(const struct var_range *range)
 {
 	return range->low <= range->high && range->low >= INT32_MIN && range->low <= INT32_MAX &&

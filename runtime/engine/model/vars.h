@@ -176,6 +176,9 @@ bool var_lies_on(const struct var *var, struct iec_addr addr);
 /** vars_flat - @dims dimensions as one: of one its own bounds, of several all elements from 0 on.
  * More than 2^32 - 1 elements count as so many. Scan-safe: yes. */
 struct var_array vars_flat(const struct var_array *dim, int dims);
+/** vars_same_bounds - of arrays whose flat bounds are the same: the same dimensions, each from and to the same
+ * number? With dims 0 or 1 the flat bounds tell all. Scan-safe: yes. */
+bool vars_same_bounds(const struct var_array *a, int a_dims, const struct var_array *b, int b_dims);
 /** var_range_fits - whether the scan can compare with it: its lowest value needs 32 bits, and it
  * has at most 2^32 - 1 values. Scan-safe: yes. */
 bool var_range_fits(const struct var_range *range);

@@ -200,6 +200,11 @@ bool words_space(struct word_table *table, const char *name, size_t len)
 	return space != NULL;
 }
 
+const char *words_result(const struct word_row *row)
+{
+	return row->kind == WORD_FN && row->number == WORD_COUNT && word_pin_find(row, "OUT", 3) >= 0 ? row->word : "OUT";
+}
+
 bool words_strip(const struct word_table *table, const char **text, size_t *len)
 {
 	const char *dot;
@@ -238,6 +243,23 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 {
 	words_strip(table, &text, &len);
 	return find(table, text, len);
+}
+
+bool words_is_operator(const char *name, size_t len)
+{
+	const enum word word = word_find(name, len);
+
+	return word != WORD_COUNT && word_row(word)->kind != WORD_FN && word_row(word)->kind != WORD_FB;
+}
+
+enum word words_find_type(struct word_table *table, const char *text, size_t len)
+{
+	uint16_t found = 0;
+
+	words_strip(table, &text, &len);
+	if (table->count && words_is_operator(text, len))
+		found = *slot_of(table, text, len);
+	return found ? (enum word)(WORD_FIRST_OWN + found - 1) : find(table, text, len);
 }
 
 const char *words_explain(const struct word_row *row)

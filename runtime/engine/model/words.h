@@ -44,6 +44,14 @@ enum word words_add(struct word_table *table, struct word_row row);
 /** words_space - a part of the name of a NAMESPACE, which may stand before names. @name ends with NUL and lives as
  * long as the table. Scan-safe: no. Fails: false: no memory. */
 bool words_space(struct word_table *table, const char *name, size_t len);
+/** words_find_type - the same for the name of a type: a structure or block of the project comes before a word that
+ * begins a cell or an instruction, such as R. Scan-safe: no. */
+enum word words_find_type(struct word_table *table, const char *text, size_t len);
+/** words_is_operator - a word of the catalogue that is no function or block: R, NO, LD. Scan-safe: yes. */
+bool words_is_operator(const char *name, size_t len);
+/** words_result - the pin of a function's result: OUT, or the function's name if it declares an OUT itself.
+ * Scan-safe: yes. */
+const char *words_result(const struct word_row *row);
 /** words_strip - steps over namespaces before a name: Plant.Pumps.Start. Scan-safe: yes. False: there is none. */
 bool words_strip(const struct word_table *table, const char **text, size_t *len);
 /** words_own - the row of a word of the project, to fill in; NULL: none. */

@@ -185,7 +185,8 @@ static void read_body(struct reader *r, struct pou *pou)
 enum word reader_take_word(struct reader *r, uint32_t name, enum word_kind kind, int owner)
 {
 	const char *text = names_text(&r->project->names, name);
-	enum word word = words_find(&r->project->words, text, strlen(text));
+	enum word word = kind == WORD_FN ? words_find(&r->project->words, text, strlen(text)) :
+					  words_find_type(&r->project->words, text, strlen(text));
 	struct word_row *row = words_own(&r->project->words, word);
 
 	if (!row || row->owner >= 0 || row->kind != kind) {

@@ -544,6 +544,30 @@ static void read_parts(struct reader *r)
 	}
 }
 
+/* VAR … END_VAR above a program, as some tools have it. A rung file without its first line names a language. */
+static bool is_plain_behind_vars(struct lex lex)
+{
+	static const char *const heads[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK" };
+	static const char *const languages[] = { "LD", "IL", "ST", "SFC", "FBD" };
+	bool head = false;
+
+	while (lex_is(&lex, "VAR")) {
+		while (lex.token.kind != TOKEN_END && !lex_is(&lex, "END_VAR"))
+			lex_next(&lex);
+		lex_next(&lex);
+		lex_accept(&lex, ";");
+	}
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+		head |= lex_is(&lex, heads[i]);
+	if (!head || lex_next(&lex) != TOKEN_NAME)
+		return false;
+	lex_next(&lex);
+	for (size_t i = 0; i < sizeof(languages) / sizeof(*languages); i++)
+		if (lex_is(&lex, languages[i]))
+			return false;
+	return true;
+}
+
 bool text_is_plain(const char *text, size_t len)
 {
 	static const char *const words[] = {
@@ -559,7 +583,8 @@ bool text_is_plain(const char *text, size_t len)
 	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
 		if (lex_is(&lex, words[i]))
 			return true;
-	return false;
+	lex.comments = lex.newlines = false;
+	return is_plain_behind_vars(lex);
 }
 
 /* After a wrong first line every other message would be a consequence. */

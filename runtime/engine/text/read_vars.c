@@ -326,7 +326,7 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 		var->wide = true;
 	}
 	if (var->type == IEC_NONE) {
-		var->fb = words_find(&r->project->words, token->text, token->len);
+		var->fb = words_find_type(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
 		if ((var->fb == WORD_COUNT || (kind != WORD_FB && kind != WORD_STRUCT)) &&
 		    is_named(r, var)) {
@@ -660,6 +660,23 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 	return flag == 0 || callable;
 }
 
+/* VAR PUBLIC. A name may be Public. */
+static bool tell_of_objects(struct reader *r)
+{
+	static const char *const words[] = { "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL" };
+	struct lex ahead = r->lex;
+
+	lex_next(&ahead);
+	if (lex_is(&ahead, ":") || lex_is(&ahead, ",") || lex_is(&ahead, "AT"))
+		return false;
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&r->lex, words[i])) {
+			reader_fail_token(r, DIAG_OBJECTS);
+			return true;
+		}
+	return false;
+}
+
 static uint16_t read_flags(struct reader *r, bool global)
 {
 	const bool function = r->pou && r->pou->kind == POU_FUNCTION;
@@ -670,7 +687,9 @@ static uint16_t read_flags(struct reader *r, bool global)
 		reader_fail_token(r, DIAG_MISPLACED);
 	for (;;) {
 		reader_next(r);
-		flag = lex_is(&r->lex, "RETAIN") ? VAR_RETAIN :
+		if (r->plain && tell_of_objects(r))
+			continue;
+		flag = lex_is(&r->lex, "RETAIN") || (r->plain && lex_is(&r->lex, "PERSISTENT")) ? VAR_RETAIN :
 		       lex_is(&r->lex, "NON_RETAIN") ? VAR_NON_RETAIN :
 		       !lex_is(&r->lex, "CONSTANT") ? 0 :
 		       head & VAR_INPUT ? VAR_FIXED : VAR_CONSTANT;

@@ -80,7 +80,10 @@ static void add_name(struct look *look, const struct lex *lex,
 	    memchr(token->text, '.', token->len))
 		return;
 	word = words_find(&r->project->words, token->text, token->len);
-	if (word_is_own(word) || (word != WORD_COUNT && !r->project->words.own_first))
+	if (kind != WORD_FN)
+		word = words_find_type(&r->project->words, token->text, token->len);
+	if (word_is_own(word) || (word != WORD_COUNT && !r->project->words.own_first &&
+				  (kind == WORD_FN || !words_is_operator(token->text, token->len))))
 		return;
 	reader_own_word(r, reader_intern(r, token->text, token->len), kind);
 }

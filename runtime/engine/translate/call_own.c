@@ -313,7 +313,7 @@ static void take_result(struct list *list, const struct frame *frame,
 			const struct word_row *row)
 {
 	int at, own = list->at;
-	const struct il_line *arg = find_arg(list, "OUT", &at);
+	const struct il_line *arg = find_arg(list, words_result(row), &at);
 
 	if (!arg || arg->kind != IL_ARG_OUT)
 		return;

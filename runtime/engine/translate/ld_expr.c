@@ -725,10 +725,15 @@ static struct value emit_call(struct chain *c, enum word word, const struct expr
 			ld_arg(ld, true, chain_intern(c, row->pin[args->other[i].pin].name,
 				strlen(row->pin[args->other[i].pin].name)), other[i]);
 	ld_arg(ld, true, ld->eno_id, eno);
-	ld_arg(ld, true, ld->out_id, out.operand);
+	ld_arg(ld, true, chain_intern(c, words_result(row), strlen(words_result(row))), out.operand);
 	for (int i = 0; i < args->more; i++)
 		if (args->other[i].pin == EXPR_ENO || args->other[i].pin == EXPR_OUT) {
 			ld_emit(ld, OP_LD, 0, args->other[i].pin == EXPR_ENO ? eno : out.operand);
+			ld_emit(ld, OP_ST, args->other[i].inverted ? MOD_N : 0, other[i]);
+		} else if (args->other[i].inverted) {
+			/* It was stored if ENO is TRUE. */
+			ld_emit(ld, OP_LD, 0, other[i]);
+			ld_emit(ld, OP_XOR, 0, eno);
 			ld_emit(ld, OP_ST, 0, other[i]);
 		}
 	c->en = eno;
@@ -799,8 +804,8 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 	else if (!out.operand && result)
 		out.operand = temps_whole(ld->temps, &(struct meaning){
 			.kind = array ? MEANING_ARRAY : MEANING_STRUCT, .type = result->type,
-			.array = result->array, .capacity = result->capacity,
-			.word = (uint16_t)result->fb });
+			.array = result->array, .dim = result->dim, .dims = result->dims,
+			.capacity = result->capacity, .word = (uint16_t)result->fb });
 	return emit_call(c, word, args, in, more, out);
 }
 

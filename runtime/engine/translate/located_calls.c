@@ -105,7 +105,8 @@ static uint32_t flat_count(const struct meaning *m)
 static bool same_whole(const struct meaning *a, const struct meaning *b)
 {
 	return a && b && a->kind == b->kind && a->type == b->type && (a->type != IEC_NONE || a->word == b->word) &&
-	       flat_count(a) == flat_count(b) && a->type != IEC_STRING;
+	       flat_count(a) == flat_count(b) && a->type != IEC_STRING &&
+	       (a->kind != MEANING_ARRAY || vars_same_bounds(a->dim, a->dims, b->dim, b->dims));
 }
 
 static bool fits_pin(const struct meaning *m, const struct word_pin *pin)
@@ -230,7 +231,8 @@ static uint32_t copy_like(struct located *l, const struct meaning *m)
 {
 	const uint32_t copy = temps_whole(l->temps, &(struct meaning){
 		.kind = m->kind, .type = m->type, .word = m->word,
-		.array = m->kind == MEANING_ARRAY ? m->array : (struct var_array){ 0 } });
+		.array = m->kind == MEANING_ARRAY ? m->array : (struct var_array){ 0 },
+		.dim = m->dim, .dims = m->dims });
 
 	l->failed |= !copy;
 	return copy;
@@ -270,7 +272,7 @@ static const struct word_row *called_row(struct located *l, const struct il_line
 static const struct word_pin *pin_of(struct located *l, const struct word_row *row, const struct il_line *arg)
 {
 	const char *name = arg->pin ? scope_text(l->translation->scope, arg->pin) : "";
-	const int index = name_equal(name, "OUT") && row->kind == WORD_FN ? 0 :
+	const int index = row->kind == WORD_FN && name_equal(name, words_result(row)) ? 0 :
 			  word_pin_find(row, name, strlen(name));
 
 	return index < 0 || index >= row->pin_count ? NULL : &row->pin[index];

@@ -38,6 +38,7 @@ struct st_open {
 /* The call that is being translated. */
 struct st_call {
 	struct il_line line[LIMIT_ARGS]; /* its arguments                     */
+	uint32_t inverse[LIMIT_ARGS];    /* of NOT Q => place: place; 0: of another argument */
 	int count;
 	uint32_t skip;       /* label behind the call; 0: none                */
 };
@@ -875,6 +876,26 @@ static uint32_t argument(struct st_il *s, const struct word_pin *pin)
 	return operand;
 }
 
+/* A call that is not made keeps the value: NOT NOT of it. */
+static uint32_t begin_inverse(struct st_il *s, uint32_t place)
+{
+	const uint32_t value = temps_bool(s->ld.temps);
+
+	want_bool(s, st_type_of(s, place));
+	ld_emit(&s->ld, OP_LD, MOD_N, place);
+	ld_emit(&s->ld, OP_ST, 0, value);
+	return value;
+}
+
+static void end_inverses(struct st_il *s)
+{
+	for (int i = 0; i < s->call.count; i++)
+		if (s->call.inverse[i]) {
+			ld_emit(&s->ld, OP_LD, MOD_N, s->call.line[i].operand);
+			ld_emit(&s->ld, OP_ST, 0, s->call.inverse[i]);
+		}
+}
+
 static void add_argument(struct st_il *s, const struct st_part *part, const struct word_pin *pin)
 {
 	struct st_call *call = &s->call;
@@ -891,6 +912,9 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
 	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
 	skip_unless(s, good);
+	call->inverse[call->count] = part->inverted ? line.operand : 0;
+	if (part->inverted)
+		line.operand = begin_inverse(s, line.operand);
 	line.pin = len ? st_intern(s, name, len) : 0;
 	line.row = s->ld.row;
 	line.line = (uint32_t)s->ld.line;
@@ -940,6 +964,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 		s->ld.row = s->ld.col = call->line[i].row;
 		ld_emit_line(&s->ld, call->line[i]);
 	}
+	end_inverses(s);
 	if (call->skip)
 		here(s, call->skip);
 }
@@ -969,7 +994,7 @@ static void store_input(struct st_il *s, const char *name, size_t len)
 }
 
 /* The place that was read := Other.Level */
-static void take_output(struct st_il *s, const char *name, size_t len)
+static void take_output(struct st_il *s, const char *name, size_t len, bool inverted)
 {
 	struct expr *expr = s->ld.expr;
 	const struct expr_node place = expr->node[expr->root];
@@ -984,6 +1009,11 @@ static void take_output(struct st_il *s, const char *name, size_t len)
 	expr->root = expr->count++;
 	expr->node[expr->root] = (struct expr_node){ .op = EXPR_NAME, .text = name,
 						     .len = (uint16_t)len, .left = -1, .right = -1 };
+	if (inverted && expr->count < LIMIT_EXPR_NODES) {
+		expr->node[expr->count] = (struct expr_node){ .op = EXPR_NOT, .text = name,
+							      .left = (int16_t)expr->root, .right = -1 };
+		expr->root = expr->count++;
+	}
 	ld_store(&s->ld);
 }
 
@@ -1010,7 +1040,7 @@ static void program_arguments(struct st_il *s, const struct pou *program, struct
 			continue;
 		name = variable_of(s, program, at, &len);
 		if (output)
-			take_output(s, name, len);
+			take_output(s, name, len, part.inverted);
 		else
 			store_input(s, name, len);
 	}

@@ -151,13 +151,17 @@ static bool is_like(const struct var *var, const struct var *like)
 	return var->type == like->type && var->fb == like->fb &&
 	       var->capacity == like->capacity &&
 	       var->array.low == like->array.low &&
-	       var->array.count == like->array.count;
+	       var->array.count == like->array.count &&
+	       vars_same_bounds(var->dim, var->dims, like->dim, like->dims);
 }
 
 uint32_t temps_whole(struct temps *temps, const struct meaning *m)
 {
 	const struct var like = {
 		.type = m->type, .array = m->array, .capacity = m->capacity,
+		.dims = m->kind == MEANING_ARRAY ? m->dims : 0,
+		.own_dims = m->kind == MEANING_ARRAY ? m->dims : 0,
+		.dim = m->kind == MEANING_ARRAY ? (struct var_array *)(uintptr_t)m->dim : NULL,
 		.fb = m->type == IEC_NONE ? (enum word)m->word : (enum word)0,
 	};
 	struct temp_whole *slot;
@@ -256,19 +260,21 @@ static void mark_names(struct list *list)
 	}
 }
 
-/* May the argument keep its old value? After CALC and CALCN, and for OUT of a function whose
- * EN may be FALSE; ENO is always written. */
-static bool is_conditional(const struct list *list, int at)
+/* May the argument keep its old value? After CALC and CALCN, after the call of an element that there may not
+ * be, and for OUT of a function whose EN may be FALSE; ENO is always written. */
+static bool is_conditional(struct list *list, int at)
 {
 	const struct scope *scope = list->as->translation->scope;
 	const char *pin = scope_text(scope, list->il->line[at].pin);
+	const struct meaning *m;
 
 	while (at > 0 && (list->il->line[at].kind == IL_ARG_IN ||
 			  list->il->line[at].kind == IL_ARG_OUT))
 		at--;
 	if (list->il->line[at].kind == IL_CALL)
 		return strcasecmp(pin, "ENO") != 0;
-	return list->il->line[at].modifiers & MOD_C;
+	m = list_meaning(list, list->il->line[at].operand);
+	return list->il->line[at].modifiers & MOD_C || (m && (meaning_is_indexed(m) || m->through));
 }
 
 /* Is the argument a VAR_IN_OUT, which is also written? */
