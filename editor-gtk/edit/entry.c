@@ -194,23 +194,6 @@ static const struct word_pin *pin_of(const struct word_row *row, int index)
 	return row->kind == WORD_FN ? word_input(row, (uint32_t)index) : &row->pin[index];
 }
 
-bool entry_literal(const char *text, size_t len, char *out, size_t size, bool *fits)
-{
-	struct literal literal;
-	int64_t ns;
-
-	*fits = true;
-	if (len > 0 && *text == '+')
-		return false;
-	if (literal_parse(text, len, &literal) == LITERAL_OK)
-		*fits = entry_append(out, size, text, len);
-	else if (literal_parse_duration(text, len, &ns))
-		*fits = entry_append(out, size, "T#", 2) && entry_append(out, size, text, len);
-	else
-		return false;
-	return true;
-}
-
 static bool add_value(const struct entry_place *place, const struct entry_fit *fit,
 		      const struct value *value, struct entry *entry)
 {

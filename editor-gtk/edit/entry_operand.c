@@ -12,6 +12,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
+#include "engine/base/literal.h"
 #include "engine/base/name.h"
 #include "engine/xref/address_map.h"
 
@@ -37,6 +38,23 @@ bool entry_append(char *out, size_t size, const char *text, size_t len)
 		return false;
 	memcpy(out + used, text, len);
 	out[used + len] = '\0';
+	return true;
+}
+
+bool entry_literal(const char *text, size_t len, char *out, size_t size, bool *fits)
+{
+	struct literal literal;
+	int64_t ns;
+
+	*fits = true;
+	if (len > 0 && *text == '+')
+		return false;
+	if (literal_parse(text, len, &literal) == LITERAL_OK)
+		*fits = entry_append(out, size, text, len);
+	else if (literal_parse_duration(text, len, &ns))
+		*fits = entry_append(out, size, "T#", 2) && entry_append(out, size, text, len);
+	else
+		return false;
 	return true;
 }
 
