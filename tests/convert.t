@@ -28,6 +28,7 @@ sub plain {
 	$trace =~ s/ Rung\d+(?:_\d+|_edge(?:_\d+)?\.(?:CLK|Q))?=\S+//g;
 	$trace =~ s/ (?:\w+\.)?\w+_(?:rises|falls)(?:_\d+)?\.(?:CLK|Q|N\d+)=\d//g;
 	$trace =~ s/ (?:[\w.\[\]]+\.)?(?:Rung\d|Net\d|_[A-Z]\d|EDGE\d+\.E\d)\w*(?:\.N\d+)?=\S+//g;
+	$trace =~ s/ _[A-Z]\d\w*(?:\[\d+\]|\.\w+)+=\S+//g; # parts of a copy
 	$trace =~ s/^# (STOP|FAULT)[^\n]*\n/# $1\n/mg;
 	return $trace;
 }
