@@ -833,6 +833,14 @@ $(BUILD)/tests/bench/record $(BUILD)/tests/bench/carry: %: %.o $(BUILD)/libladde
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 mutants: tests ## put one fault a room into a copy and see whether the tests find it: MUTANTS="hal canvas" for some
 	BUILD=$(BUILD) CC='$(CC)' tests/mutants.pl $(MUTANTS)
+# Tests may fail in this slow build; the table is of what they have run.
+COVERAGE := $(BUILD)/coverage
+coverage: ## the share of lines and branches that the tests run, for each folder: with gcov and gcovr, in build/coverage/; an hour
+	$(MAKE) BUILD=$(COVERAGE) CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage coverage-run
+coverage-run: tests cases
+	-BUILD=$(BUILD) LADDER=$(BUILD)/ladder prove -j$(JOBS) -e '' $(sort $(filter-out tests/%.sh,$(TESTS_T)) $(BUILT))
+	tests/coverage.pl $(BUILD)
+.PHONY: coverage coverage-run
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:

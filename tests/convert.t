@@ -161,6 +161,16 @@ for my $sample (qw(sequence-s0-s8 press-two-hand traffic-crossing)) {
 	}
 }
 
+# An edge is computed in each scan. So it is converted behind a value that always is one, and not behind one that can fail.
+for (['MAX(n, 3) > 4 AND R_EDGE(Go)', 1], ['(MAX(n, 3) > 4) AND R_EDGE(Go)', 1], ['R_EDGE(Go) AND DIV(n, k) > 4', 1], ['NOT (R_EDGE(Go) OR n > k)', 1],
+     ['DIV(n, k) > 4 AND R_EDGE(Go)', 0], ['(DIV(n, k) > 4) AND R_EDGE(Go)', 0], ['ABS(n) > 4 AND R_EDGE(Go)', 0], ['n / k > 4 AND R_EDGE(Go)', 0]) {
+	my ($value, $sure) = @$_;
+	spew("$dir/edge.rung", "RUNGBOARD 1\nVAR\n  Go AT %IX0.0 : BOOL;\n  n AT %IW2 : INT;\n  k AT %IW4 : INT;\n  q AT %QX0.0 : BOOL;\nEND_VAR\n" .
+	     "PROGRAM Main FBD\nNETWORK\n  q := $value\nEND_PROGRAM\n");
+	my ($good, $said) = converts('edge.rung', 'st', 'edge-st.rung');
+	ok($sure ? $good : !$good && $said =~ /^edge.rung:10: error LD786/m, "$value: " . ($sure ? 'converted' : 'refused')) or diag($said);
+}
+
 # Networks: their wires have other names, so only the variables of both are compared.
 sub network {
 	my ($number) = @_;

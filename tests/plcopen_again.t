@@ -101,6 +101,23 @@ for my $sample (@samples) {
 	is(slurp('bare3.rung'), slurp('bare.rung'), "$name: and stays the same from then on");
 }
 
+# Networks by their drawing alone: a call that waits for EN, what takes its ENO, pins that stay open, negated pins.
+{
+	my @network = ("Diff := SUB(EN := Ready, IN1 := Raw, IN2 := Tare, ENO => Sure)", "Tare := ADD(EN := R_EDGE(Go), IN1 := Tare, IN2 := 3)",
+		"Sum := ADD(Raw, Tare)", "Wait(EN := NOT Go, IN := Ready, PT := T#30ms)\n  Late := Wait.Q", "Count(CU := Go, R := NOT Ready, PV := 4)\n  Full := Count.Q",
+		"Kept S= Go AND NOT Late", "Kept R= Ready OR Full");
+	spew('networks.rung', "RUNGBOARD 1\nVAR\n  Go AT %IX0.0 : BOOL;\n  Ready AT %IX0.1 : BOOL;\n  Raw AT %IW2 : INT;\n"
+		. "  Tare : INT;\n  Diff : INT;\n  Sum : INT;\n  Sure : BOOL;\n  Late : BOOL;\n  Full : BOOL;\n  Kept : BOOL;\n  Wait : TON;\n  Count : CTU;\nEND_VAR\n"
+		. "PROGRAM Main FBD\n" . join('', map { "NETWORK\n  $_\n" } @network) . "END_PROGRAM\n");
+	my $said = `$ladder export --as plcopen networks.rung -o networks.xml 2>&1`;
+	spew('bare.xml', bare(slurp('networks.xml')));
+	my $report = `$ladder import bare.xml -o bare.rung 2>&1`;
+	spew('script', script(slurp('networks.rung'), 7));
+	my ($was, $is) = (traced('networks.rung', '--changes'), traced('bare.rung', '--changes'));
+	ok($is eq $was && $was =~ /Diff=-?[1-9]/ && $was =~ /Tare=[1-9]/ && $was =~ /Late=1/, 'networks: the drawing alone does the same') or
+		diag(first_difference($was, $is) . "\n$said$report");
+}
+
 # VAR_CONFIG is in the format itself.
 {
 	system("$ladder export --as plcopen '$tests/golden/config-located/main.rung' -o located.xml 2>trouble");

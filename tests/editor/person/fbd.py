@@ -225,7 +225,7 @@ def changes(screen):
 
 def shown(screen):
     """a problem is told at its pin, find goes to a box, values are shown while the program runs"""
-    path = new_file(screen, FILL.replace('Level + 5.0', 'Level + Nothing'))
+    path = new_file(screen, FILL.replace('Level + 5.0', 'MAX(Level, 7.5) + Nothing'))
     editor = Editor(screen, path)
     at(editor, 'Network 1, Fill, Fill the tank while there is room')
     until(lambda: editor.all('"Nothing" is not declared'), 'the problem')
@@ -250,6 +250,7 @@ def shown(screen):
     part(editor, 'LT, output OUT: wire Low, TRUE')
     part(editor, 'AND, input 2, negated: Stop, FALSE')
     part(editor, 'Store in Valve, FALSE')
+    part(editor, 'MAX, output OUT: wire, 7.5')
     until(lambda: editor.all('Low.N1'), 'the wire in the panel')
     at(editor, 'Store in Valve, input 1: wire, FALSE')
     editor.keys('ctrl+F12')
