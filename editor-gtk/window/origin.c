@@ -157,15 +157,19 @@ static void take(struct taking *taking, const char *from)
 
 static void take_all(struct taking *taking, const char *sample)
 {
+	static const char *const endings[] = { ".scn", ".io" };
 	char *plant = plant_of(sample);
-	GPtrArray *scenarios = side_file_list(sample, ".scn", true);
 
 	if (plant)
 		take(taking, plant);
-	for (guint i = 0; i < scenarios->len; i++)
-		if (g_str_has_prefix(scenarios->pdata[i], taking->old_stem))
-			take(taking, scenarios->pdata[i]);
-	g_ptr_array_unref(scenarios);
+	for (gsize i = 0; i < G_N_ELEMENTS(endings); i++) {
+		GPtrArray *files = side_file_list(sample, endings[i], true);
+
+		for (guint k = 0; k < files->len; k++)
+			if (g_str_has_prefix(files->pdata[k], taking->old_stem))
+				take(taking, files->pdata[k]);
+		g_ptr_array_unref(files);
+	}
 	g_free(plant);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * origin - the file that an unsaved project was made from, and the files that are copied
- * when it is saved: plant and scenarios of a sample, the I/O map of a ClassicLadder
+ * when it is saved: plant, scenarios and I/O maps of a sample, the I/O map of a ClassicLadder
  * project. Also the plant to simulate beside the program (trial/plant.h).
  *
  * A copied file gets the name of the program, by which it is found (side_file.h); so does

@@ -99,8 +99,10 @@ def folder(screen):
     editor.find(' passed', 'label')
     editor.shot('begin-folder')
     editor.give_path(path, 'ctrl+s')
-    editor.find('Saved, together with the files of the sample: mine.scn', 'label')
+    editor.find('Saved, together with the files of the sample: mine.scn, mine.io', 'label')
     sh(LADDER, 'test', path, check=True)
+    sh(LADDER, 'check', '--io', path.replace('.rung', '.io'), path, check=True)
+    editor.find('mine.io', 'label')  # in the tree
     editor.finish()
 
 
@@ -108,7 +110,7 @@ PARTS = 'alarms.rung', 'blocks.rung', 'hopper.rung', 'interlocks.rung', 'mixer.r
 
 
 def parts(screen):
-    """a sample of several files is whole as a copy; saving it brings the files that it includes; none is replaced"""
+    """a sample of several files is whole as a copy; saving it brings the files that it includes, and its I/O map; none is replaced"""
     for there in False, True:
         target = os.path.join(screen.home, 'parts-%d' % there)
         path = os.path.join(target, 'mine.rung')
@@ -129,7 +131,8 @@ def parts(screen):
             editor.says('EDIT')
         editor.give_path(path, 'ctrl+s')
         editor.find('Saved, together with the files of the sample: ', 'label')
-        assert sorted(os.listdir(target)) == sorted([*PARTS, 'mine.rung', 'mine.plant.rung', 'mine.scn']), os.listdir(target)
+        assert sorted(os.listdir(target)) == sorted([*PARTS, 'mine.rung', 'mine.plant.rung', 'mine.scn', 'mine.io']), os.listdir(target)
+        assert read(os.path.join(target, 'mine.io')) == read(os.path.join(ROOT, 'ladders', 'cement-plant', 'cement-plant.io'))
         if there:
             editor.find('because they already exist: mixer.rung', 'label')
             assert read(os.path.join(target, 'mixer.rung')) == 'precious'
