@@ -123,18 +123,36 @@ static GArray *read_units(const char *json)
 	return units;
 }
 
-static char *found_text(const char *bus, const GArray *units)
+/* Numbers at which something came that is no answer of a unit: "4, 9". Caller: g_free(). */
+static char *doubts_of(const char *json)
+{
+	static const char start[] = "{\"at\":";
+	GString *list = g_string_new(NULL);
+
+	for (const char *at = strstr(json, start); at; at = strstr(at + 1, start))
+		g_string_append_printf(list, "%s%d", list->len ? ", " : "", (int)number_of(at, start));
+	return g_string_free(list, FALSE);
+}
+
+/* @told: what the program says besides, "": nothing. */
+static char *found_text(const char *bus, const GArray *units, const char *json, const char *told)
 {
 	GString *list = g_string_new(NULL);
-	char *text;
+	char *doubts = doubts_of(json), *text, *more, *whole;
 
 	for (guint i = 0; i < units->len; i++)
 		g_string_append_printf(list, "%s%d", i ? ", " : "",
 				       g_array_index(units, struct iomap_unit, i).unit);
 	text = units->len ? g_strdup_printf(_("Units that answer on “%s”: %s"), bus, list->str) :
 			    g_strdup_printf(_("No unit answers on “%s”. Check the power of the devices and the address; on a serial line also speed, parity and the two wires."), bus);
+	more = *doubts ? g_strdup_printf(_("What comes for %s is damaged or of another unit: look for two devices with one number."), doubts) :
+			 g_strdup(units->len ? told : "");
+	whole = g_strdup_printf("%s%s%s", text, *more ? "  " : "", more);
 	g_string_free(list, TRUE);
-	return text;
+	g_free(doubts);
+	g_free(text);
+	g_free(more);
+	return whole;
 }
 
 /* A scan that was stopped has let go of its program. */
@@ -151,7 +169,7 @@ static void ended(GObject *object, GAsyncResult *result, gpointer data)
 	} else if (good && out && strstr(out, "\"units\"")) {
 		GArray *units = read_units(out);
 
-		say(scan, found_text(scan->bus, units), !units->len);
+		say(scan, found_text(scan->bus, units, out, err ? g_strstrip(err) : ""), !units->len);
 		g_hash_table_insert(scan->units, g_utf8_casefold(scan->bus, -1), units);
 		g_clear_object(&scan->program);
 		forget_file(scan);

@@ -192,14 +192,10 @@ static int check_map(const char *path)
 static int scan(const struct request *request, const struct io_bus *bus)
 {
 	struct io_bus at = *bus;
-	int count;
 
 	if (request->timeout_ms)
 		at.timeout_ns = request->timeout_ms * INT64_C(1000000);
-	count = find_units(&at, (int)request->from, (int)request->to, request->json);
-	if (count == 0 && !request->json)
-		fprintf(stderr, "ladder-modbus: no unit answers: are speed, parity and the two wires right?\n");
-	return count <= 0;
+	return find_units(&at, (int)request->from, (int)request->to, request->json) <= 0;
 }
 
 static int scan_of_map(const struct request *request)

@@ -783,6 +783,122 @@ def test_units_are_found():
     wire.close()
 
 
+def lines_of(done):
+    return done.stdout.splitlines()
+
+
+def test_a_scan_tells_exceptions():
+    """A unit that refuses is there: what it says is told in words. One behind a gateway that is away is not there."""
+    port = free_port()
+    plant = Units([3, 9]).tcp(port)
+    plant.block[9]['holding-register'].missing.add(0)
+    done = run('scan', '--host', f'127.0.0.1:{port}', '--to', '12', '--timeout', '200')
+    assert done.returncode == 0 and len(lines_of(done)) == 2 and not done.stderr, done.stdout + done.stderr
+    assert lines_of(done)[0].startswith('unit 3 answers in ') and lines_of(done)[0].endswith(' ms'), done.stdout
+    assert lines_of(done)[1].endswith(': exception 2: it has no holding register 0'), done.stdout
+    plant.close()
+
+
+class Stand:
+    """Takes connections of TCP and does with each request what `answer(frame)` says: bytes, None for nothing, or 'end'."""
+
+    def __init__(self, answer):
+        self.answer, self.socket, self.requests = answer, socket.create_server(('127.0.0.1', 0)), 0
+        self.port = self.socket.getsockname()[1]
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        try:
+            while True:
+                threading.Thread(target=self.serve, args=(self.socket.accept()[0],), daemon=True).start()
+        except OSError:
+            pass
+
+    def serve(self, peer):
+        try:
+            while frame := peer.recv(300):
+                self.requests += 1
+                said = self.answer(frame)
+                if said == 'end':
+                    break
+                if said:
+                    peer.sendall(said)
+        except OSError:
+            pass
+        peer.close()
+
+    def close(self):
+        self.socket.close()
+
+
+def test_a_scan_of_a_port_that_refuses_or_hangs():
+    nobody = free_port()
+    done = run('scan', '--host', f'127.0.0.1:{nobody}', '--to', '5')
+    assert done.returncode == 1 and not done.stdout, done.stdout
+    assert done.stderr == f'ladder-modbus: 127.0.0.1:{nobody}: Connection refused: are address and port right, is the device on, and does it serve Modbus there?\n', done.stderr
+    done = run('scan', '--host', 'no-such-host.invalid')
+    assert done.returncode == 1 and done.stderr.startswith('ladder-modbus: no-such-host.invalid:502: '), done.stderr
+    # A connection that nobody accepts: the queue of the listener is full.
+    deaf, full = socket.socket(), []
+    deaf.bind(('127.0.0.1', 0))
+    deaf.listen(0)
+    for _ in range(3):
+        full.append(socket.socket())
+        full[-1].setblocking(False)
+        full[-1].connect_ex(deaf.getsockname())
+    done = run('scan', '--host', '127.0.0.1:%d' % deaf.getsockname()[1], '--to', '5', '--timeout', '200')
+    assert done.returncode == 1 and not done.stdout and 'are address and port right' in done.stderr, done.stderr
+    for one in [deaf, *full]:
+        one.close()
+    # One that takes the connection and is silent, or speaks something else.
+    silent = Stand(lambda frame: None)
+    done = run('scan', '--host', f'127.0.0.1:{silent.port}', '--to', '4', '--timeout', '100')
+    assert done.returncode == 1 and not done.stdout and silent.requests >= 4, done.stdout
+    assert done.stderr == f'ladder-modbus: 127.0.0.1:{silent.port} takes the connection, but no unit answers: does it serve Modbus, and has it one of these numbers?\n', done.stderr
+    done = run('scan', '--host', f'127.0.0.1:{silent.port}', '--to', '4', '--timeout', '100', '--json')
+    assert done.returncode == 1 and json.loads(done.stdout) == {'units': [], 'doubts': []}, done.stdout
+    silent.close()
+    web = Stand(lambda frame: b'HTTP/1.1 400 Bad Request\r\n\r\n')
+    done = run('scan', '--host', f'127.0.0.1:{web.port}', '--to', '2', '--timeout', '100')
+    assert done.returncode == 1 and [line.split(':')[0] for line in lines_of(done)] == ['unit 1', 'unit 2'], done.stdout + done.stderr
+    assert 'no answer of this unit' in done.stdout, done.stdout
+    web.close()
+
+
+def test_a_scan_with_answers_of_others():
+    """An answer for another unit, or damaged, is told and does not count; one that ends the connection for numbers that it lacks is scanned whole."""
+    wrong = Stand(lambda frame: frame[:4] + b'\0\5' + bytes([frame[6] % 247 + 1, 3, 2, 0, 0]))
+    done = run('scan', '--host', f'127.0.0.1:{wrong.port}', '--to', '2', '--timeout', '100')
+    assert done.returncode == 1 and len(lines_of(done)) == 2 and 'another unit answers for it' in lines_of(done)[0], done.stdout + done.stderr
+    wrong.close()
+    picky = Stand(lambda frame: frame[:4] + b'\0\5' + frame[6:7] + b'\3\2\0\0' if frame[6] in (2, 5) else 'end')
+    done = run('scan', '--host', f'127.0.0.1:{picky.port}', '--to', '6', '--timeout', '100')
+    assert done.returncode == 0 and [line.split()[1] for line in lines_of(done)] == ['2', '5'], done.stdout + done.stderr
+    # It goes in the middle of the scan.
+    gone = Stand(lambda frame: frame[:4] + b'\0\5' + frame[6:7] + b'\3\2\0\0' if frame[6] < 3 else (gone.close(), 'end')[1])
+    done = run('scan', '--host', f'127.0.0.1:{gone.port}', '--to', '6', '--timeout', '100')
+    assert done.returncode == 1 and len(lines_of(done)) == 2, done.stdout
+    assert f'127.0.0.1:{gone.port}: gone at unit 3: ' in done.stderr, done.stderr
+    picky.close()
+    every = Stand(lambda frame: frame[:4] + b'\0\5' + frame[6:7] + b'\3\2\0\0')
+    done = run('scan', '--host', f'127.0.0.1:{every.port}', '--to', '6')
+    assert done.returncode == 0 and len(lines_of(done)) == 6 and 'answers for each number' in done.stderr, done.stderr
+    every.close()
+    wire = Wire()
+    serial = Units([2, 4]).rtu(wire.theirs)
+    wire.damage = lambda frame: [(0, frame[:-1] + bytes([frame[-1] ^ 1]) if frame[0] == 4 else frame)]
+    done = run('scan', '--port', wire.ours, '--to', '5', '--timeout', '60')
+    assert [line.split(' ')[1] for line in lines_of(done)] == ['2', '4:'] and 'the answer is damaged' in lines_of(done)[1], done.stdout
+    done = run('scan', '--port', wire.ours, '--to', '5', '--timeout', '60', '--json')
+    both = json.loads(done.stdout)
+    assert [it['unit'] for it in both['units']] == [2] and [it['at'] for it in both['doubts']] == [4], done.stdout
+    wire.down = True
+    done = run('scan', '--port', wire.ours, '--to', '3', '--timeout', '40')
+    assert done.returncode == 1 and done.stderr == f'ladder-modbus: {wire.ours}: no unit answers: are speed, parity and the two wires right, and is the device on?\n', done.stderr
+    serial.close()
+    wire.close()
+
+
 def main():
     tests = [(name, test) for name, test in globals().items() if name.startswith('test_')]
     if len(sys.argv) > 1:

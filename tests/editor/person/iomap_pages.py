@@ -199,7 +199,7 @@ def scanned(screen):
     editor.click(editor.find('Scan the bus', 'push button'))
     editor.find('Stop the scan', 'push button')
     editor.find('Scanning “plant”')
-    editor.find('Units that answer on “plant”: 1, 3, 17')
+    editor.find('Units that answer on “plant”: 1, 3, 17  What comes for 30 is damaged or of another unit: look for two devices')
     editor.shot('pages-scanned')
     editor.click(cell(editor, '%QX40.0, Unit'))
     editor.keys('alt+Down')
@@ -214,7 +214,7 @@ def scanned(screen):
     editor.tab('Buses (5)')
     editor.click(cell(editor, 'quiet, Host'))
     editor.click(editor.find('Scan the bus', 'push button'))
-    editor.find('127.0.0.1: Connection refused')
+    editor.find('127.0.0.1:%d: Connection refused' % ports[1])
     device.close()
     silent = socket.create_server(('127.0.0.1', ports[1]))
     editor.click(editor.find('Scan the bus', 'push button'))
@@ -226,7 +226,8 @@ def scanned(screen):
 
 
 def answer(device, units):
-    """A gateway of the network behind which some units are: register 0 is 7; unit 17 has no registers."""
+    """A gateway of the network behind which some units are: register 0 is 7; unit 17 has no registers, for unit 30
+    another one answers."""
     while True:
         try:
             stream = device.accept()[0]
@@ -237,7 +238,8 @@ def answer(device, units):
             if len(request) < 12:
                 break
             unit = request[6]
-            if unit in units:
+            if unit in units or unit == 30:
+                unit += unit == 30
                 body = bytes([unit, 0x83, 2]) if unit == 17 else bytes([unit, 3, 2, 0, 7])
                 stream.sendall(request[:4] + bytes([0, len(body)]) + body)
 
