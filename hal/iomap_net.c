@@ -266,8 +266,19 @@ static const char *bus_lacks(const struct bus_reader *of, unsigned seen)
 	return of->serve && of->bus->kind == BUS_MODBUS_RTU && !of->serve->unit_id ? "unit=1" : NULL;
 }
 
+static bool is_any(const char *host)
+{
+	return strcmp(host, "0.0.0.0") == 0 || strcmp(host, "::") == 0;
+}
+
+static bool listen_alike(const struct io_bus *a, const struct io_bus *b)
+{
+	return a->kind == BUS_MODBUS_TCP && b->kind == BUS_MODBUS_TCP && a->host && b->host &&
+	       a->tcp_port == b->tcp_port && (same_text(a->host, b->host) || is_any(a->host) || is_any(b->host));
+}
+
 /* Two that open the same serial line or listen at the same place; or have one name. */
-static bool check_bus(struct reader *reader, const struct io_bus *bus, const struct map_word *name)
+static bool check_bus(struct reader *reader, const struct io_bus *bus, bool listens, const struct map_word *name)
 {
 	const struct io_net *net = &reader->net->net;
 
@@ -281,6 +292,8 @@ static bool check_bus(struct reader *reader, const struct io_bus *bus, const str
 			return complain(reader, DIAG_IO_BUS_TWICE, name);
 		if (same_text(other->port, bus->port))
 			return complain_about(reader, DIAG_IO_PORT_TWICE, name, other->name);
+		if (listens && serves && listen_alike(other, bus))
+			return complain_about(reader, DIAG_IO_LISTEN_TWICE, name, other->name);
 	}
 	return true;
 }
@@ -332,7 +345,7 @@ static void read_bus(struct reader *reader, const struct map_word *first, struct
 	if (lacks)
 		complain_about(reader, DIAG_IO_BUS_NEEDS, &name, lacks);
 	else
-		check_bus(reader, bus, &name);
+		check_bus(reader, bus, out->serve != NULL, &name);
 }
 
 static void read_bus_line(struct reader *reader, const struct map_word *first)
@@ -755,6 +768,7 @@ static void read_module_line(struct reader *reader, const struct map_word *first
 	struct net_reader *net = reader->net;
 	struct module_type type = { .name = NULL }, *kept;
 	struct option_word option;
+	const int before = reader->errors;
 	struct map_word name;
 	bool good;
 
@@ -763,7 +777,10 @@ static void read_module_line(struct reader *reader, const struct map_word *first
 		type.name = read_name(reader, name.text, name.len);
 	good = good && type.name;
 	while (good && next_option(reader, &option))
-		good = read_module_word(&type, &option);
+		if (!read_module_word(&type, &option))
+			complain_form(reader, &option.word, "di=24, dq=16, ai=8 or aq=8, which are the most, or discrete-input=0, coil=0 …");
+	if (reader->errors != before)
+		return;
 	if (!good) {
 		complain_form(reader, first, form);
 		skip_words(reader);

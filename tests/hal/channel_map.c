@@ -415,9 +415,15 @@ static void test_bad_nets(void)
 	BAD("BUS b modbus-tcp host=[::1", "LD505");
 	BAD("BUS b modbus-tcp host=[::1]x", "LD505");
 	BAD("BUS b modbus-tcp host=", "LD505");
+	BAD("SERVE t modbus-tcp listen=h:1602\nSERVE u modbus-tcp listen=h:1602",
+	    "test.io:6:7: error LD870: \"u\" listens at the address and port of \"t\"");
+	BAD("SERVE t modbus-tcp listen=0.0.0.0:1602\nSERVE u modbus-tcp listen=h:1602", "LD870");
+	BAD("SERVE t modbus-tcp listen=h:1602\nSERVE u modbus-tcp listen=[::]:1602", "LD870");
 	BAD("SERVE t modbus-tcp listen=h unit=0", "LD505");
 	BAD("SERVE t modbus-tcp listen=h connections=0", "LD505");
 	BAD("SERVE t modbus-tcp listen=h rate=0", "LD505");
+	BAD("MODULE m di=4 di2=1 ai=9", "test.io:5:15: error LD505: \"di2=1\" is not understood; write it like di=24");
+	BAD("MODULE m di=4 ai=9", "test.io:5:15: error LD505: \"ai=9\"");
 	BAD("WINDOW", "LD505");
 	BAD("WINDOW a coil=0 %QX0.0 read-only", "test.io:5:8: error LD530: \"a\": no SERVE above");
 	BAD("WINDOW s coil=0 %QX0.0", "LD505");
