@@ -47,8 +47,8 @@ cat >"$tmp/desk.io" <<'END'
 BOARD "desk"
 %IX0.0 sim
 %IX0.1 sim
-%QX0.0 sim
-%QX0.1 sim
+%QX0.0 sim safe=0
+%QX0.1 sim safe=0
 END
 
 # Real-time priority and locked memory for both programs, or for neither.
