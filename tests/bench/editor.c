@@ -23,6 +23,7 @@
 #include "tests/bench/editor_start.h"
 #include "tests/editor/sim_seen.h"
 #include "tests/editor/strips.h"
+#include "tests/editor/widgets.h"
 
 #include <gtksourceview/gtksource.h>
 #include <stdio.h>
@@ -137,18 +138,6 @@ static void measure(const struct deed *deed, LadderGridView *sheet)
 	fflush(stdout);
 }
 
-static GtkWidget *find(GtkWidget *widget, GType type)
-{
-	GtkWidget *found = NULL;
-
-	if (g_type_is_a(G_OBJECT_TYPE(widget), type))
-		return widget;
-	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
-	     child = gtk_widget_get_next_sibling(child))
-		found = find(child, type);
-	return found;
-}
-
 /* ---- actions of a person ---- */
 
 static void scroll(LadderGridView *sheet, int round)
@@ -198,7 +187,7 @@ static void undo(LadderGridView *sheet, int round)
 
 static GtkWidget *line_of(LadderGridView *sheet)
 {
-	return find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
+	return find_type(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
 }
 
 /* Closes an open line; on the sheet itself, Esc would revert the rung. */
@@ -519,7 +508,7 @@ static void measure_list(GtkWidget *window, LadderDocument *document)
 	g_free(pou_add(document, POU_PROGRAM, LANGUAGE_IL, "Measured"));
 	gtk_widget_activate_action(window, "win.go-to", "(iiii)", pou, 0, -1, -1);
 	settle(1000);
-	text = find(find(window, LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW);
+	text = find_type(find_type(window, LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW);
 	buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
 	gtk_text_buffer_get_iter_at_line(buffer, &at, 1);
 	gtk_text_iter_forward_to_line_end(&at);
@@ -643,7 +632,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	window = ladder_window_new(application, document);
 	gtk_window_present(GTK_WINDOW(window));
 	watch_frames(GTK_WIDGET(window));
-	chart = find(GTK_WIDGET(window), LADDER_TYPE_SFC_VIEW);
+	chart = find_type(GTK_WIDGET(window), LADDER_TYPE_SFC_VIEW);
 	printf("Opening, to the first picture: %.1f ms by the clock, %.1f ms of the "
 	       "processor (%d).\n", (double)(g_get_monotonic_time() - begin) / 1000,
 	       (double)(worked() - begun) / 1000, chart ? 300 : 500);
@@ -654,23 +643,23 @@ static void run(AdwApplication *application, const char *path, const char *word)
 		g_object_unref(document);
 		return;
 	}
-	networks = find(GTK_WIDGET(window), LADDER_TYPE_FBD_VIEW);
+	networks = find_type(GTK_WIDGET(window), LADDER_TYPE_FBD_VIEW);
 	if (networks) {
 		measure_one(networks, "Scrolling", scroll_chart);
 		measure_one(networks, "A network more", edit_networks);
 		g_object_unref(document);
 		return;
 	}
-	if (find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW)) {
+	if (find_type(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW)) {
 		measure_folding(GTK_WIDGET(window),
-				find(find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
-		measure_change(GTK_WIDGET(window), find(find(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
+				find_type(find_type(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
+		measure_change(GTK_WIDGET(window), find_type(find_type(GTK_WIDGET(window), LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW));
 		g_object_unref(document);
 		return;
 	}
 	printf("Memory: %ld MB (200).\n", memory());
 	idle();
-	sheet = find(GTK_WIDGET(window), LADDER_TYPE_GRID_VIEW);
+	sheet = find_type(GTK_WIDGET(window), LADDER_TYPE_GRID_VIEW);
 	gtk_widget_grab_focus(sheet);
 	printf("\n| what | thread until its picture, ms | clock, ms | worst, ms | "
 	       "thread until all is done, ms | asked |\n|---|---|---|---|---|---|\n");

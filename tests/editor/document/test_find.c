@@ -3,6 +3,7 @@
  * test_find - hits by place and kind, and replacing one or all of them.
  */
 #include "editor-gtk/document/find.h"
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 static const char sample[] =
@@ -123,17 +124,6 @@ static void test_order(void)
 	g_object_unref(document);
 }
 
-static bool has(LadderDocument *document, const char *part)
-{
-	char *text = ladder_document_text(document, NULL);
-	bool found = strstr(text, part);
-
-	if (!found)
-		printf("# %s\n", text);
-	g_free(text);
-	return found;
-}
-
 /* Returns the number of replacements. */
 static int replace_all(LadderDocument *document, const char *wanted, const char *with,
 		       unsigned int where, bool whole)
@@ -159,20 +149,20 @@ static void test_replace(void)
 				     (struct find_options){ FIND_OPERANDS, true, true });
 
 	CHECK(find_replace(document, find, 1, "\xe7\x94\xb5\xe6\x9c\xba", NULL));
-	CHECK(has(document, "| NO Motor | COIL \xe7\x94\xb5\xe6\x9c\xba |"));
+	CHECK(document_has(document, "| NO Motor | COIL \xe7\x94\xb5\xe6\x9c\xba |"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Replace");
 	CHECK(ladder_document_undo(document));
 	find_free(find);
 
 	CHECK(replace_all(document, "Motor", "Pump", FIND_EVERYWHERE, false) == 13);
 	CHECK(!strstr(ladder_document_undo_name(document), "Motor"));
-	CHECK(has(document, "  Pump AT %QX0.0 : BOOL;\n") || has(document, "  Pump  AT"));
-	CHECK(has(document, "RUNG Pump_on \"Pump, motor\""));
-	CHECK(has(document, "JMP Pump_on"));
-	CHECK(has(document, "  ST    Pump3 (* motor *)\n"));
-	CHECK(has(document, "    Pump : INT;"));
-	CHECK(!has(document, "Motor3"));
-	CHECK(ladder_document_undo(document) && has(document, before));
+	CHECK(document_has(document, "  Pump AT %QX0.0 : BOOL;\n") || document_has(document, "  Pump  AT"));
+	CHECK(document_has(document, "RUNG Pump_on \"Pump, motor\""));
+	CHECK(document_has(document, "JMP Pump_on"));
+	CHECK(document_has(document, "  ST    Pump3 (* motor *)\n"));
+	CHECK(document_has(document, "    Pump : INT;"));
+	CHECK(!document_has(document, "Motor3"));
+	CHECK(ladder_document_undo(document) && document_has(document, before));
 	CHECK_AS(!ladder_document_undo_name(document), "all replacements are one step");
 
 	CHECK(replace_all(document, "Motor", "a | b", FIND_OPERANDS, true) == -1);
@@ -180,12 +170,12 @@ static void test_replace(void)
 	CHECK(replace_all(document, "Motor2", "A : INT; B", FIND_DECLARATIONS, true) == -1);
 	CHECK(replace_all(document, "BOOL", "((", FIND_DECLARATIONS, true) == -1);
 	CHECK(replace_all(document, "motor", "*) x", FIND_COMMENTS, true) == -1);
-	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
+	CHECK_AS(document_has(document, before) && !ladder_document_undo_name(document),
 		 "a replacement that cannot be read changes nothing");
 	CHECK(replace_all(document, "1", "2", FIND_OPERANDS, true) == 1);
-	CHECK(has(document, "IN2:=2 OUT"));
+	CHECK(document_has(document, "IN2:=2 OUT"));
 	CHECK(replace_all(document, "Motor", "Motor", FIND_EVERYWHERE, false) == 13);
-	CHECK(ladder_document_undo(document) && has(document, before));
+	CHECK(ladder_document_undo(document) && document_has(document, before));
 	g_free(before);
 	g_object_unref(document);
 }
@@ -201,7 +191,7 @@ static void refuses(const char *wanted, const char *with, unsigned int where,
 
 	CHECK(find_replace_all(document, find, with, &why) == -1);
 	CHECK_TEXT(why, want);
-	CHECK(!ladder_document_undo_name(document) && has(document, before));
+	CHECK(!ladder_document_undo_name(document) && document_has(document, before));
 	g_free(before);
 	g_free(why);
 	find_free(find);
@@ -251,16 +241,16 @@ static void test_chart(void)
 	}
 	CHECK(rungs == 1 && declared == 1 && lines == 3);
 	CHECK(find_replace_all(document, find, "Empty", NULL) == 5);
-	CHECK(has(document, "    Empty(N);\n") && has(document, "| NO Empty | COIL TR") &&
-	      has(document, ":= Empty AND Fill.X;") && has(document, "    Empty : BOOL;"));
+	CHECK(document_has(document, "    Empty(N);\n") && document_has(document, "| NO Empty | COIL TR") &&
+	      document_has(document, ":= Empty AND Fill.X;") && document_has(document, "    Empty : BOOL;"));
 	CHECK(ladder_document_undo(document));
-	CHECK(has(document, "    Full(N);\n") && !ladder_document_undo_name(document));
+	CHECK(document_has(document, "    Full(N);\n") && !ladder_document_undo_name(document));
 	find_free(find);
 	/* A result that cannot be read is refused, and nothing changes. */
 	find = find_new(document, "INITIAL_STEP", (struct find_options){ FIND_EVERYWHERE,
 									 true, true });
 	CHECK(find_replace_all(document, find, "STEP STEP", &why) == -1 && why && *why);
-	CHECK(has(document, "  INITIAL_STEP Fill:"));
+	CHECK(document_has(document, "  INITIAL_STEP Fill:"));
 	g_free(why);
 	find_free(find);
 	g_object_unref(document);

@@ -4,6 +4,7 @@
  * that are already used.
  */
 #include "editor-gtk/document/pou_import.h"
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 #include <stdio.h>
@@ -36,17 +37,6 @@ static bool import(const bool *chosen, GString *told)
 
 	ladder_free(from);
 	return good;
-}
-
-static bool has(const char *part)
-{
-	char *text = ladder_document_text(document, NULL);
-	const bool found = strstr(text, part);
-
-	if (!found)
-		printf("# lacks %s\n%s\n", part, text);
-	g_free(text);
-	return found;
 }
 
 static bool lacks(const char *part)
@@ -148,11 +138,11 @@ int main(void)
 	open_here();
 	CHECK(import(main_only, told));
 	CHECK_TEXT(told->str, "Imported; Lamp is now Lamp_2; Main is now Main_2");
-	CHECK(has("PROGRAM Main LD\n") && has("PROGRAM Main_2 LD\n"));
-	CHECK_AS(has("FUNCTION_BLOCK Seal"), "the called block is imported");
-	CHECK_AS(has("Batch : STRUCT") && lacks("Unused"), "the used structure is imported, and no other");
-	CHECK_AS(has("VAR RETAIN\n  Now : Batch;\nEND_VAR"), "the symbol is imported, with RETAIN");
-	CHECK_AS(has("Lamp_2 AT %QX0.5") && has("COIL Lamp_2 |"),
+	CHECK(document_has(document, "PROGRAM Main LD\n") && document_has(document, "PROGRAM Main_2 LD\n"));
+	CHECK_AS(document_has(document, "FUNCTION_BLOCK Seal"), "the called block is imported");
+	CHECK_AS(document_has(document, "Batch : STRUCT") && lacks("Unused"), "the used structure is imported, and no other");
+	CHECK_AS(document_has(document, "VAR RETAIN\n  Now : Batch;\nEND_VAR"), "the symbol is imported, with RETAIN");
+	CHECK_AS(document_has(document, "Lamp_2 AT %QX0.5") && document_has(document, "COIL Lamp_2 |"),
 		 "a different symbol with a known name gets a new name");
 	CHECK_AS(lacks("Start_2") && lacks("Other") && lacks("Spare"),
 		 "an equal symbol is shared, unused symbols are not imported");

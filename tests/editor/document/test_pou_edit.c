@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/pou_edit.h"
 
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 #include <string.h>
@@ -26,15 +27,6 @@ static const char PROGRAM[] =
 
 static LadderDocument *document;
 
-static bool has(const char *text)
-{
-	char *whole = ladder_document_text(document, NULL);
-	const bool found = strstr(whole, text);
-
-	g_free(whole);
-	return found;
-}
-
 static int pou_of(const char *name)
 {
 	return project_find_pou(ladder_document_project(document), name, strlen(name));
@@ -48,23 +40,23 @@ static void test_block(void)
 		 "the uses of a block are counted");
 	CHECK(pou_uses(document, pou_of("Main")) == 0);
 	CHECK_AS(!pou_delete(document, pou_of("Seal")), "a used block is deleted");
-	CHECK_AS(ladder_document_project(document) && pou_of("Seal") < 0 && !has("Seal"),
+	CHECK_AS(ladder_document_project(document) && pou_of("Seal") < 0 && !document_has(document, "Seal"),
 		 "deleting a block deletes its boxes and instances");
-	CHECK_AS(has("| NO %IX0.0 | COIL Lamp |") && has("| TON Delay PT:=T#1s | COIL %QX0.1 |"),
+	CHECK_AS(document_has(document, "| NO %IX0.0 | COIL Lamp |") && document_has(document, "| TON Delay PT:=T#1s | COIL %QX0.1 |"),
 		 "the line is closed where a deleted box was");
-	CHECK_AS(has("NO One.Q") && has("Delay : TON"),
+	CHECK_AS(document_has(document, "NO One.Q") && document_has(document, "Delay : TON"),
 		 "deleting a block keeps other elements");
 	CHECK(ladder_document_undo(document));
-	CHECK_AS(has(before) && !ladder_document_undo_name(document), "one undo restores all");
+	CHECK_AS(document_has(document, before) && !ladder_document_undo_name(document), "one undo restores all");
 	g_free(before);
 }
 
 static void test_function(void)
 {
 	CHECK(!pou_delete(document, pou_of("Twice")));
-	CHECK_AS(!has("Twice") && has("  LD    %IX0.3\n  ST    %QX0.3\n"),
+	CHECK_AS(!document_has(document, "Twice") && document_has(document, "  LD    %IX0.3\n  ST    %QX0.3\n"),
 		 "lines of lists that call it are deleted");
-	CHECK(ladder_document_undo(document) && has("Twice "));
+	CHECK(ladder_document_undo(document) && document_has(document, "Twice "));
 }
 
 /* ---- order ---- */
@@ -266,7 +258,7 @@ static void test_names(void)
 				continue;
 			}
 			why = pou_add(document, kinds[kind], (enum pou_language)language, name);
-			CHECK_AS(!why && has(name), name);
+			CHECK_AS(!why && document_has(document, name), name);
 			ladder_document_check_now(document);
 			CHECK_AS(!ladder_document_diags(document)->errors,
 				 "a new POU builds");
@@ -290,9 +282,9 @@ static void test_program(void)
 	document = ladder_document_new();
 	ladder_document_open_text(document, NULL, text, strlen(text), true);
 	CHECK(!pou_delete(document, pou_of("Other")));
-	CHECK_AS(!has("Other") && has("PROGRAM A WITH Fast : Main;\nEND_CONFIGURATION"),
+	CHECK_AS(!document_has(document, "Other") && document_has(document, "PROGRAM A WITH Fast : Main;\nEND_CONFIGURATION"),
 		 "a program is deleted with its PROGRAM line");
-	CHECK(ladder_document_undo(document) && has(text) && !ladder_document_undo_name(document));
+	CHECK(ladder_document_undo(document) && document_has(document, text) && !ladder_document_undo_name(document));
 	g_object_unref(document);
 	document = kept;
 }

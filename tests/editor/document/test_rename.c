@@ -7,6 +7,7 @@
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/document/symbols.h"
 
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
@@ -104,15 +105,6 @@ static bool holds(const char *path, const char *want)
 	return same;
 }
 
-static bool has(const char *text)
-{
-	char *whole = ladder_document_text(document, NULL);
-	const bool found = strstr(whole, text);
-
-	g_free(whole);
-	return found;
-}
-
 static struct xref_target target_of(int table, const char *name)
 {
 	struct project *project = ladder_document_project(document);
@@ -162,10 +154,10 @@ static void test_output(void)
 	CHECK(rename_to(&target, "Pump", 2 + 2 + 2));
 	text = with(SCENARIO, in_scenario);
 	other = with(PLANT, in_plant);
-	CHECK_AS(opened->len == 2 && has("COIL Pump") && !has("Motor"), "the program changes");
+	CHECK_AS(opened->len == 2 && document_has(document, "COIL Pump") && !document_has(document, "Motor"), "the program changes");
 	CHECK_AS(holds(scenario, text), "the scenario changes");
 	CHECK_AS(holds(plant, other), "only the name changes in the plant");
-	CHECK_AS(ladder_document_undo(document) && has("COIL Motor") &&
+	CHECK_AS(ladder_document_undo(document) && document_has(document, "COIL Motor") &&
 		 holds(scenario, SCENARIO) && holds(plant, PLANT), "one undo restores all files");
 	CHECK(!ladder_document_undo_name(document));
 	CHECK_AS(ladder_document_redo(document) && holds(scenario, text) && holds(plant, other) &&
@@ -266,7 +258,7 @@ static void test_refused(void)
 		"  Pump : BOOL;\nEND_VAR\nPROGRAM Line LD\nRUNG\nEND_PROGRAM\n", -1, NULL));
 	why = rename_refusal(document, &target, "Pump");
 	CHECK_AS(why && strstr(why, "pump.plant.rung"), "a plant that has the name refuses it");
-	CHECK_AS(!rename_to(&target, "Pump", 0) && has("COIL Motor") && opened->len == 0,
+	CHECK_AS(!rename_to(&target, "Pump", 0) && document_has(document, "COIL Motor") && opened->len == 0,
 		 "a refused rename changes nothing");
 	g_free(why);
 	end();
@@ -341,7 +333,7 @@ static void test_charts(void)
 	CHECK(rename_to(&target, "Pump", 2 + 2 + 2 + 3));
 	CHECK_AS(strstr(text, ladder_document_view(document)), "the charts change");
 	CHECK(ladder_document_undo(document));
-	CHECK_AS(strcmp(ladder_document_view(document), view) == 0 && has("COIL Motor"),
+	CHECK_AS(strcmp(ladder_document_view(document), view) == 0 && document_has(document, "COIL Motor"),
 		 "one undo restores the charts");
 	target = target_of(1, "Delay");
 	CHECK(rename_to(&target, "Wait", 2 + 2 + 2));
@@ -369,7 +361,7 @@ static void test_label(void)
 		if (xref.use[i].target.what == XREF_LABEL && xref.use[i].kind == XREF_DECLARED)
 			found = i;
 	CHECK(found >= 0 && rename_to(&xref.use[found].target, "Behind", 2));
-	CHECK_AS(has("JMP Behind") && has("RUNG Behind"),
+	CHECK_AS(document_has(document, "JMP Behind") && document_has(document, "RUNG Behind"),
 		 "a label is renamed at its rung and its jump");
 	xref_free(&xref);
 	end();

@@ -6,6 +6,7 @@
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/draw/listing.h"
 #include "tests/editor/opened.h"
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -34,17 +35,6 @@ static const struct symbol_row *find_symbol(const struct symbols *symbols, const
 			return symbol;
 	}
 	return NULL;
-}
-
-static bool has(LadderDocument *document, const char *part)
-{
-	char *text = ladder_document_text(document, NULL);
-	bool found = strstr(text, part);
-
-	if (!found)
-		printf("# %s\n", text);
-	g_free(text);
-	return found;
 }
 
 /* Tree, table and paper list the declarations, without the result and ENO. */
@@ -140,37 +130,37 @@ static void test_fields(void)
 	char *before = ladder_document_text(document, NULL), *after;
 
 	CHECK(set(document, "", "Count", FIELD_TYPE, "DINT"));
-	CHECK(has(document, "  Count : DINT := 7; (* of parts *)\n"));
+	CHECK(document_has(document, "  Count : DINT := 7; (* of parts *)\n"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Change type");
 	CHECK(set(document, "", "Count", FIELD_INITIAL, ""));
 	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MD4"));
-	CHECK(has(document, "  Count AT %MD4   : DINT;"));
+	CHECK(document_has(document, "  Count AT %MD4   : DINT;"));
 	CHECK_AS(!set(document, "", "Start", FIELD_COMMENT, "a *) b") &&
 		 !set(document, "", "Start", FIELD_COMMENT, "a (* b"),
 		 "a comment with (* or *) is refused");
 	CHECK(set(document, "", "Start", FIELD_COMMENT, "a\nd"));
-	CHECK(has(document, "(* a d *)\n"));
+	CHECK(document_has(document, "(* a d *)\n"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, "1"));
-	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
+	CHECK(document_has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, ""));
 	CHECK(set(document, "", "Hours", FIELD_RETAIN, ""));
-	CHECK_AS(!has(document, "RETAIN"),
+	CHECK_AS(!document_has(document, "RETAIN"),
 		 "the last RETAIN symbol of a block removes RETAIN");
 	CHECK(set(document, "", "Hours", FIELD_INITIAL, "3"));
 	CHECK(set(document, "", "Hours", FIELD_CONSTANT, "1"));
-	CHECK(has(document, "VAR CONSTANT\n  Hours : UDINT := 3;\nEND_VAR\n"));
+	CHECK(document_has(document, "VAR CONSTANT\n  Hours : UDINT := 3;\nEND_VAR\n"));
 	CHECK(set(document, "Recipe", "Speed", FIELD_INITIAL, "9"));
-	CHECK(has(document, "    Speed : INT := 9; (* rpm *)\n"));
+	CHECK(document_has(document, "    Speed : INT := 9; (* rpm *)\n"));
 	CHECK(set(document, "Main", "Delay", FIELD_TYPE, "TOF"));
 	CHECK(set(document, "Main", "\xe7\x81\xaf", FIELD_RETAIN, "1"));
-	CHECK(has(document, "END_VAR\nVAR RETAIN\n  \xe7\x81\xaf : BOOL;\nEND_VAR\nRUNG"));
+	CHECK(document_has(document, "END_VAR\nVAR RETAIN\n  \xe7\x81\xaf : BOOL;\nEND_VAR\nRUNG"));
 	after = ladder_document_text(document, NULL);
 	while (ladder_document_undo(document))
 		;
-	CHECK_AS(has(document, before), "undo restores the text");
+	CHECK_AS(document_has(document, before), "undo restores the text");
 	while (ladder_document_redo(document))
 		;
-	CHECK(has(document, after));
+	CHECK(document_has(document, after));
 	g_free(before);
 	g_free(after);
 	g_object_unref(document);
@@ -181,12 +171,12 @@ static void test_names(void)
 	LadderDocument *document = opened(sample);
 
 	CHECK(set(document, "", "Motor", FIELD_NAME, "\xe7\x94\xb5\xe6\x9c\xba"));
-	CHECK(has(document, "COIL \xe7\x94\xb5\xe6\x9c\xba |"));
+	CHECK(document_has(document, "COIL \xe7\x94\xb5\xe6\x9c\xba |"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Rename symbol");
 	CHECK(ladder_document_undo(document));
 	CHECK(set(document, "", "Hours", FIELD_NAME, "Minutes"));
-	CHECK(has(document, "  Minutes : UDINT;"));
-	CHECK(set(document, "Seal", "On", FIELD_NAME, "Go") && has(document, "| NO Go |"));
+	CHECK(document_has(document, "  Minutes : UDINT;"));
+	CHECK(set(document, "Seal", "On", FIELD_NAME, "Go") && document_has(document, "| NO Go |"));
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, "Motor"));
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, "main"));
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, "VAR"));
@@ -219,7 +209,7 @@ static void test_hostile(void)
 	CHECK(!set(document, "", "Count", FIELD_ADDRESS, "%ZZ9"));
 	CHECK(!set(document, "", "Count", FIELD_ADDRESS, "%MW2 : INT; Y AT %MW4"));
 	CHECK(!set(document, "Recipe", "Speed", FIELD_ADDRESS, "%MW2"));
-	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
+	CHECK_AS(document_has(document, before) && !ladder_document_undo_name(document),
 		 "a refused type, value or address changes nothing");
 	g_free(before);
 	g_object_unref(document);
@@ -238,15 +228,15 @@ static void test_add(void)
 	const struct symbol_row *symbol;
 
 	CHECK(symbol_add(document, 0, 0, lamp, NULL));
-	CHECK(has(document, "  Lamp  AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\nVAR RETAIN"));
+	CHECK(document_has(document, "  Lamp  AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\nVAR RETAIN"));
 	CHECK(symbol_add(document, 0, 0, keep, NULL));
-	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Keep  : INT := 5;"));
+	CHECK(document_has(document, "VAR RETAIN\n  Hours : UDINT;\n  Keep  : INT := 5;"));
 	CHECK(symbol_add(document, 1, 0, keep, NULL));
 	CHECK(!symbol_add(document, 2, VAR_OUTPUT, lamp, NULL));
 	CHECK(symbol_add(document, 2, VAR_OUTPUT, free_lamp, NULL));
-	CHECK(has(document, "END_VAR\nVAR_OUTPUT\n  Lamp : BOOL"));
+	CHECK(document_has(document, "END_VAR\nVAR_OUTPUT\n  Lamp : BOOL"));
 	CHECK(symbol_add(document, 3, 0, again, NULL));
-	CHECK(has(document, "    lamp  : INT;\n  END_STRUCT"));
+	CHECK(document_has(document, "    lamp  : INT;\n  END_STRUCT"));
 	CHECK(!symbol_add(document, 0, 0, again, &why) && why);
 	g_free(why);
 	name = symbol_free_name(document, 0, "Lamp");
@@ -259,17 +249,17 @@ static void test_add(void)
 	symbols_free(symbols);
 	while (ladder_document_undo(document))
 		;
-	CHECK(has(document, before));
+	CHECK(document_has(document, before));
 	g_free(before);
 	g_object_unref(document);
 
 	document = opened("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\n"
 			  "END_PROGRAM\n");
 	CHECK(symbol_add(document, 0, 0, lamp, NULL) && symbol_add(document, 1, 0, keep, NULL));
-	CHECK(has(document, "RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\n"
+	CHECK(document_has(document, "RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\n"
 		  "PROGRAM Main LD\nVAR RETAIN\n  Keep : INT := 5;\nEND_VAR\nRUNG\n"));
 	CHECK(symbol_delete(document, 0, 0, NULL) && symbol_delete(document, 1, 0, NULL));
-	CHECK(has(document, "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n"));
+	CHECK(document_has(document, "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n"));
 	CHECK(!symbol_delete(document, 0, 0, NULL) && !symbol_delete(document, 9, 9, NULL));
 	g_object_unref(document);
 }
@@ -403,17 +393,17 @@ static void test_import(void)
 	}
 	CHECK_TEXT(((struct csv_entry *)plan->entry->pdata[0])->text,
 		   "Address: %IX0.0 \xe2\x86\x92 %IX0.7");
-	CHECK_AS(has(document, before), "a plan changes nothing");
+	CHECK_AS(document_has(document, before), "a plan changes nothing");
 	CHECK(csv_plan_apply(plan, NULL));
-	CHECK(has(document, "  Start AT %IX0.7 : BOOL; (* green *)\n"));
-	CHECK(has(document, "  Lamp  AT %QX1.0 : BOOL; (* big; red *)\n"));
-	CHECK(has(document, "VAR\n  Hours : UDINT;\nEND_VAR\n"));
-	CHECK(has(document, "VAR RETAIN\n  \xe9\x98\x80 : BOOL;\nEND_VAR\n"));
+	CHECK(document_has(document, "  Start AT %IX0.7 : BOOL; (* green *)\n"));
+	CHECK(document_has(document, "  Lamp  AT %QX1.0 : BOOL; (* big; red *)\n"));
+	CHECK(document_has(document, "VAR\n  Hours : UDINT;\nEND_VAR\n"));
+	CHECK(document_has(document, "VAR RETAIN\n  \xe9\x98\x80 : BOOL;\nEND_VAR\n"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Import symbols");
 	CHECK(!csv_plan_apply(plan, &why) && why);
 	g_free(why);
 	csv_plan_free(plan);
-	CHECK(ladder_document_undo(document) && has(document, before));
+	CHECK(ladder_document_undo(document) && document_has(document, before));
 	CHECK(!ladder_document_undo_name(document));
 	plan = csv_plan_new(document, "Type,Address\nINT,%MW0\n", 22);
 	CHECK(plan->counts[CSV_REFUSE] == 1 && plan->entry->len == 1);
@@ -475,10 +465,10 @@ static void test_places(void)
 
 	CHECK(csv_plan_apply(plan, NULL));
 	csv_plan_free(plan);
-	CHECK(has(document, "VAR_TEMP\n  D : BOOL;\nEND_VAR\n"));
-	CHECK(has(document, "VAR\n  On : BOOL;\nEND_VAR\n"));
-	CHECK(has(document, "VAR_OUTPUT\n  E : BOOL;\nEND_VAR\n"));
-	CHECK(has(document, "    Weight : INT;\n"));
+	CHECK(document_has(document, "VAR_TEMP\n  D : BOOL;\nEND_VAR\n"));
+	CHECK(document_has(document, "VAR\n  On : BOOL;\nEND_VAR\n"));
+	CHECK(document_has(document, "VAR_OUTPUT\n  E : BOOL;\nEND_VAR\n"));
+	CHECK(document_has(document, "    Weight : INT;\n"));
 	again = csv_export(document, &count);
 	CHECK_AS(strstr(again, ",VAR,Noted,INT,,,,,a ( * b * ) c d\r\n"),
 		 "the imported comment is that of the plan");
@@ -503,7 +493,7 @@ static void test_faults(void)
 	CHECK(plan->faults == 3);
 	CHECK(!((struct csv_entry *)plan->entry->pdata[0])->warning);
 	CHECK(((struct csv_entry *)plan->entry->pdata[1])->warning);
-	CHECK_AS(csv_plan_apply(plan, NULL) && has(document, "Stop  AT %IX0.0 : BOOL"),
+	CHECK_AS(csv_plan_apply(plan, NULL) && document_has(document, "Stop  AT %IX0.0 : BOOL"),
 		 "a table with warnings can be imported");
 	csv_plan_free(plan);
 	g_object_unref(document);
@@ -592,7 +582,7 @@ static void test_time(void)
 	CHECK(set(document, "", "Count", FIELD_INITIAL, ""));
 	CHECK(set(document, "", "Count", FIELD_TYPE, "TIME"));
 	CHECK(set(document, "", "Count", FIELD_INITIAL, "1m30s"));
-	CHECK(has(document, "Count : TIME := T#1m30s;"));
+	CHECK(document_has(document, "Count : TIME := T#1m30s;"));
 	CHECK(!set(document, "", "Hours", FIELD_INITIAL, "5s"));
 	g_object_unref(document);
 }
@@ -613,7 +603,7 @@ static void test_expressions(void)
 	CHECK_AS(find_symbol(symbols, "", "Limit")->uses == 3, "its uses are counted");
 	symbols_free(symbols);
 	CHECK(set(document, "", "Max", FIELD_INITIAL, "(Limit + 2) * 3"));
-	CHECK(has(document, "Max   : INT := (Limit + 2) * 3;"));
+	CHECK(document_has(document, "Max   : INT := (Limit + 2) * 3;"));
 	CHECK(set(document, "", "Table", FIELD_TYPE, "ARRAY[1..Limit * 2] OF INT"));
 	CHECK(!set(document, "", "Max", FIELD_INITIAL, "Limit / 0"));
 	CHECK(!set(document, "", "Max", FIELD_INITIAL, "Lmit"));
@@ -622,8 +612,8 @@ static void test_expressions(void)
 	CHECK_AS(why && strstr(why, "divides by 0"), "the reason is told");
 	g_free(why);
 	CHECK(set(document, "", "Limit", FIELD_NAME, "Most"));
-	CHECK_AS(has(document, "Max   : INT := (Most + 2) * 3;") &&
-		 has(document, "ARRAY[1..Most * 2] OF INT") && has(document, "STRING[Most + 2]"),
+	CHECK_AS(document_has(document, "Max   : INT := (Most + 2) * 3;") &&
+		 document_has(document, "ARRAY[1..Most * 2] OF INT") && document_has(document, "STRING[Most + 2]"),
 		 "a renamed constant is renamed in declarations");
 	g_object_unref(document);
 }
@@ -662,21 +652,21 @@ static void test_access(void)
 
 	CHECK(given(document, "", "Count") == SYMBOL_KEPT);
 	CHECK(give(document, "", "Count", SYMBOL_WRITE));
-	CHECK(has(document, "VAR_ACCESS\n  Count : Count : INT READ_WRITE;\nEND_VAR\n\nPROGRAM"));
+	CHECK(document_has(document, "VAR_ACCESS\n  Count : Count : INT READ_WRITE;\nEND_VAR\n\nPROGRAM"));
 	CHECK(given(document, "", "Count") == SYMBOL_WRITE);
 	CHECK(give(document, "", "Table", SYMBOL_READ));
 	CHECK(give(document, "Main", "\xe7\x81\xaf", SYMBOL_WRITE));
-	CHECK_AS(has(document, "  Table : Table   : ARRAY[1..3] OF INT READ_ONLY;\n") &&
-		 has(document, " : Main.\xe7\x81\xaf : BOOL READ_WRITE;\nEND_VAR"),
+	CHECK_AS(document_has(document, "  Table : Table   : ARRAY[1..3] OF INT READ_ONLY;\n") &&
+		 document_has(document, " : Main.\xe7\x81\xaf : BOOL READ_WRITE;\nEND_VAR"),
 		 "a local is given behind the name of its program, in the same block");
 	CHECK(give(document, "", "Count", SYMBOL_READ));
-	CHECK(has(document, "  Count : Count   : INT READ_ONLY;\n"));
+	CHECK(document_has(document, "  Count : Count   : INT READ_ONLY;\n"));
 	CHECK_AS(!give(document, "Main", "Delay", SYMBOL_READ) &&
 		 !give(document, "Recipe", "Speed", SYMBOL_READ) &&
 		 !give(document, "Seal", "On", SYMBOL_READ),
 		 "no instances, no members, nothing of blocks");
 	CHECK(set(document, "", "Count", FIELD_NAME, "Parts"));
-	CHECK_AS(has(document, "  Count : Parts   : INT READ_ONLY;\n") &&
+	CHECK_AS(document_has(document, "  Count : Parts   : INT READ_ONLY;\n") &&
 		 given(document, "", "Parts") == SYMBOL_READ,
 		 "a renamed symbol keeps its name for operators");
 	CHECK(give(document, "", "Parts", SYMBOL_KEPT));
@@ -710,11 +700,11 @@ static void test_access_places(void)
 		"PROGRAM B LD\nVAR\n  X : INT;\nEND_VAR\nEND_PROGRAM\n");
 
 	CHECK(give(document, "A", "X", SYMBOL_WRITE) && give(document, "B", "X", SYMBOL_READ));
-	CHECK(has(document, "  PROGRAM One : A;\nVAR_ACCESS\n"
+	CHECK(document_has(document, "  PROGRAM One : A;\nVAR_ACCESS\n"
 			    "  A_X : A.X : ARRAY[1..4] OF INT READ_WRITE;\n"
 			    "  B_X : B.X : INT READ_ONLY;\nEND_VAR\nEND_CONFIGURATION\n"));
 	deleted(document, "A", "X");
-	CHECK_AS(has(document, "VAR_ACCESS\n  B_X : B.X : INT READ_ONLY;\nEND_VAR"),
+	CHECK_AS(document_has(document, "VAR_ACCESS\n  B_X : B.X : INT READ_ONLY;\nEND_VAR"),
 		 "the access goes with the symbol");
 	g_object_unref(document);
 }
@@ -730,11 +720,11 @@ static void test_access_deleted(void)
 		"VAR_ACCESS\n  Six : A[1] : INT READ_ONLY;\nEND_VAR\n\nPROGRAM M LD\nEND_PROGRAM\n");
 
 	deleted(document, "", "A");
-	CHECK_AS(has(document, "END_VAR\n\nVAR_ACCESS\n  Three : B[2]    : INT READ_ONLY;\n"
+	CHECK_AS(document_has(document, "END_VAR\n\nVAR_ACCESS\n  Three : B[2]    : INT READ_ONLY;\n"
 			       "  Five  : B[Most] : INT READ_ONLY;\nEND_VAR\n\nPROGRAM"),
 		 "every access to the symbol goes with it, and the block of the last one");
 	deleted(document, "", "Most");
-	CHECK_AS(has(document, "  Five  : B[Most] :"), "an access that has it as an index stays");
+	CHECK_AS(document_has(document, "  Five  : B[Most] :"), "an access that has it as an index stays");
 	g_object_unref(document);
 }
 
@@ -776,17 +766,17 @@ static void test_access_names(void)
 	for (gsize i = 0; i < G_N_ELEMENTS(typing); i++) {
 		shown = typed(document, "Count", typing[i].text);
 		CHECK_TEXT(shown ? shown : "(refused)", typing[i].shown);
-		CHECK_AS(has(document, typing[i].line), typing[i].line);
+		CHECK_AS(document_has(document, typing[i].line), typing[i].line);
 		g_free(shown);
 	}
 	for (gsize i = 0; i < G_N_ELEMENTS(bad); i++) {
 		shown = typed(document, "Count", bad[i]);
-		CHECK_AS(!shown && has(document, "  count : Count : INT READ_ONLY;\n"), bad[i]);
+		CHECK_AS(!shown && document_has(document, "  count : Count : INT READ_ONLY;\n"), bad[i]);
 		g_free(shown);
 	}
 	shown = typed(document, "Count", "");
 	CHECK_TEXT(shown, "");
-	CHECK(!has(document, "VAR_ACCESS"));
+	CHECK(!document_has(document, "VAR_ACCESS"));
 	g_free(shown);
 	g_object_unref(document);
 }

@@ -6,6 +6,7 @@
 #include "editor-gtk/kit/entry_row.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/widgets.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -90,18 +91,6 @@ static char *offer(void *popup, const char *line, int cursor, bool *good)
 	return NULL;
 }
 
-static GtkWidget *inside(GtkWidget *widget, GType type)
-{
-	GtkWidget *found = NULL;
-
-	if (G_TYPE_CHECK_INSTANCE_TYPE(widget, type))
-		return widget;
-	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
-	     child = gtk_widget_get_next_sibling(child))
-		found = inside(child, type);
-	return found;
-}
-
 static int visible_rows(GtkWidget *list)
 {
 	int count = 0;
@@ -122,8 +111,8 @@ static void test_list(GtkWidget *owner)
 	int needed, taken_up;
 
 	popup = LADDER_ENTRY_POPUP(ladder_entry_popup_new(owner, "Name", "", false, &calls));
-	list = inside(GTK_WIDGET(popup), GTK_TYPE_LIST_BOX);
-	scroller = inside(GTK_WIDGET(popup), GTK_TYPE_SCROLLED_WINDOW);
+	list = find_type(GTK_WIDGET(popup), GTK_TYPE_LIST_BOX);
+	scroller = find_type(GTK_WIDGET(popup), GTK_TYPE_SCROLLED_WINDOW);
 	ladder_entry_popup_show(popup, &(GdkRectangle){ 10, 10, 50, 50 });
 	for (candidates = 1; candidates < 6; candidates++) {
 		ladder_entry_popup_ask(popup);

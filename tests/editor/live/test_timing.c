@@ -6,6 +6,7 @@
 #include "editor-gtk/live/timing_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/widgets.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -26,20 +27,9 @@ static void program_changed(void)
 	changes++;
 }
 
-static LadderTimingArea *area_in(GtkWidget *widget)
-{
-	LadderTimingArea *found = LADDER_IS_TIMING_AREA(widget) ?
-		LADDER_TIMING_AREA(widget) : NULL;
-	GtkWidget *child = gtk_widget_get_first_child(widget);
-
-	for (; child && !found; child = gtk_widget_get_next_sibling(child))
-		found = area_in(child);
-	return found;
-}
-
 static char *names(void)
 {
-	struct timing *timing = ladder_timing_area_timing(area_in(GTK_WIDGET(view)));
+	struct timing *timing = ladder_timing_area_timing(LADDER_TIMING_AREA(find_type(GTK_WIDGET(view), LADDER_TYPE_TIMING_AREA)));
 	GString *out = g_string_new(NULL);
 
 	for (int i = 0; i < timing_lines(timing); i++)
@@ -162,20 +152,10 @@ static void test_late(void)
 	view = first;
 }
 
-static GtkWidget *entry_in(GtkWidget *widget)
-{
-	GtkWidget *found = GTK_IS_SEARCH_ENTRY(widget) ? widget : NULL;
-
-	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
-	     child = gtk_widget_get_next_sibling(child))
-		found = entry_in(child);
-	return found;
-}
-
 /* Types a name and presses Enter. @why: the refusal, at the entry; NULL: it is added. */
 static void want(const char *name, const char *why)
 {
-	GtkWidget *entry = entry_in(GTK_WIDGET(view));
+	GtkWidget *entry = find_type(GTK_WIDGET(view), GTK_TYPE_SEARCH_ENTRY);
 	GtkWidget *label = gtk_widget_get_next_sibling(entry);
 
 	gtk_editable_set_text(GTK_EDITABLE(entry), name);

@@ -13,6 +13,7 @@
 #include "tests/editor/saved.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/widgets.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -202,16 +203,6 @@ static void check_file(void)
 }
 
 /* ---- the table ---- */
-
-static GtkWidget *find_type(GtkWidget *widget, GType type)
-{
-	GtkWidget *found = g_type_is_a(G_OBJECT_TYPE(widget), type) ? widget : NULL;
-	GtkWidget *child = gtk_widget_get_first_child(widget);
-
-	for (; child && !found; child = gtk_widget_get_next_sibling(child))
-		found = find_type(child, type);
-	return found;
-}
 
 static GListModel *list(void)
 {

@@ -6,26 +6,17 @@
 #include "editor-gtk/panels/device_view.h"
 #include "tests/editor/online/board.h"
 #include "tests/editor/screen.h"
+#include "tests/editor/widgets.h"
 
 #include <adwaita.h>
 #include <string.h>
 
 static GtkWidget *view;
 
-static GtkGrid *find_grid(GtkWidget *widget)
-{
-	GtkWidget *child = gtk_widget_get_first_child(widget);
-	GtkGrid *found = GTK_IS_GRID(widget) ? GTK_GRID(widget) : NULL;
-
-	for (; child && !found; child = gtk_widget_get_next_sibling(child))
-		found = find_grid(child);
-	return found;
-}
-
 /* The text beside a name in the first list; NULL: there is no such row. */
 static const char *fact_of(const char *name)
 {
-	GtkGrid *grid = find_grid(view);
+	GtkGrid *grid = GTK_GRID(find_type(view, GTK_TYPE_GRID));
 	GtkWidget *label;
 
 	for (int row = 0; grid && (label = gtk_grid_get_child_at(grid, 0, row)); row++)

@@ -6,6 +6,7 @@
 #include "editor-gtk/panels/symbols_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/widgets.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -19,18 +20,6 @@ static const char sample[] =
 static LadderDocument *document;
 static GtkSelectionModel *rows; /* of the panel that goes */
 static guint criticals;
-
-static GtkWidget *find(GtkWidget *from, GType type)
-{
-	GtkWidget *found = NULL;
-
-	if (G_TYPE_CHECK_INSTANCE_TYPE(from, type))
-		return from;
-	for (GtkWidget *child = gtk_widget_get_first_child(from); child && !found;
-	     child = gtk_widget_get_next_sibling(child))
-		found = find(child, type);
-	return found;
-}
 
 static void select_another(void)
 {
@@ -50,7 +39,7 @@ static void test_end(GtkWidget *panel, const char *as)
 
 	gtk_window_set_child(GTK_WINDOW(window), panel);
 	screen_show(window);
-	list = find(panel, GTK_TYPE_COLUMN_VIEW);
+	list = find_type(panel, GTK_TYPE_COLUMN_VIEW);
 	rows = g_object_ref(gtk_column_view_get_model(GTK_COLUMN_VIEW(list)));
 	WAIT(g_list_model_get_n_items(G_LIST_MODEL(rows)) > 1);
 	/* between the end of its parts and that of its signals */

@@ -12,6 +12,7 @@
 #include "tests/editor/panel_list.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -23,15 +24,6 @@ static const char sample[] =
 	"PROGRAM Main LD\nVAR\n  Set : ARRAY[1..2] OF INT;\nEND_VAR\nRUNG\n  | NO Start | COIL %QX0.4 |\nEND_PROGRAM\n";
 
 static LadderDocument *document;
-
-static bool has(const char *part)
-{
-	char *text = ladder_document_text(document, NULL);
-	const bool found = strstr(text, part);
-
-	g_free(text);
-	return found;
-}
 
 static GtkWidget *cell_with(GtkWidget *from, const char *text)
 {
@@ -64,10 +56,10 @@ static void test_moved(GtkWidget *cell)
 
 	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
 	type_into(cell, "Stock");
-	CHECK_AS(has("Stock : INT;") && !has("Spare"),
+	CHECK_AS(document_has(document, "Stock : INT;") && !document_has(document, "Spare"),
 		 "a row changes its own declaration after that moved");
 	type_into(cell, "Spare");
-	CHECK_AS(has("Spare : INT;") && !has("Stock"),
+	CHECK_AS(document_has(document, "Spare : INT;") && !document_has(document, "Stock"),
 		 "a row finds its declaration by the new name");
 	undo_all();
 }
@@ -76,9 +68,9 @@ static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
 {
 	char *why = NULL;
 
-	CHECK(symbol_delete(document, 0, 1, &why) && !has("Spare"));
+	CHECK(symbol_delete(document, 0, 1, &why) && !document_has(document, "Spare"));
 	type_into(cell, "Stock");
-	CHECK_AS(!has("Stock") && gtk_widget_has_css_class(cell, "error"),
+	CHECK_AS(!document_has(document, "Stock") && gtk_widget_has_css_class(cell, "error"),
 		 "a row of a deleted symbol changes no other one");
 	CHECK_TEXT(panel_text(view, "message"), "Spare, Name: There is no such symbol");
 	undo_all();
@@ -115,7 +107,7 @@ static void test_array(LadderSymbolsView *view)
 	CHECK_SOON(has_focus(cell) && !cell_with(cell, "9"));
 	last = open_array(view, "Other", &cell);
 	g_signal_emit_by_name(last, "activate");
-	CHECK_AS(!has("Spare : ARRAY"), "the form of an array changes no row that came to its place");
+	CHECK_AS(!document_has(document, "Spare : ARRAY"), "the form of an array changes no row that came to its place");
 	turn(0);
 }
 
@@ -157,9 +149,9 @@ static void test_new_pou(LadderSymbolsView *view)
 	gtk_editable_set_text(GTK_EDITABLE(cell), "7");
 	gtk_widget_activate_action(dialog, "init.apply", NULL);
 	turn(0);
-	CHECK_AS(has("Set : ARRAY[1..2] OF INT := [7, 0];") || has("Set : ARRAY[1..2] OF INT := [7];"),
+	CHECK_AS(document_has(document, "Set : ARRAY[1..2] OF INT := [7, 0];") || document_has(document, "Set : ARRAY[1..2] OF INT := [7];"),
 		 "values are set");
-	CHECK_AS(has("PROGRAM First LD\nVAR\n  Set : ARRAY[1..2] OF INT;"),
+	CHECK_AS(document_has(document, "PROGRAM First LD\nVAR\n  Set : ARRAY[1..2] OF INT;"),
 		 "and not those of another POU");
 	gtk_drop_down_set_selected(GTK_DROP_DOWN(scopes), 0);
 	g_free(with);
@@ -191,7 +183,7 @@ int main(void)
 		test_gone(view, cell);
 		test_array(view);
 	}
-	CHECK_AS(has(text), "an undo restores the text");
+	CHECK_AS(document_has(document, text), "an undo restores the text");
 	test_new_pou(view);
 	g_free(text);
 	gtk_window_destroy(GTK_WINDOW(window));

@@ -8,10 +8,12 @@
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/sim/st_why.h"
 #include "editor-gtk/text/text_mend.h"
+#include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
-#include "tests/editor/values.h"
+#include "tests/editor/widgets.h"
+#include "tests/editor/texts.h"
 #include "tests/tap.h"
 #include "engine/model/sfc.h"
 
@@ -408,28 +410,25 @@ static void test_typing(void)
 	g_free(before);
 }
 
-static bool has(const char *part)
-{
-	char *text = ladder_document_text(document, NULL);
-	const bool found = strstr(text, part);
-
-	g_free(text);
-	return found;
-}
-
 /* A letter goes into the document once: after it was drawn, or on request. */
 static void test_soon(void)
 {
 	put_cursor(4, 13);
 	gtk_text_buffer_insert_at_cursor(buffer, "8", 1);
-	CHECK(!has("Start8") && !ladder_document_undo_name(document));
-	CHECK_SOON(has("Start8"));
+	CHECK(!document_has(document, "Start8") && !ladder_document_undo_name(document));
+	CHECK_SOON(document_has(document, "Start8"));
 	gtk_text_buffer_insert_at_cursor(buffer, "9", 1);
 	ladder_text_view_take(view);
-	CHECK(has("Start89"));
+	CHECK(document_has(document, "Start89"));
 	CHECK(ladder_document_undo(document) && !ladder_document_undo_name(document));
 	ladder_text_view_take(view);
-	CHECK_AS(!has("Start8"), "undone text does not return");
+	CHECK_AS(!document_has(document, "Start8"), "undone text does not return");
+}
+
+/* The text of the view, which has values beside its lines. */
+static LadderLineValues *beside_view(void)
+{
+	return LADDER_LINE_VALUES(find_type(GTK_WIDGET(view), LADDER_TYPE_LINE_VALUES));
 }
 
 /* What is beside a line, by its text. */
@@ -441,7 +440,7 @@ static bool has_beside(const char *line, const char *value)
 
 	for (int i = 0; lines[i]; i++)
 		if (g_str_has_prefix(g_strchug(lines[i]), line)) {
-			beside = line_values_text(values_in(GTK_WIDGET(view)), i);
+			beside = line_values_text(beside_view(), i);
 			found = true;
 		}
 	if (!found || g_strcmp0(beside, value) != 0)
@@ -459,7 +458,7 @@ static bool has_result(const char *line, const char *value)
 
 	for (int i = 0; lines[i]; i++)
 		if (g_str_has_prefix(g_strchug(lines[i]), line))
-			after = line_values_result(values_in(GTK_WIDGET(view)), i);
+			after = line_values_result(beside_view(), i);
 	if (g_strcmp0(after, value) != 0)
 		printf("# %s: %s\n", line, after ? after : "nothing");
 	g_strfreev(lines);
@@ -679,7 +678,7 @@ static void test_values(void)
 	ladder_text_view_take(view);
 	ladder_document_check_now(document);
 	ladder_text_view_set_sim(view, sim);
-	CHECK(line_values_text(values_in(GTK_WIDGET(view)), 4) == NULL);
+	CHECK(line_values_text(beside_view(), 4) == NULL);
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(has_beside("LD    Start", "FALSE") && has_beside("ST    Motor", "FALSE"));
 	start.at = live_value_find(live_image(sim, false), "Start");
