@@ -8,6 +8,7 @@
  */
 #include "editor-gtk/document/csv.h"
 
+#include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/name_fold.h"
@@ -667,7 +668,7 @@ static void read_fields(const struct import *import, const struct symbol_row *ol
 	}
 	if (old)
 		text[FIELD_NAME] = old->text[FIELD_NAME];
-	text[FIELD_COMMENT] = symbol_text_comment(text[FIELD_COMMENT]);
+	text[FIELD_COMMENT] = comment_text_safe(text[FIELD_COMMENT]);
 }
 
 static void import_symbol(struct import *import, int line, char *full, int table, int flags,

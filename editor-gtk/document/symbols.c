@@ -348,22 +348,6 @@ static bool refuse(char **why, char *text)
 	return false;
 }
 
-char *symbol_text_comment(const char *text)
-{
-	GString *out = g_string_new("");
-
-	for (const char *at = text; *at; at++) {
-		const bool blank = g_ascii_isspace(*at);
-
-		if (!blank)
-			g_string_append_c(out, *at);
-		if (blank || (at[0] == '*' && at[1] == ')') || (at[0] == '(' && at[1] == '*'))
-			if (out->len && out->str[out->len - 1] != ' ')
-				g_string_append_c(out, ' ');
-	}
-	return g_strchomp(g_string_free(out, FALSE));
-}
-
 /* 5s becomes T#5s, as in an entry. Caller: g_free. */
 static char *initial_of(const char *text)
 {
@@ -379,7 +363,7 @@ static char *initial_of(const char *text)
 char *symbol_text_line(const char *const text[SYMBOL_FIELDS])
 {
 	GString *out = g_string_new("  ");
-	char *comment = symbol_text_comment(text[FIELD_COMMENT]), *initial;
+	char *comment = comment_text_safe(text[FIELD_COMMENT]), *initial;
 
 	g_string_append(out, text[FIELD_NAME]);
 	if (*text[FIELD_ADDRESS])

@@ -117,9 +117,6 @@ char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
 
 /* ---- a declaration as text ---- */
 
-/** symbol_text_comment - @text made safe for a comment behind a declaration: one line,
- * single blanks, no comment delimiters. Owns: the caller. */
-char *symbol_text_comment(const char *text);
 /** symbol_text_line - "  Name AT %IX0.0 : BOOL := 1; (* … *)\n". Owns: the caller. */
 char *symbol_text_line(const char *const text[SYMBOL_FIELDS]);
 /** symbol_text_block - "VAR RETAIN\n" of enum var_flag. Owns: the caller. */

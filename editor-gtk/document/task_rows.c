@@ -564,7 +564,7 @@ static bool set_comment(struct task_text *t, struct task_line *line, const char 
 
 	if (strstr(text, "(*") || strstr(text, "*)"))
 		return refuse(why, g_strdup(_("a comment is one line without (* and *)")));
-	clean = symbol_text_comment(text);
+	clean = comment_text_safe(text);
 	touch(t, line);
 	g_free(line->text);
 	line->text = *clean ? g_strdup_printf("(* %s *)", clean) : g_strdup("");

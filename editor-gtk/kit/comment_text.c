@@ -45,3 +45,18 @@ char *comment_text(const char *comment)
 		g_string_truncate(out, out->len - 1);
 	return g_string_free(out, FALSE);
 }
+
+char *comment_text_safe(const char *text)
+{
+	GString *out = g_string_new("");
+
+	for (const char *at = text; *at; at++) {
+		const bool blank = g_ascii_isspace(*at);
+
+		if (!blank)
+			g_string_append_c(out, *at);
+		if (blank || (at[0] == '*' && at[1] == ')') || (at[0] == '(' && at[1] == '*'))
+			add_blank(out);
+	}
+	return g_strchomp(g_string_free(out, FALSE));
+}

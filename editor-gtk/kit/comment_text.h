@@ -12,5 +12,8 @@
  * @comment: "(* … *)", "// …", or "". Owns: the caller, g_free(). Fails: no.
  */
 char *comment_text(const char *comment);
+/** comment_text_safe - @text made safe for a comment behind a declaration: one line,
+ * single blanks, no comment delimiters. Owns: the caller. */
+char *comment_text_safe(const char *text);
 
 #endif

@@ -13,7 +13,6 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/style.h"
 
-
 /* Texts of a row; its index is the number of its struct address_row. */
 enum { MAP_BYTES, MAP_NAMES };
 

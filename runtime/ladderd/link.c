@@ -29,6 +29,7 @@
 
 #include "guard/say.h"
 #include "hal/clock.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <poll.h>
