@@ -446,6 +446,10 @@ static void test_bad_nets(void)
 	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%QW9 modbus bus=a unit=1 holding-register=0 ask=m", "test.io:6:");
 	BAD("%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%QW9 modbus bus=a unit=1 holding-register=0 ask=m", "LD547");
 	BAD("BUS q modbus-tcp host=h\n%IW9 modbus bus=a unit=1 holding-register=0 ask=M\n%IW6 modbus bus=q unit=1 holding-register=0 ask=M", "LD547");
+}
+
+static void test_bad_devices(void)
+{
 	BAD("DEVICE", "LD505");
 	BAD("DEVICE a", "LD505");
 	BAD("DEVICE a read-registers=5", "LD505");
@@ -533,6 +537,7 @@ int main(void)
 	test_bad_groups();
 	test_bad_modules();
 	test_bad_nets();
+	test_bad_devices();
 	test_all_lines();
 	test_pieces();
 	return tap_done();
