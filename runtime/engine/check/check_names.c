@@ -175,6 +175,52 @@ static bool is_taken_type(const struct names_check *c, const char *name)
 	return is_taken(c, name) && word_find(name, len) != WORD_COUNT && !words_is_operator(name, len);
 }
 
+/* ---- namespaces ---- */
+
+/* The NAMESPACE line around part @at of the file; -1: none. */
+static int space_around(const struct project *project, int at)
+{
+	int open = 0;
+
+	while (at-- > 0) {
+		const struct part *part = &project->part[at];
+		const char *text = part->kind == PART_SPACE ? project_text(project, part->text) : "";
+
+		if (ascii_same(text, "END_", 4))
+			open++;
+		else if (ascii_same(text, "NAMESPACE", 9) && open-- == 0)
+			return at;
+	}
+	return -1;
+}
+
+/* The part of the file with what a mark names: POU, structure, named type. */
+static int part_of(const struct project *project, int marked)
+{
+	const int structure = marked - 1 - project->pou_count, named = structure - project->structure_count;
+
+	for (int i = 0; named < 0 && i < project->part_count; i++) {
+		const struct part *part = &project->part[i];
+
+		if (structure < 0 ? part->kind == PART_POU && part->index == marked - 1 :
+				    part->kind == PART_TYPES && structure >= part->index &&
+				    structure < part->index + part->count)
+			return i;
+	}
+	return named < 0 || named >= project->named_count ? 0 : project->named[named].part;
+}
+
+/* Two of one name: DUPLICATE_NAME, or that they stand in two namespaces. */
+static enum diag_id twice_of(const struct names_check *c, int marked, int other)
+{
+	const struct project *project = c->project;
+
+	if (!project->words.space_count || space_around(project, part_of(project, marked)) ==
+	    space_around(project, part_of(project, other)))
+		return DIAG_DUPLICATE_NAME;
+	return DIAG_TWO_SPACES;
+}
+
 /* ---- declarations ---- */
 
 static bool fits(const struct var *var)
@@ -562,7 +608,7 @@ static void check_structures(struct names_check *c)
 			report_struct(c, DIAG_RESERVED_NAME, structure,
 				      structure->line, structure->name);
 		if (mark && mark->pou)
-			report_struct(c, DIAG_DUPLICATE_NAME, structure,
+			report_struct(c, twice_of(c, mark->pou, project->pou_count + i + 1), structure,
 				      structure->line, structure->name);
 		else if (mark)
 			mark->pou = project->pou_count + i + 1;
@@ -590,7 +636,7 @@ static void check_named(struct names_check *c)
 		if (is_reserved(c, name, type->fold) || is_taken_type(c, name))
 			report_named(c, DIAG_RESERVED_NAME, type);
 		if (mark && mark->pou)
-			report_named(c, DIAG_DUPLICATE_NAME, type);
+			report_named(c, twice_of(c, mark->pou, project->pou_count + project->structure_count + i + 1), type);
 		else if (mark)
 			mark->pou = project->pou_count + project->structure_count + i + 1;
 		note_declaration(c, NULL, type->like.var);
@@ -637,8 +683,7 @@ static void check_pous(struct names_check *c)
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
 		if (mark && mark->pou && !pou->copy_of)
-			report_line(c, DIAG_DUPLICATE_NAME, pou, pou->line,
-				    name);
+			report_line(c, twice_of(c, mark->pou, i + 1), pou, pou->line, name);
 		else if (mark && !mark->pou)
 			mark->pou = i + 1;
 	}

@@ -1056,7 +1056,13 @@ static void use_place(struct operand_check *c, struct expr *expr, enum operand_u
 		return;
 	}
 	if (root->op != EXPR_NAME) {
-		operand_report(c, DIAG_WRITE_CONSTANT, at, "");
+		const bool named = root->op == EXPR_BIT || root->op == EXPR_LITERAL;
+		char text[LIMIT_ARG];
+
+		snprintf(text, sizeof(text), "%.*s", root->op == EXPR_BIT ? root->tail.len : root->len,
+			 root->op == EXPR_BIT ? root->tail.text : root->text);
+		operand_report(c, root->op == EXPR_BIT ? DIAG_PART_ALONE : named ? DIAG_WRITE_CONSTANT : DIAG_EXPECTED, at,
+			       named ? text : "name of a variable");
 		return;
 	}
 	id = operand_intern(c, root->text, root->len);

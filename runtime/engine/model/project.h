@@ -100,6 +100,7 @@ struct pou {
 	struct boxed *boxed;    /* of EXECUTE boxes, in the order of their cells */
 	int boxed_count;
 	uint32_t comment;       /* above it                                    */
+	uint32_t uses;          /* string id: USING lines behind its heading, as they are written; 0: none */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* file it is in; borrowed from the arena      */
 	int line;

@@ -10,6 +10,7 @@
 #include "engine/base/ascii.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -291,6 +292,11 @@ static void begin_sfc(struct reader *r, struct pou *pou)
 /* Steps behind the declarations of a POU, to the first token of its body. */
 static void skip_vars(struct lex *lex)
 {
+	while (lex_is(lex, "USING")) {
+		while (!lex_is(lex, ";") && lex->token.kind != TOKEN_END)
+			lex_next(lex);
+		lex_next(lex);
+	}
 	while (lex->token.kind == TOKEN_NAME && lex->token.len >= 3 &&
 	       ascii_same(lex->token.text, "VAR", 3) &&
 	       (lex->token.len == 3 || lex->token.text[3] == '_')) {
@@ -386,6 +392,34 @@ static void read_action_line(struct reader *r, struct pou *pou, int index)
 	r->place.pou = names_text(&r->project->names, pou->name);
 	pou->language = language_of_body(r);
 	reader_end_head(r);
+}
+
+static bool begins_uses(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	ahead.newlines = ahead.comments = false;
+	if (ahead.token.kind == TOKEN_NEWLINE)
+		lex_next(&ahead);
+	return lex_is(&ahead, "USING");
+}
+
+/* USING Plant.Pumps; behind a heading. */
+static void read_uses(struct reader *r, struct pou *pou)
+{
+	struct buffer line = { .text = NULL };
+
+	for (reader_skip_newlines(r); lex_is(&r->lex, "USING"); reader_skip_newlines(r)) {
+		if (line.len)
+			buffer_add(r, &line, "\n", 1);
+		if (!reader_take_space(r, &line)) {
+			reader_skip_line(r);
+			break;
+		}
+	}
+	if (line.len)
+		pou->uses = buffer_take(r, &line);
+	free(line.text);
 }
 
 static void read_first_line(struct reader *r, struct pou *pou, int index)
@@ -510,6 +544,8 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	r->pou = pou;
 	read_first_line(r, pou, index);
 	pou->comment = buffer_take(r, &r->above);
+	if (r->plain && kind != POU_ACTION && begins_uses(r))
+		read_uses(r, pou);
 	read_body(r, pou);
 	r->place.rung = 0;
 	r->pou = NULL;

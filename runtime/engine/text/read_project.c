@@ -335,14 +335,13 @@ static bool add_space(struct reader *r)
 /* Takes the token at the cursor into the text of the line; comments go above it. */
 static void take_token(struct reader *r, struct buffer *line)
 {
-	if (line->len && !reader_is(r, ',') && !reader_is(r, ';'))
+	if (line->len && line->text[line->len - 1] != '\n' && !reader_is(r, ',') && !reader_is(r, ';'))
 		buffer_add(r, line, " ", 1);
 	buffer_add(r, line, r->lex.token.text, r->lex.token.len);
 	reader_step(r);
 }
 
-/* False after a diagnostic. */
-static bool take_space(struct reader *r, struct buffer *line)
+bool reader_take_space(struct reader *r, struct buffer *line)
 {
 	const bool begins = lex_is(&r->lex, "NAMESPACE"), uses = lex_is(&r->lex, "USING");
 
@@ -373,7 +372,7 @@ static void read_space(struct reader *r)
 	r->spaces += begins ? 1 : uses || r->spaces == 0 ? 0 : -1;
 	if (begins)
 		r->space = r->place, r->space.line = first.line, r->space.column = first.column;
-	if (take_space(r, &line)) {
+	if (reader_take_space(r, &line)) {
 		part.text = buffer_take(r, &line);
 		reader_end_head(r);
 		part.comment = buffer_take(r, &r->above);

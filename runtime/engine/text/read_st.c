@@ -422,6 +422,10 @@ static void said_missing(struct st_reader *s, const struct token *last, const ch
 {
 	struct token behind = *last;
 
+	if (strlen(word) == last->len && ascii_same(last->text, word, last->len)) { /* IF A > THEN */
+		said_of(s, DIAG_BAD_EXPRESSION, last, "");
+		return;
+	}
 	behind.column += (int)last->len;
 	said_at(s, DIAG_ST_MISSING, &behind, last, word);
 }
@@ -624,6 +628,11 @@ static enum st_kind foreign_word(struct st_reader *s, struct lex *lex, bool *tol
 		*told = true;
 		return ST_KINDS;
 	}
+	if (lex_is(lex, "END_VAR")) {
+		*told = true;
+		said_of(s, DIAG_ST_NO_BEGIN, &lex->token, "VAR");
+		return ST_KINDS;
+	}
 	for (size_t i = 0; i < sizeof(foreign) / sizeof(*foreign); i++) {
 		if (!lex_is(lex, foreign[i].word) || (lex_is(&ahead, "(") && !foreign[i].parens) ||
 		    lex_is(&ahead, ":"))
@@ -680,6 +689,14 @@ static bool said_changed(struct st_reader *s, const struct lex *first, const str
 	return true;
 }
 
+/* Does a type stand behind the colon at @lex? */
+static bool is_type(struct lex lex)
+{
+	lex_next(&lex);
+	return iec_type_find(lex.token.text, lex.token.len) != IEC_NONE || lex_is(&lex, "ARRAY") ||
+	       lex_is(&lex, "POINTER") || lex_is(&lex, "REF_TO");
+}
+
 /* Why the statement from @first on cannot be read at @lex, if something of another language is the reason. */
 static bool said_sign(struct st_reader *s, enum st_kind kind, const struct lex *first, const struct lex *lex)
 {
@@ -717,6 +734,10 @@ static bool said_sign(struct st_reader *s, enum st_kind kind, const struct lex *
 		}
 	if (kind != ST_ASSIGN || !lex_is(lex, ":") || stores(*lex))
 		return false;
+	if (is_type(*lex)) {
+		said_of(s, DIAG_ST_DECLARES, &first->token, "");
+		return true;
+	}
 	said_of(s, DIAG_ST_FOREIGN, token, ":=");
 	return true;
 }

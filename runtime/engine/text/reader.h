@@ -160,6 +160,9 @@ uint32_t reader_intern(struct reader *r, const char *text, size_t len);
  * a comment that follows. */
 /** reader_name - a plain name. Fails: false and a diagnostic. */
 bool reader_name(struct reader *r, const char *wanted, uint32_t *id);
+/** reader_take_space - adds NAMESPACE Name, END_NAMESPACE or USING Name, Other; at the cursor to @line. False
+ * after a diagnostic. Scan-safe: no. */
+bool reader_take_space(struct reader *r, struct buffer *line);
 /** reader_instance - the name of an instance, or of one of an array: `Motor[i, 3]`; it
  * leaves the cursor on its last token, and clears r->text. */
 bool reader_instance(struct reader *r, uint32_t *id);

@@ -527,6 +527,10 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 		sink_text(sink, sfc_evolution_words(pou->sfc->evolution));
 	}
 	sink_text(sink, "\n");
+	if (pou->uses) {
+		write_id(sink, project, pou->uses);
+		sink_text(sink, "\n");
+	}
 	if (sfc)
 		write_sfc(sink, project, pou);
 	else

@@ -881,7 +881,6 @@ static uint32_t begin_inverse(struct st_il *s, uint32_t place)
 {
 	const uint32_t value = temps_bool(s->ld.temps);
 
-	want_bool(s, st_type_of(s, place));
 	ld_emit(&s->ld, OP_LD, MOD_N, place);
 	ld_emit(&s->ld, OP_ST, 0, value);
 	return value;
@@ -912,9 +911,13 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
 	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
 	skip_unless(s, good);
-	call->inverse[call->count] = part->inverted ? line.operand : 0;
-	if (part->inverted)
+	call->inverse[call->count] = 0;
+	if (part->inverted && st_type_of(s, line.operand) != IEC_BOOL) {
+		want_bool(s, st_type_of(s, line.operand));
+	} else if (part->inverted) {
+		call->inverse[call->count] = line.operand;
 		line.operand = begin_inverse(s, line.operand);
+	}
 	line.pin = len ? st_intern(s, name, len) : 0;
 	line.row = s->ld.row;
 	line.line = (uint32_t)s->ld.line;
