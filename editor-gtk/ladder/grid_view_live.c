@@ -92,8 +92,9 @@ bool live_look(LadderGridView *view, int rung)
 		return false;
 	if (strip->live && strip->live->shown != shown)
 		strip_forget_live(strip);
+	/* The status bar may ask before the sheet has heard of another project. */
 	if (!strip->live && map_of(view))
-		strip->live = live_rung_new(map_of(view), view->drafting.project, shown,
+		strip->live = live_rung_new(map_of(view), ladder_document_project(view->canvas->document), shown,
 					    number_of(view, shown, rung));
 	strip->looked = view->live.stamp;
 	if (!strip->live)

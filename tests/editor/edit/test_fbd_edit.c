@@ -20,7 +20,10 @@ static char *now;
 static const char declared[] =
 	"RUNGBOARD 1\n\nPROGRAM Main FBD\nVAR\n  Level, Raw, Tare, Weight : REAL;\n"
 	"  Stop, Ready, Valve, Horn, A, B, C : BOOL;\n  Delay, Late : TON;\n  N : INT;\n  T : ARRAY[0..9] OF INT;\nEND_VAR\nEND_PROGRAM\n\n"
-	"PROGRAM Other FBD\nVAR\n  A : BOOL;\n  Delay, Late : TON;\nEND_VAR\nNETWORK\n  Delay(IN := A)\nEND_PROGRAM\n";
+	"PROGRAM Other FBD\nVAR\n  A : BOOL;\n  Delay, Late : TON;\nEND_VAR\nNETWORK\n  Delay(IN := A)\nEND_PROGRAM\n\n"
+	"FUNCTION_BLOCK Belt FBD\nVAR\n  Delay : TON;\nEND_VAR\nEND_FUNCTION_BLOCK\n\n"
+	"PROGRAM Members FBD\nVAR\n  A : BOOL;\n  Delay : TON;\n  Line : ARRAY[1..2] OF Belt;\nEND_VAR\nNETWORK\n"
+	"  A := Line[1].Delay.Q\n  Line[2].Delay(IN := A)\nEND_PROGRAM\n";
 
 static void keep(void)
 {
@@ -286,12 +289,12 @@ static void check_types(void)
 }
 
 /* The text after each block that the POU calls, too, has got the name @to. */
-static void check_again(const char *text, const char *old, const char *to, const char *expected)
+static void check_again_in(int pou, const char *text, const char *old, const char *to, const char *expected)
 {
 	char name[LIMIT_NAME + 1] = "", *renamed;
 	const char *type = "";
 
-	CHECK_AS(fbd_instance_again(ladder_project(ladder), 1, text, name, &type) == (expected != NULL), text);
+	CHECK_AS(fbd_instance_again(ladder_project(ladder), pou, text, name, &type) == (expected != NULL), text);
 	if (!expected)
 		return;
 	CHECK_TEXT(name, old);
@@ -299,6 +302,25 @@ static void check_again(const char *text, const char *old, const char *to, const
 	renamed = fbd_name_replaced(text, name, to);
 	CHECK_TEXT(renamed ? renamed : "", expected);
 	free(renamed);
+}
+
+static void check_again(const char *text, const char *old, const char *to, const char *expected)
+{
+	check_again_in(1, text, old, to, expected);
+}
+
+/* A member has the name of an instance, in what is pasted and in what is there. */
+static void check_members(void)
+{
+	check_again("  Line.Delay(IN := A)\n", "", "", NULL);
+	check_again("  Line[1].Delay(IN := A)\n", "", "", NULL);
+	check_again("  Line[Delay.ET].Delay(IN := A)\n", "", "", NULL);
+	check_again("  Line[1].Delay(IN := A)\n  Delay(IN := Line[1].Delay.Q, PT := Delay.PT)\n", "Delay", "Delay1",
+		    "  Line[1].Delay(IN := A)\n  Delay1(IN := Line[1].Delay.Q, PT := Delay1.PT)\n");
+	check_again("  Valve := T[Delay.X].Delay\n  Delay(IN := A)\n", "Delay", "Delay1",
+		    "  Valve := T[Delay1.X].Delay\n  Delay1(IN := A)\n");
+	check_again_in(3, "  Delay(IN := A)\n", "", "", NULL);
+	check_again_in(3, "  Line[2].Delay(IN := A)\n", "", "", NULL);
 }
 
 static void check_instances(void)
@@ -309,6 +331,7 @@ static void check_instances(void)
 		    "  Delay2(IN := A)\n  Valve := Delay2.Q AND Delay_ok\n");
 	check_again("NETWORK \"Delay(\"\n  (* Delay( *)\n  delay(IN := X.Delay, PT := Delay.PT)\n", "delay", "D",
 		    "NETWORK \"Delay(\"\n  (* Delay( *)\n  D(IN := X.Delay, PT := D.PT)\n");
+	check_members();
 	check_again("  Late(IN := Delay.Q)\n", "", "", NULL);
 	check_again("  Valve := MAX(1, 2) > Delay.ET\n", "", "", NULL);
 	fbd_instance_stem("Delay12", stem);

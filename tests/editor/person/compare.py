@@ -50,6 +50,7 @@ END_PROGRAM
 NEW = OLD.replace('Lamp AT %QX0.1', 'Lamp AT %QX0.5').replace('T#5s', 'T#8s').replace(
     '| NO Motor ^ |', '| NC Motor ^ |').replace('RUNG "Test of the lamp"\n  | NO %IX0.7 | COIL %QX0.7 |\n', '').replace(
     '%QX0.2(N)', '%QX0.2(S)').replace('ANDN Stop', 'AND Stop')
+FRAME = bytes((0xb3, 0x5c, 0x00))  # changed boxes
 SEAL = 'PROGRAM Main, Rung 1 (Seal), changed'
 
 
@@ -295,6 +296,17 @@ NETWORK "Low level"
 ''' + MORE + 'END_PROGRAM\n'
 
 
+def frames(editor):
+    """How many pixels of frames and marks of changed boxes the sides before and after have."""
+    x, y, width, height = editor.place()
+    counts = []
+    for left, right in (0.385, 0.68), (0.695, 0.99):
+        body = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (
+            width * (right - left), height * 0.6, x + width * left, y + height * 0.2), 'rgb:-'], capture_output=True).stdout
+        counts.append(sum(body[at:at + 3] == FRAME for at in range(0, len(body), 3)))
+    return counts
+
+
 def networks(screen):
     """networks are drawn side by side, and changed boxes have a frame"""
     old, new = os.path.join(screen.home, 'old.rung'), os.path.join(screen.home, 'new.rung')
@@ -304,9 +316,20 @@ def networks(screen):
     until(lambda: rows_with(editor, 'PROGRAM Main, Network 1 (Low level), changed: \N{MINUS SIGN} Low := Level < 15'),
           'the changed network')
     until(lambda: rows_with(editor, 'PROGRAM Main, Network 2 (Only now), added'), 'the new network')
+    said = rows_with(editor, "Network 1 (Low level), changed")[0]
+    assert 'Level < 20' in said and 'PT := T#5s' in said and 'PT := T#3s' in said, said
+    until(lambda: min(frames(editor)) > 100, 'frames on both sides')
+    before, after = frames(editor)
+    assert abs(before - after) < before // 2, (before, after)  # two boxes on each side
     editor.shot('compare-networks')
     editor.keys('n')
+    until(lambda: frames(editor)[0] == 0, 'nothing where the network was not')
     editor.shot('compare-networks-added')
+    editor.keys('p')
+    until(lambda: frames(editor) == [before, after], 'the frames again')
+    write(new, NETS.replace('Level < 20', 'Level < 15').replace('T#3s', 'T#5s').replace(MORE, ''))
+    editor.says('No differences')
+    until(lambda: frames(editor) == [0, 0], 'no frame')
     editor.finish()
 
 

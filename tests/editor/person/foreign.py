@@ -79,14 +79,19 @@ def saved(screen):
 
 def chosen(screen):
     """a program of LDmicro and a project of OpenPLC Editor, chosen in Open: their reports, a line that leads to its place"""
-    for path, name in LDMICRO, (plant(screen), 'project.json'):
+    for path, name, taken, lines in (*LDMICRO, 'rungs: 4, elements: 12', [('Left out: it has no equivalent; a box', 'Rung 3')]), \
+                                    (plant(screen), 'project.json', 'POUs: 1, variables: 2', []):
         editor = Editor(screen)
         editor.give_path(path, 'ctrl+o')
         until(lambda: editor.all(name + ': '), 'the message')
         editor.click(editor.find('Show report', 'push button'))
         line = editor.find('Taken: ', 'table row')
-        assert line
+        assert taken in line.name, line.name
         editor.shot('foreign-' + name)
+        for told, place in lines:
+            editor.click(editor.find(told, 'table row'), count=2)
+            editor.to_sheet()
+            editor.says(place)
         editor.finish()
 
 
