@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """iomap_pages - a person edits the pages of an I/O map: analog values, Modbus, boards, buses, what others may ask."""
 import os
+import re
 import socket
 import sys
 import threading
@@ -205,10 +206,16 @@ def scanned(screen):
     editor.keys('alt+Down')
     editor.find('17 answers in', 'list item')
     editor.find('exception 2', 'list item')
+    offered = sorted(int(found.group(1)) for node in editor.all(role='list item')
+                     if (found := re.match(r'(\d+) (answers|.*exception)', node.name)))
+    assert offered == [1, 3, 17], offered
     editor.shot('pages-units')
     editor.keys('Down', 'Down', 'Return')
     until(lambda: cell(editor, '%QX40.0, Unit').text() != '1', 'another unit')
-    assert cell(editor, '%QX40.0, Unit').text() in ('3', '17')
+    unit = cell(editor, '%QX40.0, Unit').text()
+    assert unit in ('3', '17'), unit
+    editor.keys('ctrl+s')
+    until(lambda: re.search(r'^%%QX40\.0 .*unit=%s\b' % unit, open(io).read(), re.M), 'the unit in the map')
     until(lambda: not editor.all('Units that answer on'), 'the result to go')
     # The units of another bus are not those of this one.
     editor.tab('Buses (5)')
@@ -222,6 +229,7 @@ def scanned(screen):
     editor.click(editor.find('Stop the scan', 'push button'))
     editor.find('Scan the bus', 'push button')
     until(lambda: not editor.all('Scanning “quiet”'), 'the scan to end')
+    assert not editor.all('Units that answer on'), 'a scan that was stopped has a result'
     silent.close()
 
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """scroll - the visible part of a sheet that is higher than its window contains the cursor."""
 import os
+import re
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -113,4 +115,66 @@ def head(screen):
     assert above(editor, 'Rung 1, NO', '%IX0.0') == now > 40, now
 
 
-main([again, zoomed, head])
+MANY = 8000
+
+
+def bands(editor):
+    """The number of colours in the upper, the middle and the lower third of what is seen of the sheet."""
+    x, y, width, height = editor.place(editor.sheet())
+    found = []
+    for third in range(3):
+        body = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (
+            width - 40, height // 3, x + 10, y + third * height // 3), 'rgb:-'], capture_output=True).stdout
+        found.append(len({body[at:at + 3] for at in range(0, len(body), 3)}))
+    return found
+
+
+def drawn(editor, what):
+    until(lambda: min(bands(editor)) > 5, 'a picture in each third of the sheet ' + what, 20)
+
+
+def long(screen):
+    """8,000 rungs: behind each scrolling, by keys, wheel and bar, there are rungs in each part of the sheet"""
+    text = ''.join('RUNG\n  | NO %%MX%d.%d | COIL %%MX%d.%d |\n' % (i // 8 % 500, i % 8, 500 + i // 8 % 500, i % 8) for i in range(MANY))
+    editor = Editor(screen, new_file(screen, 'RUNGBOARD 1\n\nPROGRAM Main LD\n' + text + 'END_PROGRAM\n'))
+    editor.to_sheet()
+    drawn(editor, 'when it opens')
+    editor.keys('ctrl+End')
+    editor.says('Rung %d · column' % MANY)
+    until(lambda: editor.all('Rung %d, COIL' % MANY), 'the last rung')
+    editor.shot('scroll-long-end')
+    editor.keys(*['Prior'] * 12)
+    drawn(editor, 'by pages')
+    number = until(lambda: seen(editor), 'rungs')
+    assert MANY - 200 < number < MANY, number
+    for _ in range(4):
+        editor.click(editor.sheet(), 4, 20)
+        drawn(editor, 'by the wheel')
+    assert until(lambda: seen(editor), 'rungs') < number
+    x, y, width, height = editor.place(editor.sheet())
+    for part in 5, 2, 8, 1:
+        editor.click((x + width + 6, y + height * part // 10))
+        drawn(editor, 'by the bar')
+    editor.keys('ctrl+Home')
+    editor.says('Rung 1 · column A')
+    until(lambda: editor.all('Rung 1, NO'), 'the first rung')
+    drawn(editor, 'at its begin')
+    editor.brought('ctrl+g')
+    editor.focus_on(role='text')
+    editor.type('4000')
+    editor.keys('Return')
+    editor.says('Rung 4000 · column')
+    drawn(editor, 'in its middle')
+    until(lambda: editor.all('Rung 4000, NO'), 'the rung')
+    editor.shot('scroll-long-middle')
+    editor.finish()
+
+
+def seen(editor):
+    """The number of the first rung that is seen."""
+    found = [re.match(r'Rung (\d+), ', node.name) for node in editor.elements()]
+    numbers = [int(one.group(1)) for one in found if one]
+    return min(numbers) if numbers else None
+
+
+main([again, zoomed, head, long])
