@@ -1,26 +1,38 @@
 /* SPDX-License-Identifier: MIT
  *
- * blink - takes the mark from a hidden line before the next frame; see blink.h.
+ * blink - takes the mark from a hidden line; see blink.h.
  */
 #include "editor-gtk/kit/gtk48/blink.h"
 
-static gboolean look(gpointer data)
+/* At once: the next frame may be the one in which this is told. A popup that is not open yet is none that is hidden. */
+static void look(GtkWidget *text)
 {
-	GtkEditable *text = data;
+	GtkNative *native = gtk_widget_get_native(text);
 	int from, to;
 
-	if (!gtk_widget_get_mapped(data) && gtk_editable_get_selection_bounds(text, &from, &to))
-		gtk_editable_select_region(text, to, to);
-	return G_SOURCE_REMOVE;
+	if (!gtk_widget_get_mapped(text) && gtk_widget_get_realized(text) && native &&
+	    gtk_widget_get_mapped(GTK_WIDGET(native)) &&
+	    gtk_editable_get_selection_bounds(GTK_EDITABLE(text), &from, &to))
+		gtk_editable_select_region(GTK_EDITABLE(text), to, to);
 }
 
-/* It is marked after it has got the focus. */
+/* It is marked after it has got the focus, or later, or hidden while it is marked. */
 static void focused(GtkWindow *window)
 {
-	GtkWidget *text = gtk_window_get_focus(window);
+	GtkWidget *text = gtk_window_get_focus(window), *before = g_object_get_data(G_OBJECT(window), "blinks");
 
-	if (GTK_IS_TEXT(text) && gtk_widget_get_mapped(GTK_WIDGET(window)) && !gtk_widget_get_mapped(text))
-		g_idle_add_full(G_PRIORITY_HIGH_IDLE, look, g_object_ref(text), g_object_unref);
+	if (before == text)
+		return;
+	if (before)
+		g_signal_handlers_disconnect_by_func(before, G_CALLBACK(look), NULL);
+	g_object_set_data(G_OBJECT(window), "blinks", NULL);
+	if (!GTK_IS_TEXT(text))
+		return;
+	g_object_set_data_full(G_OBJECT(window), "blinks", g_object_ref(text), g_object_unref);
+	g_signal_connect(text, "notify::selection-bound", G_CALLBACK(look), NULL);
+	g_signal_connect(text, "notify::cursor-position", G_CALLBACK(look), NULL);
+	g_signal_connect(text, "unmap", G_CALLBACK(look), NULL);
+	look(text);
 }
 
 void blink_follow(GtkWindow *window)

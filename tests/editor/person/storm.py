@@ -63,21 +63,12 @@ class Hand:
         return [word for _ in range(count) for word in [*self.act(), 'sleep', '0.01']]
 
 
-def faults(editor):
-    """Messages of the toolkit that are faults of the editor. GTK warns of a widget without allocation for its own
-    scrollbars, and for a tab dragged while a menu closes; the next frame is right. Not so for the containers of the window
-    (panes.py). It warns of an entry whose cursor was to blink just as the focus left it, and stops it."""
-    return [line for line in rooms.warnings(editor) if not
-            re.search(r'Trying to snapshot (?!GtkPaned|GtkBox|GtkOverlay|AdwTabView)\w+ \w+ without a current allocation|'
-                      r'GtkText - did not receive a focus-out event', line)]
-
-
 def go_round(editor, place, acts):
     """Tabs, pages, panels, dividers and sizes of the window; it is never blank."""
     rooms.alone(editor)
     for _ in range(ROOMS):
         acts = [*acts, place.act()]
-        rooms.whole(editor, acts, faults)
+        rooms.whole(editor, acts)
 
 
 def calm(editor):
@@ -129,7 +120,7 @@ def storm(screen, number):
         acts = hand.acts(AT_ONCE)
         sh('xdotool', *acts)
         editor.alive()
-        assert not faults(editor), (at, acts, faults(editor))
+        assert not rooms.warnings(editor), (at, acts, rooms.warnings(editor))
         go_round(editor, place, acts)
     editor.shot('storm-%d' % number)
     calm(editor)
@@ -137,7 +128,7 @@ def storm(screen, number):
     same(first, all_the_way(editor, 'Undo', 'ctrl+z', path), 'undone all, it is another')
     check(path)
     same(last, all_the_way(editor, 'Redo', 'ctrl+y', path), 'done again, it is another')
-    assert not faults(editor), faults(editor)
+    assert not rooms.warnings(editor), rooms.warnings(editor)
     print('# %s: %d lines became %d' % (name, len(first.splitlines()), len(last.splitlines())))
 
 

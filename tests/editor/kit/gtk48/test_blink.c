@@ -49,7 +49,9 @@ int main(void)
 	CHECK_AS(!is_marked(hidden), "a hidden line is not marked");
 	CHECK_AS(warnings == 0, "GTK warns of nothing");
 	gtk_stack_set_visible_child(GTK_STACK(stack), hidden);
-	gtk_widget_grab_focus(seen);
+	CHECK_SOON(gtk_widget_get_mapped(hidden));
+	turn(100);
+	gtk_window_set_focus(GTK_WINDOW(window), NULL);
 	gtk_widget_grab_focus(hidden);
 	CHECK_SOON(is_marked(hidden));
 	turn(300);
