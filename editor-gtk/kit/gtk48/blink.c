@@ -4,14 +4,21 @@
  */
 #include "editor-gtk/kit/gtk48/blink.h"
 
-/* At once: the next frame may be the one in which this is told. A popup that is not open yet is none that is hidden. */
+/* A row that is being made, or a popup that is not open yet, is not drawn either, but will be. */
+static gboolean is_in_hidden_page(GtkWidget *widget)
+{
+	for (; widget; widget = gtk_widget_get_parent(widget))
+		if (!gtk_widget_get_child_visible(widget) && GTK_IS_STACK(gtk_widget_get_parent(widget)))
+			return TRUE;
+	return FALSE;
+}
+
+/* At once: the next frame may be the one in which this is told. */
 static void look(GtkWidget *text)
 {
-	GtkNative *native = gtk_widget_get_native(text);
 	int from, to;
 
-	if (!gtk_widget_get_mapped(text) && gtk_widget_get_realized(text) && native &&
-	    gtk_widget_get_mapped(GTK_WIDGET(native)) &&
+	if (!gtk_widget_get_mapped(text) && gtk_widget_get_realized(text) && is_in_hidden_page(text) &&
 	    gtk_editable_get_selection_bounds(GTK_EDITABLE(text), &from, &to))
 		gtk_editable_select_region(GTK_EDITABLE(text), to, to);
 }
