@@ -151,14 +151,6 @@ static uint8_t *choose(const struct call *call, const struct project *project, e
 	return wanted;
 }
 
-static bool has_chart(const struct project *project, const uint8_t *wanted)
-{
-	for (int i = 0; i < project->pou_count; i++)
-		if ((!wanted || wanted[i]) && project->pou[i].language == LANGUAGE_SFC)
-			return true;
-	return false;
-}
-
 static enum status export_to(struct call *call, struct ladder *ladder, const char *path, enum pou_language to,
 			     bool (*fits)(const struct pou *pou))
 {
@@ -168,6 +160,8 @@ static enum status export_to(struct call *call, struct ladder *ladder, const cha
 	char *text = NULL;
 	size_t len;
 
+	if (wanted && to == LANGUAGE_IL)
+		keep_main(ladder_project(ladder), wanted);
 	if (diags) {
 		text = ladder_export_as(ladder, wanted, to, &len, diags);
 		ladder_import_places(ladder, diags);
@@ -197,24 +191,7 @@ static enum status export_fbd(struct call *call, struct ladder *ladder, const ch
 
 static enum status export_il(struct call *call, struct ladder *ladder, const char *path)
 {
-	const struct project *project = ladder_project(ladder);
-	uint8_t *wanted = choose(call, project, LANGUAGE_IL, is_no_list);
-	enum status status = STATUS_NO;
-	char *text = NULL;
-	size_t len;
-
-	if (wanted)
-		keep_main(project, wanted);
-	for (int i = 0; wanted && i < project->pou_count; i++)
-		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC)
-			refuse_pou(&project->pou[i], project, LANGUAGE_IL);
-	if (wanted && !has_chart(project, wanted)) {
-		text = ladder_export_lists(ladder, wanted, &len);
-		status = text ? write_converted(call, path, text, len, LANGUAGE_IL) : report_no_memory(path);
-	}
-	free(text);
-	free(wanted);
-	return status;
+	return export_to(call, ladder, path, LANGUAGE_IL, is_no_list);
 }
 
 /* ---- the I/O map as lines of ioconf.csv ---- */

@@ -7,6 +7,7 @@
  */
 #include "engine/convert/acts.h"
 
+#include "engine/model/loop.h"
 #include "engine/model/st.h"
 #include "engine/text/text.h"
 
@@ -352,8 +353,9 @@ static void put_step(struct fbd_writer *n, const struct act *act)
 
 /* Blocks around a statement: labels of what comes next and of what comes behind them. */
 struct block {
-	enum st_kind kind;     /* ST_IF, ST_WHILE, ST_REPEAT                   */
+	enum st_kind kind;     /* ST_IF, ST_CASE, ST_WHILE, ST_REPEAT, ST_FOR  */
 	uint32_t again, next, end; /* 0: none                                  */
+	int item;
 };
 
 struct blocks {
@@ -412,6 +414,8 @@ static bool is_last_branch(const struct act *act, int at)
 	for (int i = at + 1; i < act->items; i++)
 		if (act->item[i].depth == act->item[at].depth && act->item[i].kind != ST_COMMENT)
 			return act->item[i].kind == ST_END_IF;
+		else if (act->item[i].depth < act->item[at].depth)
+			return act->item[i].kind != ST_ELSE; /* of a choice: of its CASE */
 	return true;
 }
 
@@ -424,6 +428,91 @@ static void put_branch(struct blocks *b, int at)
 	put_unless(b->n, b->act, condition_of(b->n, &b->act->item[at]), block->next);
 }
 
+/* A CASE with a plain selector: each choice is compared with it. */
+static void put_choice(struct blocks *b, int at)
+{
+	struct block *block = &b->block[b->open];
+	const char *selector = condition_of(b->n, &b->act->item[block->item]);
+	const char *text = text_of(b->n, b->act->item[at].text);
+	struct sink_memory memory;
+	struct sink sink;
+	struct lex lex;
+
+	selector += strspn(selector, " ");
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	lex_init(&lex, text, strlen(text));
+	for (const char *from = text, *low = NULL; from; ) {
+		const char *until;
+		bool range;
+
+		lex_next(&lex);
+		until = lex.token.text;
+		range = lex_is(&lex, ".");
+		if (lex.token.kind != TOKEN_END && !lex_is(&lex, ",") && !range)
+			continue;
+		while (until > from && until[-1] == ' ')
+			until--;
+		if (range)
+			sink_printf(&sink, "(%s >= %.*s AND ", selector, (int)(until - from), from);
+		else
+			sink_printf(&sink, low ? "%s <= %.*s)%s" : "%s = %.*s%s", selector, (int)(until - from), from,
+				    lex_is(&lex, ",") ? " OR " : "");
+		if (range)
+			lex_next(&lex); /* the second point */
+		low = range ? from : NULL;
+		from = lex.token.kind == TOKEN_END ? NULL : lex.token.text + lex.token.len;
+		if (from)
+			from += strspn(from, " ");
+	}
+	block->next = is_last_branch(b->act, at) ? block->end : label_new(b->n, b->act->rung, "else");
+	put_unless(b->n, b->act, sink_memory_text(&memory), block->next);
+	b->n->acts->failed |= memory.failed;
+	sink_memory_free(&memory);
+}
+
+static bool loop_of(const struct blocks *b, int at, struct loop *loop)
+{
+	const char *text = condition_of(b->n, &b->act->item[at]);
+
+	return loop_parse(text, strlen(text), loop);
+}
+
+static void put_for(struct blocks *b, int at)
+{
+	const struct block *block = &b->block[b->open];
+	struct loop loop;
+
+	if (!loop_of(b, at, &loop))
+		return;
+	sink_printf(b->n->sink, "%.*s := %.*s\n", (int)loop.variable.len, loop.variable.text, (int)loop.from.len,
+		    loop.from.text);
+	put_network(b->n, block->again);
+	sink_printf(b->n->sink, "JMP %s IF %.*s %s %.*s\n", text_of(b->n, block->end), (int)loop.variable.len,
+		    loop.variable.text, loop.step < 0 ? "<" : ">", (int)loop.to.len, loop.to.text);
+}
+
+/* Where the type has no further value, the loop ends. */
+static void put_end_for(struct blocks *b)
+{
+	const struct block *block = &b->block[b->open];
+	const struct iec_type_row *row;
+	const struct meaning *variable;
+	struct loop loop;
+	const char *name;
+
+	if (!loop_of(b, block->item, &loop))
+		return;
+	name = text_of(b->n, acts_intern(b->n->acts, loop.variable.text, loop.variable.len));
+	variable = acts_meaning(b->n->acts, acts_intern(b->n->acts, loop.variable.text, loop.variable.len));
+	row = iec_type_row(variable ? variable->type : IEC_NONE);
+	put_network(b->n, block->next);
+	sink_printf(b->n->sink, "JMP %s IF %s %s %lld\n", text_of(b->n, block->end), name, loop.step < 0 ? "<" : ">",
+		    (long long)((loop.step < 0 ? row->low : row->high) - loop.step));
+	sink_printf(b->n->sink, "%s := %s %s %lld\n", name, name, loop.step < 0 ? "-" : "+",
+		    (long long)(loop.step < 0 ? -loop.step : loop.step));
+}
+
 static void open_block(struct blocks *b, int at)
 {
 	const struct st_item *item = &b->act->item[at];
@@ -433,12 +522,17 @@ static void open_block(struct blocks *b, int at)
 	if (b->open < LIMIT_ST_DEPTH)
 		b->open++;
 	block = &b->block[b->open];
-	*block = (struct block){ .kind = (enum st_kind)item->kind, .end = label_new(n, b->act->rung, "behind") };
-	if (item->kind == ST_IF) {
+	*block = (struct block){ .kind = (enum st_kind)item->kind, .end = label_new(n, b->act->rung, "behind"), .item = at };
+	if (item->kind == ST_IF)
 		put_branch(b, at);
+	if (item->kind == ST_IF || item->kind == ST_CASE)
+		return;
+	block->again = label_new(n, b->act->rung, "again");
+	if (item->kind == ST_FOR) {
+		block->next = label_new(n, b->act->rung, "next");
+		put_for(b, at);
 		return;
 	}
-	block->again = label_new(n, b->act->rung, "again");
 	put_network(n, block->again);
 	if (item->kind == ST_WHILE)
 		put_unless(n, b->act, condition_of(n, item), block->end);
@@ -455,7 +549,9 @@ static void close_block(struct blocks *b, int at)
 		put_network(b->n, block->next);
 		sink_printf(b->n->sink, "JMP %s IF %s\n", text_of(b->n, block->end), condition_of(b->n, item));
 	}
-	if (item->kind != ST_END_IF)
+	if (item->kind == ST_END_FOR)
+		put_end_for(b);
+	if (item->kind != ST_END_IF && item->kind != ST_END_CASE)
 		put_jump_to(b->n, block->again);
 	put_network(b->n, block->end);
 	b->open -= b->open > 0;
@@ -465,7 +561,7 @@ static void close_block(struct blocks *b, int at)
 static void put_leave(const struct blocks *b, bool exit)
 {
 	for (int i = b->open; i > 0; i--)
-		if (b->block[i].kind != ST_IF) {
+		if (b->block[i].kind != ST_IF && b->block[i].kind != ST_CASE) {
 			put_jump_to(b->n, exit ? b->block[i].end :
 				    b->block[i].kind == ST_WHILE ? b->block[i].again : b->block[i].next);
 			return;
@@ -478,8 +574,15 @@ static void put_statement(struct blocks *b, int at)
 	struct fbd_writer *n = b->n;
 
 	switch ((enum st_kind)item->kind) {
-	case ST_IF: case ST_WHILE: case ST_REPEAT:
+	case ST_IF: case ST_WHILE: case ST_REPEAT: case ST_CASE: case ST_FOR:
 		open_block(b, at);
+		break;
+	case ST_CHOICE:
+		if (b->block[b->open].next) {
+			put_jump_to(n, b->block[b->open].end);
+			put_network(n, b->block[b->open].next);
+		}
+		put_choice(b, at);
 		break;
 	case ST_ELSIF: case ST_ELSE:
 		put_jump_to(n, b->block[b->open].end);
@@ -487,7 +590,7 @@ static void put_statement(struct blocks *b, int at)
 		if (item->kind == ST_ELSIF)
 			put_branch(b, at);
 		break;
-	case ST_END_IF: case ST_END_WHILE: case ST_UNTIL:
+	case ST_END_IF: case ST_END_WHILE: case ST_UNTIL: case ST_END_CASE: case ST_END_FOR:
 		close_block(b, at);
 		break;
 	case ST_EXIT: case ST_CONTINUE:
@@ -500,7 +603,7 @@ static void put_statement(struct blocks *b, int at)
 		put(n, text_of(n, item->text));
 		put(n, "\n");
 		break;
-	case ST_EMPTY: case ST_CASE: case ST_CHOICE: case ST_END_CASE: case ST_FOR: case ST_END_FOR: case ST_RETURN:
+	case ST_EMPTY: case ST_RETURN:
 	case ST_SET: case ST_RESET: case ST_JUMP_IF: case ST_RETURN_IF: case ST_KINDS:
 		break;
 	}

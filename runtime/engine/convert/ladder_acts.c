@@ -1254,13 +1254,106 @@ static struct st_item *box_items(struct rungs *r, const struct boxed *boxed, uin
 	return item;
 }
 
-/* Of a FOR nobody sees the bound that it keeps, of a CASE the selector. */
+/* A name or a constant, perhaps with a sign: it can always be computed. @name: gets the name; "": it is none. */
+static bool is_plain(const char *text, size_t len, struct token *name)
+{
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex_next(&lex);
+	if (lex_is(&lex, "-") || lex_is(&lex, "+"))
+		lex_next(&lex);
+	*name = lex.token;
+	if (lex.token.kind != TOKEN_NAME)
+		name->len = 0;
+	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_NUMBER)
+		return false;
+	lex_next(&lex);
+	return lex.token.kind == TOKEN_END;
+}
+
+/* Words behind which a parenthesis begins no call. */
+static bool is_operator(const struct token *token)
+{
+	return ascii_is("AND", token->text, token->len) || ascii_is("OR", token->text, token->len) ||
+	       ascii_is("XOR", token->text, token->len) || ascii_is("NOT", token->text, token->len) ||
+	       ascii_is("MOD", token->text, token->len);
+}
+
+/* Can statement @text write the variable @name? Nobody knows what is called. */
+static bool may_write(const char *text, const struct token *name)
+{
+	const char *dot = memchr(name->text, '.', name->len);
+	const size_t base = dot ? (size_t)(dot - name->text) : name->len;
+	bool output = false;
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END) {
+		const struct token token = lex.token;
+		struct lex next = lex;
+		bool named;
+
+		lex_next(&next);
+		if (token.kind == TOKEN_NAME && lex_is(&next, "(") && !is_operator(&token))
+			return true;
+		named = token.kind == TOKEN_NAME && token.len >= base && ascii_same(token.text, name->text, base) &&
+			(token.len == base || token.text[base] == '.');
+		if (named && (output || lex_is(&next, ":=") || lex_is(&next, "[") || lex_is(&next, "^")))
+			return true;
+		output = lex_is(&lex, "=>");
+	}
+	return false;
+}
+
+/* Do the statements of the block that begins with item @at leave the variable @name alone? */
+static bool is_left_alone(const struct rungs *r, const struct boxed *boxed, int at, const struct token *name)
+{
+	const struct st_item *item = r->acts->pou->st->item + boxed->first;
+
+	for (int i = at + 1; name->len && i < boxed->count && item[i].depth > item[at].depth; i++)
+		if (item[i].kind != ST_COMMENT && may_write(text_of(r, item[i].text), name))
+			return false;
+	return true;
+}
+
+/* `FOR i := from TO to BY by`: may its bounds be looked at in each round? */
+static bool may_jump_for(struct rungs *r, const struct boxed *boxed, int at)
+{
+	const char *text = text_of(r, r->acts->pou->st->item[boxed->first + at].text);
+	const struct meaning *variable;
+	struct token to, name;
+	struct loop loop;
+
+	if (!loop_parse(text + strlen("FOR"), strlen(text) - strlen("FOR"), &loop))
+		return false;
+	variable = acts_meaning(r->acts, acts_intern(r->acts, loop.variable.text, loop.variable.len));
+	if (!variable || !(iec_type_row(variable->type)->class & ANY_INT) || iec_is_wide(variable->type) ||
+	    loop.step > INT8_MAX || loop.step < -INT8_MAX)
+		return false;
+	return !memchr(loop.variable.text, '[', loop.variable.len) &&
+	       is_plain(loop.from.text, loop.from.len, &name) && is_plain(loop.to.text, loop.to.len, &to) &&
+	       is_left_alone(r, boxed, at, &to) && loop.step != 0;
+}
+
+static bool may_jump(struct rungs *r, const struct boxed *boxed, int at)
+{
+	const struct st_item *item = &r->acts->pou->st->item[boxed->first + at];
+	const char *text = text_of(r, item->text);
+	struct token name;
+
+	if (item->kind == ST_CASE)
+		return is_plain(text + strlen("CASE"), strlen(text) - strlen("CASE"), &name);
+	return item->kind != ST_FOR || may_jump_for(r, boxed, at);
+}
+
+/* Of a FOR nobody sees the bound that it keeps, of a CASE the selector, if it is no plain one. */
 static void refuse_blocks(struct rungs *r, int element, const struct boxed *boxed)
 {
 	for (int i = 0; i < boxed->count; i++) {
 		const enum st_kind kind = (enum st_kind)r->acts->pou->st->item[boxed->first + i].kind;
 
-		if (kind == ST_FOR || kind == ST_CASE) {
+		if (!may_jump(r, boxed, i)) {
 			refuse_word(r, element, st_form(kind)->word);
 			return;
 		}
