@@ -241,6 +241,15 @@ static char *convert_both(struct ladder *ladder, const uint8_t *wanted, enum pou
 	return out;
 }
 
+/* Programs alone have ladders for their steps. */
+static void refuse_chart(const struct project *project, const struct pou *pou, enum pou_language to, struct diag_list *diags)
+{
+	const char *name = project_text(project, pou->name);
+
+	diag_add(diags, (struct diag){ .id = DIAG_CONVERT_LANGUAGE, .file = pou->file, .line = pou->line, .pou = name },
+		 "%s" DIAG_AND "%s" DIAG_AND "%s", name, pou_language_word(pou->language), pou_language_word(to));
+}
+
 char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_language to, size_t *len,
 		       struct diag_list *diags)
 {
@@ -250,8 +259,13 @@ char *ladder_export_as(struct ladder *ladder, const uint8_t *wanted, enum pou_la
 
 	if (!project)
 		return NULL;
-	for (int i = 0; i < project->pou_count; i++)
+	for (int i = 0; i < project->pou_count; i++) {
 		charts |= wanted[i] && project->pou[i].language == LANGUAGE_SFC;
+		if (wanted[i] && project->pou[i].language == LANGUAGE_SFC && project->pou[i].kind == POU_BLOCK)
+			refuse_chart(project, &project->pou[i], to, diags);
+	}
+	if (diags->errors)
+		return NULL;
 	out = charts ? convert_both(ladder, wanted, to, len, diags) :
 	      to == LANGUAGE_IL ? ladder_export_lists(ladder, wanted, len) :
 	      convert_bodies(ladder, wanted, to, len, diags);

@@ -4,6 +4,8 @@
  */
 #include "engine/convert/acts.h"
 
+#include "engine/base/ascii.h"
+#include "engine/base/catalog.h"
 #include "engine/check/touch.h"
 
 #include <stdio.h>
@@ -337,4 +339,40 @@ uint32_t acts_name(struct acts *acts, const char *text)
 		id = acts_intern(acts, name, (size_t)len);
 	}
 	return id;
+}
+
+bool text_is_pure(const struct acts *acts, const struct token *token)
+{
+	const enum op op = op_find(token->text, token->len);
+	const enum word word = word_find(token->text, token->len);
+
+	if (project_find_pou(acts->project, token->text, token->len) >= 0)
+		return false;
+	return op != OP_COUNT || (word != WORD_COUNT && word_row(word)->kind == WORD_FN);
+}
+
+bool text_may_write(const struct acts *acts, const char *text, const struct token *name)
+{
+	const char *dot = memchr(name->text, '.', name->len);
+	const size_t base = dot ? (size_t)(dot - name->text) : name->len;
+	bool output = false;
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END) {
+		const struct token token = lex.token;
+		struct lex next = lex;
+		bool named;
+
+		lex_next(&next);
+		if (token.kind == TOKEN_NAME && lex_is(&next, "(") && !text_is_pure(acts, &token))
+			return true;
+		named = token.kind == TOKEN_NAME && token.len >= base && ascii_same(token.text, name->text, base) &&
+			(token.len == base || token.text[base] == '.');
+		if (named && (output || lex_is(&next, ":=") || lex_is(&next, "S") || lex_is(&next, "R") ||
+			      lex_is(&next, "[") || lex_is(&next, "^")))
+			return true;
+		output = lex_is(&lex, "=>");
+	}
+	return false;
 }

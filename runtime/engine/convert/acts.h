@@ -10,6 +10,7 @@
 #define CONVERT_ACTS_H
 
 #include "engine/check/scope.h"
+#include "engine/base/lex.h"
 #include "engine/model/expr.h"
 
 enum term_kind {
@@ -154,6 +155,11 @@ struct act *acts_add(struct acts *acts, enum act_kind kind);
 int acts_temp(struct acts *acts, enum iec_type type, int rung);
 const struct meaning *acts_meaning(struct acts *acts, uint32_t operand);
 uint32_t acts_intern(struct acts *acts, const char *text, size_t len);
+/** text_is_pure - does a function of this name, or an operator before a parenthesis, write nothing? */
+bool text_is_pure(const struct acts *acts, const struct token *token);
+/** text_may_write - can the statement @text write the variable @name? Nobody knows what blocks and functions of the
+ * project write. */
+bool text_may_write(const struct acts *acts, const char *text, const struct token *name);
 /** acts_name - a name that nothing in the POU has: @text, @text_2 and so on. */
 uint32_t acts_name(struct acts *acts, const char *text);
 

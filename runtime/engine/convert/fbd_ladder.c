@@ -1555,6 +1555,8 @@ static void put_kept(struct ladders *l)
 static void put_network(struct ladders *l, int number)
 {
 	struct acts *acts = l->acts;
+	struct st_item *item = acts->pou->st->item + acts->pou->fbd->network[number].first;
+	const void *was;
 
 	l->network = &acts->pou->fbd->network[number];
 	l->names.network = acts->rung = number;
@@ -1566,6 +1568,9 @@ static void put_network(struct ladders *l, int number)
 		put_off(l);
 	} else {
 		put_kept(l);
+		was = arena_copy(acts->arena, (const char *)item, sizeof(*item) * (size_t)l->network->count);
+		if (was)
+			networks_join(acts, number, item, l->network->count);
 		for (int i = 0; i < l->network->count; i++) {
 			l->names.item = l->network->first + i;
 			if (l->skip) {
@@ -1574,6 +1579,9 @@ static void put_network(struct ladders *l, int number)
 			}
 			put_item(l, &acts->pou->st->item[l->names.item]);
 		}
+		if (was) /* the project stays as it was */
+			memcpy(item, was, sizeof(*item) * (size_t)l->network->count);
+		acts->failed |= !was;
 	}
 	if (!l->begun || l->comment)
 		heading(l);

@@ -1272,47 +1272,13 @@ static bool is_plain(const char *text, size_t len, struct token *name)
 	return lex.token.kind == TOKEN_END;
 }
 
-/* Words behind which a parenthesis begins no call. */
-static bool is_operator(const struct token *token)
-{
-	return ascii_is("AND", token->text, token->len) || ascii_is("OR", token->text, token->len) ||
-	       ascii_is("XOR", token->text, token->len) || ascii_is("NOT", token->text, token->len) ||
-	       ascii_is("MOD", token->text, token->len);
-}
-
-/* Can statement @text write the variable @name? Nobody knows what is called. */
-static bool may_write(const char *text, const struct token *name)
-{
-	const char *dot = memchr(name->text, '.', name->len);
-	const size_t base = dot ? (size_t)(dot - name->text) : name->len;
-	bool output = false;
-	struct lex lex;
-
-	lex_init(&lex, text, strlen(text));
-	while (lex_next(&lex) != TOKEN_END) {
-		const struct token token = lex.token;
-		struct lex next = lex;
-		bool named;
-
-		lex_next(&next);
-		if (token.kind == TOKEN_NAME && lex_is(&next, "(") && !is_operator(&token))
-			return true;
-		named = token.kind == TOKEN_NAME && token.len >= base && ascii_same(token.text, name->text, base) &&
-			(token.len == base || token.text[base] == '.');
-		if (named && (output || lex_is(&next, ":=") || lex_is(&next, "[") || lex_is(&next, "^")))
-			return true;
-		output = lex_is(&lex, "=>");
-	}
-	return false;
-}
-
 /* Do the statements of the block that begins with item @at leave the variable @name alone? */
 static bool is_left_alone(const struct rungs *r, const struct boxed *boxed, int at, const struct token *name)
 {
 	const struct st_item *item = r->acts->pou->st->item + boxed->first;
 
 	for (int i = at + 1; name->len && i < boxed->count && item[i].depth > item[at].depth; i++)
-		if (item[i].kind != ST_COMMENT && may_write(text_of(r, item[i].text), name))
+		if (item[i].kind != ST_COMMENT && text_may_write(r->acts, text_of(r, item[i].text), name))
 			return false;
 	return true;
 }

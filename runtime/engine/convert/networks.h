@@ -37,6 +37,11 @@ void networks_statement(struct networks *n, const struct st_item *item, const st
 			const struct sink *before);
 /** networks_kept - the next wire that PREVIOUS names; *@at: 0 at first. False: there is none. */
 bool networks_kept(struct networks *n, int *at, uint32_t *before, uint32_t *wire, enum iec_type *type);
+/**
+ * networks_join - a BOOL that one line alone reads stands in that line
+ * @item: the lines of @network, @count of them; those that are not needed any more become ST_EMPTY
+ */
+void networks_join(struct acts *acts, int network, struct st_item *item, int count);
 /** networks_lead - does a JMP lead to @label? */
 bool networks_lead(const struct networks *n, uint32_t label);
 /** networks_declare - the variables of wires. */

@@ -92,6 +92,48 @@ void plco_named(struct out *out, const char *element, const char *attribute, con
 	out->depth += !empty;
 }
 
+void plco_place(struct out *out, int id, int x, int y)
+{
+	while (out->places <= id) {
+		struct out_place *added = arena_push(out->arena, &out->place, &out->places, sizeof(*added));
+
+		if (!added)
+			return;
+		*added = (struct out_place){ 0, 0 };
+	}
+	out->place[id] = (struct out_place){ x, y };
+}
+
+void plco_position(struct out *out, int x, int y)
+{
+	out->at_x = x;
+	out->at_y = y;
+	out->outputs = 0;
+	plco_line(out, "position x=\"%d\" y=\"%d\"", x, y);
+}
+
+void plco_output(struct out *out, const char *name, int width)
+{
+	plco_open(out, "variable formalParameter=\"%s\"", name);
+	plco_open(out, "connectionPointOut");
+	plco_line(out, "relPosition x=\"%d\" y=\"%d\"", width, 20 * ++out->outputs);
+	plco_close(out, "connectionPointOut");
+	plco_close(out, "variable");
+}
+
+void plco_connection(struct out *out, int id, const char *pin)
+{
+	const struct out_place from = id < out->places ? out->place[id] : (struct out_place){ out->at_x, out->at_y };
+
+	if (pin)
+		plco_open(out, "connection refLocalId=\"%d\" formalParameter=\"%s\"", id, pin);
+	else
+		plco_open(out, "connection refLocalId=\"%d\"", id);
+	plco_line(out, "position x=\"%d\" y=\"%d\"", out->at_x, out->at_y);
+	plco_line(out, "position x=\"%d\" y=\"%d\"", from.x, from.y);
+	plco_close(out, "connection");
+}
+
 bool plco_is_action(struct out *out, const char *name)
 {
 	const struct project *project = out->project;

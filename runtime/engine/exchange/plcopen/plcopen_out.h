@@ -22,6 +22,10 @@ struct out {
 	int ids;                /* localIds given in this body                    */
 	const char *coil;       /* the name of coils TRANSITION; NULL: as written  */
 	int order;              /* executionOrderIds given in this body           */
+	struct out_place { int x, y; } *place; /* by localId: where connections with its element end */
+	int places;
+	int at_x, at_y;         /* of the element in work                         */
+	int outputs;            /* that it has so far                             */
 	bool numbered;          /* the elements of this body have their numbers     */
 	int y;                  /* where the next rung or network begins          */
 	uint8_t *used;          /* by POU and global variable: does its body name it? */
@@ -49,6 +53,15 @@ void plco_documentation(struct out *out, const char *comment);
 const char *plco_bare(struct out *out, const char *comment);
 /** plco_is_action - is it an action of the POU in work, or, as Other.Name, of another one? */
 bool plco_is_action(struct out *out, const char *name);
+/** plco_place - connections with the element @id end at this place. */
+void plco_place(struct out *out, int id, int x, int y);
+/** plco_position - where the element in work stands. */
+void plco_position(struct out *out, int x, int y);
+/** plco_output - an output pin of the block in work, which is @width wide. Beremiz wants its place. */
+void plco_output(struct out *out, const char *name, int width);
+/** plco_connection - a connection with the output @pin of @id; NULL: its only one. Tools that draw the line, and
+ * Beremiz also where it translates, need its two ends. */
+void plco_connection(struct out *out, int id, const char *pin);
 /** plco_numbers - @text with UDINT_TO_REAL instead of DWORD_TO_REAL if that means the same in this project
  * alone, as in files of CODESYS; in the arena. */
 const char *plco_numbers(struct out *out, const char *text);

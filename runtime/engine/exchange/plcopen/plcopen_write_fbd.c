@@ -90,7 +90,7 @@ static int x_of(const struct diagram *d, int box)
 
 static void put_position(struct out *out, int x, int y)
 {
-	plco_line(out, "position x=\"%d\" y=\"%d\"", x, y);
+	plco_position(out, x, y);
 }
 
 static int put_given(struct diagram *d, int x, int y, const char *expression)
@@ -98,6 +98,7 @@ static int put_given(struct diagram *d, int x, int y, const char *expression)
 	struct out *out = d->out;
 	const int id = ++out->ids;
 
+	plco_place(out, id, x + WIDTH, y);
 	plco_open(out, "inVariable localId=\"%d\" height=\"%d\" width=\"%d\"", id, PIN, WIDTH);
 	put_position(out, x, y);
 	plco_line(out, "connectionPointOut");
@@ -141,10 +142,8 @@ static struct input find_input(struct diagram *d, int pin, int depth)
 static void put_connection(struct diagram *d, struct input input)
 {
 	plco_open(d->out, "connectionPointIn");
-	if (input.id && input.pin)
-		plco_line(d->out, "connection refLocalId=\"%d\" formalParameter=\"%s\"", input.id, input.pin);
-	else if (input.id)
-		plco_line(d->out, "connection refLocalId=\"%d\"", input.id);
+	if (input.id)
+		plco_connection(d->out, input.id, input.pin);
 	plco_close(d->out, "connectionPointIn");
 }
 
@@ -173,9 +172,7 @@ static void put_move(struct diagram *d, int x, int y, struct input enable, struc
 	plco_close(out, "inputVariables");
 	plco_line(out, "inOutVariables");
 	plco_open(out, "outputVariables");
-	plco_open(out, "variable formalParameter=\"OUT\"");
-	plco_line(out, "connectionPointOut");
-	plco_close(out, "variable");
+	plco_output(out, "OUT", WIDTH);
 	plco_close(out, "outputVariables");
 	plco_close(out, "block");
 }
@@ -196,6 +193,7 @@ static struct input enabled(struct diagram *d, int box, int pin)
 			continue;
 		enable = find_input(d, i, 0);
 		id = ++d->out->ids;
+		plco_place(d->out, id, x_of(d, box) + WIDTH + PIN + WIDTH, y_of(d, box) + PIN);
 		put_move(d, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, enable, value, id);
 		return (struct input){ id, "OUT", false, NULL };
 	}
@@ -239,9 +237,7 @@ static void put_pins(struct diagram *d, const struct fbd_box *box)
 
 		if (!p->output || (p->open && !strcmp(p->name, "ENO")))
 			continue;
-		plco_open(out, "variable formalParameter=\"%s\"", pin_name(d, box, i));
-		plco_line(out, "connectionPointOut");
-		plco_close(out, "variable");
+		plco_output(out, pin_name(d, box, i), WIDTH);
 	}
 	plco_close(out, "outputVariables");
 }
@@ -294,6 +290,7 @@ static void give_condition(struct diagram *d, int number)
 	if (!input->negated)
 		return;
 	id = ++out->ids;
+	plco_place(out, id, x_of(d, number) - PIN, y_of(d, number));
 	plco_open(out, "block localId=\"%d\" typeName=\"NOT\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", id,
 		  2 * PIN, WIDTH, ++out->order);
 	put_position(out, x_of(d, number) - WIDTH - PIN, y_of(d, number));
@@ -305,9 +302,7 @@ static void give_condition(struct diagram *d, int number)
 	plco_close(out, "inputVariables");
 	plco_line(out, "inOutVariables");
 	plco_open(out, "outputVariables");
-	plco_open(out, "variable formalParameter=\"OUT\"");
-	plco_line(out, "connectionPointOut");
-	plco_close(out, "variable");
+	plco_output(out, "OUT", WIDTH);
 	plco_close(out, "outputVariables");
 	plco_close(out, "block");
 	*input = (struct input){ id, "OUT", false, NULL };
@@ -398,8 +393,10 @@ static void put_network(struct diagram *d)
 
 	put_heading(d);
 	find_columns(d);
-	for (int b = 0; b < graph->box_count; b++)
+	for (int b = 0; b < graph->box_count; b++) {
 		d->id[b] = ++d->out->ids;
+		plco_place(d->out, d->id[b], x_of(d, b) + WIDTH, y_of(d, b));
+	}
 	for (int b = 0; b < graph->box_count; b++) {
 		const struct fbd_box *box = &graph->box[b];
 

@@ -58,10 +58,7 @@ static int y_of(const struct drawing *d, int row)
 
 static void put_ref(struct out *out, struct ref ref)
 {
-	if (ref.pin)
-		plco_line(out, "connection refLocalId=\"%d\" formalParameter=\"%s\"", ref.id, ref.pin);
-	else
-		plco_line(out, "connection refLocalId=\"%d\"", ref.id);
+	plco_connection(out, ref.id, ref.pin);
 }
 
 static void put_sources(struct drawing *d, int net)
@@ -83,7 +80,7 @@ static void put_in(struct drawing *d, int net)
 
 static void put_position(struct out *out, int x, int y)
 {
-	plco_line(out, "position x=\"%d\" y=\"%d\"", x, y);
+	plco_position(out, x, y);
 }
 
 /* ---- the order ---- */
@@ -170,6 +167,7 @@ static struct ref give(struct drawing *d, int x, int y, const char *expression)
 {
 	struct ref ref = { next_id(d), NULL };
 
+	plco_place(d->out, ref.id, x + BOX_WIDTH, y);
 	plco_open(d->out, "inVariable localId=\"%d\" height=\"%d\" width=\"%d\"", ref.id, PIN, BOX_WIDTH);
 	put_position(d->out, x, y);
 	plco_line(d->out, "connectionPointOut");
@@ -222,9 +220,7 @@ static void close_pin(struct drawing *d)
 
 static void put_output(struct drawing *d, const char *name)
 {
-	plco_open(d->out, "variable formalParameter=\"%s\"", name);
-	plco_line(d->out, "connectionPointOut");
-	plco_close(d->out, "variable");
+	plco_output(d->out, name, BOX_WIDTH);
 }
 
 /* A box of a function with power at one pin and a text at another one. */
@@ -382,6 +378,7 @@ static void put_function(struct drawing *d, const struct network_element *e)
 	/* Behind other elements it is an AND with their power. */
 	d->given[0] = d->ref[e - d->net.element];
 	d->ref[e - d->net.element] = (struct ref){ next_id(d), "OUT" };
+	plco_place(d->out, d->ref[e - d->net.element].id, x_of(e) + BOX_WIDTH, y_of(d, e->row));
 	open_box(d, e, "AND", NULL);
 	plco_open(d->out, "inputVariables");
 	open_pin(d, "IN1", false);
@@ -709,8 +706,13 @@ static void put_rung(struct out *out, const struct rung *rung, int number)
 	put_heading(&d);
 	d.pitch = tallest(&d);
 	d.rail = next_id(&d);
-	for (int i = 0; i < d.net.element_count; i++)
+	plco_place(out, d.rail, LEFT + 3, out->y);
+	for (int i = 0; i < d.net.element_count; i++) {
+		const struct network_element *e = &d.net.element[i];
+
 		d.ref[i].id = next_id(&d);
+		plco_place(out, d.ref[i].id, x_of(e) + (row_of(&d, e)->kind == WORD_ELEM ? CONTACT_WIDTH : BOX_WIDTH), y_of(&d, e->row));
+	}
 	plco_open(out, "leftPowerRail localId=\"%d\" height=\"%d\" width=\"3\"", d.rail, d.pitch * rung->rows);
 	put_position(out, LEFT, out->y);
 	plco_line(out, "connectionPointOut formalParameter=\"\"");
