@@ -240,6 +240,34 @@ END
 is($told, '', 'an EXECUTE is not lost');
 is(scalar(() = $execute =~ /^  END_EXECUTE/mg), 2, 'both boxes are boxes again');
 
+# ---- a connection with a block tells its output and its two ends, also if the block stands further down ----
+spew('below.rung', <<'END');
+RUNGBOARD 1
+VAR
+  A AT %IX0.0 : BOOL;
+  B AT %IX0.1 : BOOL;
+  Q AT %QX0.0 : BOOL;
+  N AT %IW2 : INT;
+  D : TON;
+END_VAR
+PROGRAM Main LD
+RUNG
+  | NO A | NC B | COIL Q |
+  | NO B | EQ IN1:=N IN2:=3 ^|
+RUNG
+  | NO A | --- | S Q |
+  | NO B | TON D PT:=T#20ms ^|
+END_PROGRAM
+END
+both_ways('below', 'below.rung', "\@print Q D.ET\nA=1\nA=0 B=1\n%IW2=3\n%IW2=4\nB=0\n%IW2=3\nB=1\n.\n. x3\nQ=0\n");
+{
+	my $xml = slurp('below.xml');
+	my %block = map { $_ => 1 } $xml =~ /<block localId="(\d+)"/g;
+	my @bare = grep { $block{$_} } $xml =~ /<connection refLocalId="(\d+)">/g;
+	is("@bare", '', 'an output of a block is named');
+	is(scalar(() = $xml =~ m{<connection [^>]*>\s*<position [^>]*/>\s*<position [^>]*/>\s*</connection>}g), scalar(() = $xml =~ /<connection /g), 'each connection has its ends');
+}
+
 # ---- plain text comes back as it is ----
 spew('plain.st', <<'END');
 (* A plain file *)

@@ -337,7 +337,6 @@ static void put_block(struct drawing *d, const struct network_element *e)
 	const int power = word_first_bool(row, PIN_IN), first = word_first_bool(row, PIN_OUT);
 
 	/* Without an input or an output of type BOOL the power goes through EN and ENO. */
-	d->ref[e - d->net.element].pin = first >= 0 ? word_pins(row)[first].name : "ENO";
 	give_arguments(d, e, args);
 	open_box(d, e, row->word, plco_id(d->out, cell->operand));
 	put_inputs(d, e, power >= 0 ? word_pins(row)[power].name : e->in != NET_RAIL ? "EN" : NULL, args);
@@ -360,8 +359,12 @@ static void put_function(struct drawing *d, const struct network_element *e)
 	const struct cell *cell = cell_of(d, e);
 	const char *args = plco_id(d->out, cell->args);
 	const bool test = word_is_test(row);
+	const struct ref whole = d->ref[e - d->net.element];
 
-	d->ref[e - d->net.element].pin = test ? "OUT" : "ENO";
+	if (test && e->in != NET_RAIL) {
+		d->ref[e - d->net.element].id = next_id(d);
+		plco_place(d->out, d->ref[e - d->net.element].id, x_of(e) + BOX_WIDTH, y_of(d, e->row));
+	}
 	give_arguments(d, e, args);
 	open_box(d, e, row->word, NULL);
 	put_inputs(d, e, test ? NULL : "EN", args);
@@ -377,8 +380,7 @@ static void put_function(struct drawing *d, const struct network_element *e)
 		return;
 	/* Behind other elements it is an AND with their power. */
 	d->given[0] = d->ref[e - d->net.element];
-	d->ref[e - d->net.element] = (struct ref){ next_id(d), "OUT" };
-	plco_place(d->out, d->ref[e - d->net.element].id, x_of(e) + BOX_WIDTH, y_of(d, e->row));
+	d->ref[e - d->net.element] = whole;
 	open_box(d, e, "AND", NULL);
 	plco_open(d->out, "inputVariables");
 	open_pin(d, "IN1", false);
@@ -399,13 +401,11 @@ static void put_expression(struct drawing *d, const struct network_element *e)
 {
 	const char *text = plco_id(d->out, cell_of(d, e)->operand);
 
-	d->ref[e - d->net.element].pin = "OUT";
 	put_with_text(d, e, "AND", "IN1", "IN2", text);
 }
 
 static void put_inverter(struct drawing *d, const struct network_element *e)
 {
-	d->ref[e - d->net.element].pin = "OUT";
 	put_with_text(d, e, "NOT", "IN", NULL, NULL);
 }
 
@@ -433,7 +433,6 @@ static void put_call(struct drawing *d, const struct network_element *e)
 {
 	const bool code = e->word == ELEM_EXECUTE;
 
-	d->ref[e - d->net.element].pin = "ENO";
 	open_box(d, e, code ? "EXECUTE" : plco_id(d->out, cell_of(d, e)->operand), NULL);
 	plco_open(d->out, "inputVariables");
 	open_pin(d, "EN", false);
@@ -499,7 +498,6 @@ static void put_element(struct drawing *d, const struct network_element *e)
 		break;
 	case ELEM_ASSIGN:
 		put_assignment(d, e);
-		d->ref[e - d->net.element].pin = "ENO";
 		break;
 	default:
 		if (row_of(d, e)->kind == WORD_FB)
@@ -681,6 +679,29 @@ static void report_readers(struct drawing *d)
 		}
 }
 
+/* The output that is the power behind an element; it may be named before the element stands there. NULL: it has
+ * only one. */
+static const char *power_pin(const struct drawing *d, const struct network_element *e)
+{
+	const struct word_row *row = row_of(d, e);
+	const int first = row->kind == WORD_FB ? word_first_bool(row, PIN_OUT) : -1;
+
+	switch ((int)e->word) {
+	case ELEM_COMPARE:
+	case ELEM_NOT:
+		return "OUT";
+	case ELEM_ASSIGN:
+	case ELEM_CALL:
+	case ELEM_EXECUTE:
+		return "ENO";
+	default:
+		break;
+	}
+	if (row->kind == WORD_FB)
+		return first >= 0 ? word_pins(row)[first].name : "ENO";
+	return row->kind == WORD_ELEM ? NULL : word_is_test(row) ? "OUT" : "ENO";
+}
+
 static void put_rung(struct out *out, const struct rung *rung, int number)
 {
 	struct drawing d = { .out = out, .rung = rung, .number = number };
@@ -710,7 +731,7 @@ static void put_rung(struct out *out, const struct rung *rung, int number)
 	for (int i = 0; i < d.net.element_count; i++) {
 		const struct network_element *e = &d.net.element[i];
 
-		d.ref[i].id = next_id(&d);
+		d.ref[i] = (struct ref){ next_id(&d), power_pin(&d, e) };
 		plco_place(out, d.ref[i].id, x_of(e) + (row_of(&d, e)->kind == WORD_ELEM ? CONTACT_WIDTH : BOX_WIDTH), y_of(&d, e->row));
 	}
 	plco_open(out, "leftPowerRail localId=\"%d\" height=\"%d\" width=\"3\"", d.rail, d.pitch * rung->rows);
