@@ -134,6 +134,7 @@ def there(screen):
     editor.click(editor.find('%IW0, Device', 'text'))
     editor.keys('alt+Down')
     editor.find('28-1', 'list item')
+    editor.find('21.437 °C', 'list item')
     editor.shot('field-devices')
     editor.keys('Down', 'Return')
     until(lambda: editor.find('%IW0, Device', 'text').text() == '28-1', 'the sensor of the board')

@@ -80,6 +80,7 @@ def shown(screen):
     editor.keys('ctrl+4')
     says(editor, '“Main” as ST, read-only')
     shows(editor, 'PROGRAM Main ST', 'Motor := (Start OR Motor) AND NOT Stop;')
+    assert not editor.all('Program or block'), 'a list of one program'
     editor.focus_on(role='text')
     editor.type('Q1Q')  # it is read-only
     assert 'Q1Q' not in shows(editor, 'PROGRAM Main ST')
@@ -95,6 +96,10 @@ def shown(screen):
     editor.to_sheet()
     editor.keys('slash')
     until(lambda: editor.all('• new.rung'), 'the edit')
+    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down')  # the page was out of sight
+    until(lambda: [node for node in editor.all(role='table cell') if 'negated: Start' in node.name], 'the networks to follow')
+    editor.keys('ctrl+Page_Up', 'ctrl+Page_Up')
+    editor.to_sheet()
     editor.keys('ctrl+4')
     shows(editor, 'PROGRAM Main ST', 'Motor := (NOT Start OR Motor) AND NOT Stop;')
     editor.keys('ctrl+z')  # shows what it changes
@@ -252,6 +257,7 @@ def dark(screen):
     says(editor, '“Way” as LD, read-only')
     until(lambda: editor.all('Way_Steps'), 'the ladders')
     until(lambda: editor.element('NO', 'Go'), 'the condition as a contact')
+    until(lambda: editor.all('Program or block'), 'the list of its parts')
     editor.shot('show-dark')
     dark = darkest(editor.sheet())
     assert max(dark) < 64, 'the sheet is %s in the dark' % (dark,)

@@ -13,6 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LINES 10000            /* of the board, more than one answer holds */
+
 enum which { OLD, NEW };
 
 /* What happens while the desk waits. */
@@ -34,7 +36,7 @@ struct bench {
 	bool beside;                   /* a program lies beside its slot       */
 	bool early;                    /* the next start would have run NEW while OLD ran */
 	bool restarts, lines;
-	uint8_t answered[256];         /* the last answer, a frame             */
+	uint8_t answered[1 << 17];     /* the last answer, a frame             */
 	size_t answer;                 /* its bytes                            */
 };
 
@@ -183,6 +185,22 @@ static const struct server_store disk = {
 static const char *_Atomic board_name = "bench";
 static const struct server_log events = { .add = log_add, .next = log_next };
 
+/* The lines of the board: each has its number as its offset. */
+static bool machine_look(void *context, bool anew)
+{
+	(void)context, (void)anew;
+	return true;
+}
+
+static bool machine_row(void *context, uint32_t number, struct machine_row *out)
+{
+	(void)context;
+	*out = (struct machine_row){ .driver = "gpio", .device = "gpiochip0", .offset = number };
+	return number < LINES;
+}
+
+static const struct server_machine machine = { NULL, machine_look, machine_row };
+
 static bool bench_open(struct bench *bench, enum trouble trouble)
 {
 	const struct program *program;
@@ -205,7 +223,7 @@ static bool bench_open(struct bench *bench, enum trouble trouble)
 	resource_start(&bench->rig.resource);
 	bench->server = server_new(&(struct server_setup){
 		.exchange = &bench->exchange, .program = program, .board = &board_name, .log = &events,
-		.store = &disk, .wait = wait_for_scan, .amend = amend, .context = bench,
+		.store = &disk, .wait = wait_for_scan, .amend = amend, .machine = &machine, .context = bench,
 	});
 	return bench->server && server_open(bench->server, ROLE_ENG, false, "desk", 1) == 0;
 }
@@ -395,6 +413,41 @@ static void test_a_late_commit_is_settled_later(void)
 	}
 }
 
+/* Lines come in several answers, each of them once and in order. */
+static void test_each_line_is_told_once(void)
+{
+	struct bench bench;
+	uint32_t next = 0, told = 0, wrong = 0;
+	int answers = 0;
+
+	if (bench_open(&bench, ALL_GOOD)) {
+		hello(&bench);
+		do {
+			uint8_t body[5];
+			struct wire_writer out = wire_write(body, sizeof(body));
+			struct frame frame;
+			struct machine_row row;
+			size_t used;
+
+			wire_put_u8(&out, !answers);
+			wire_put_u32(&out, next);
+			if (!CHECK(ask(&bench, SERVICE_DEVICES, body, sizeof(body)) == REFUSAL_NONE &&
+				   bench.answer <= sizeof(bench.answered)) ||
+			    !CHECK(frame_next(bench.answered, bench.answer, &frame, &used) == FRAME_GOOD))
+				break;
+			wrong += wire_u8(&frame.body) != 1;
+			next = wire_u32(&frame.body);
+			for (int count = wire_u16(&frame.body); count > 0; count--) {
+				machine_take(&frame.body, &row);
+				wrong += frame.body.failed || row.offset != told++;
+			}
+		} while (++answers < 100 && next);
+		CHECK_AS(told == LINES && wrong == 0, "each line once, in order");
+		CHECK_AS(answers > 1 && answers < 100 && next == 0, "in some answers");
+	}
+	bench_close(&bench);
+}
+
 int main(void)
 {
 	test_symbols_begin_anew();
@@ -403,5 +456,6 @@ int main(void)
 	test_a_full_disk_starts_nothing();
 	test_a_program_that_cannot_be_kept_is_told();
 	test_a_late_commit_is_settled_later();
+	test_each_line_is_told_once();
 	return tap_done();
 }
