@@ -986,7 +986,7 @@ static bool has_choices(enum io_field field)
 static void let_leave(struct page *page, enum iomap_page number)
 {
 	static const enum io_field stay[] = { IO_ADDRESS, IO_DRIVER, IO_LINE, IO_DEVICE, IO_CHANNEL,
-					      IO_BUS, IO_UNIT, IO_TABLE, IO_NUMBER, IO_NAMES };
+					      IO_BUS, IO_UNIT, IO_TABLE, IO_NUMBER, IO_NAMES, IO_OF };
 	static const enum io_field pins[] = { IO_DRIVE, IO_PULL, IO_DEBOUNCE, IO_ACTIVE_LOW,
 					      IO_COMMENT, IO_SAFE };
 	GtkWidget *button = gtk_menu_button_new();

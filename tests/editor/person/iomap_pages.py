@@ -9,6 +9,7 @@ import threading
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import BUILD, Chinese, Editor, main, until  # noqa: E402
+from languages import Foreign  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -270,7 +271,22 @@ def small(screen):
         editor.shot('pages-chinese-' + page.split()[0])
 
 
-small.size = '1024x700x24'
+def narrow(screen):
+    """1024 x 700 in German and French: no page makes the window wider than the screen"""
+    path, _ = plant(screen, MAP + '%IB201 quality of=%XIB0..2\n')
+    for language in 'de', 'fr':
+        editor = Foreign(screen, language, path)
+        editor.click(min(editor.all('plant.io', 'label'), key=lambda node: node.box()[0]), count=2)
+        for name in PAGES:
+            name = editor.shown_as(name.split(' (')[0])
+            editor.click(until(lambda: [tab for tab in editor.all(name) if tab.name.startswith(name + ' (')], name)[0])
+            run = editor.find('Run on this machine…', 'push button')
+            left, _top, width, _height = until(run.box, 'the last button')
+            assert left + width <= 1024, (language, name, left, width)
+        editor.finish()
+
+
+small.size = narrow.size = '1024x700x24'
 pages.quick = 'editor-gtk/iomap'
 if __name__ == '__main__':
-    main([pages, lines, values, scanned, small])
+    main([pages, lines, values, scanned, small, narrow])
