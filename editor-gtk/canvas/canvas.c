@@ -1232,6 +1232,11 @@ static void values_changed(LadderCanvas *canvas)
 	class_of(canvas)->values_changed(canvas);
 }
 
+static void program_gone(LadderCanvas *canvas)
+{
+	class_of(canvas)->program_gone(canvas);
+}
+
 static void program_changed(LadderCanvas *canvas)
 {
 	class_of(canvas)->program_changed(canvas);
@@ -1278,14 +1283,17 @@ void ladder_canvas_set_sim(LadderCanvas *canvas, LadderSim *sim)
 	if (sim) {
 		state_of(canvas)->sim = g_object_ref(sim);
 		g_signal_connect_swapped(sim, "shown", G_CALLBACK(values_changed), canvas);
+		g_signal_connect_swapped(sim, "program-gone", G_CALLBACK(program_gone), canvas);
 		g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed),
 					 canvas);
 		g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(state_changed),
 					 canvas);
 		g_signal_connect_swapped(sim, "refused", G_CALLBACK(refused), canvas);
 	}
-	if (was_on || canvas_is_live(canvas))
+	if (was_on || canvas_is_live(canvas)) {
+		program_gone(canvas);
 		program_changed(canvas);
+	}
 }
 
 /* ---- verbs ---- */

@@ -121,7 +121,9 @@ struct _LadderCanvasClass {
 	void (*checked)(LadderCanvas *canvas);
 	/** After values of the simulation changed. */
 	void (*values_changed)(LadderCanvas *canvas);
-	/** After another program, or none, began to run. */
+	/** The program was freed: forgets where its values were, and asks no other widget. */
+	void (*program_gone)(LadderCanvas *canvas);
+	/** After another program, or none, began to run, and all sheets have forgotten the one before. */
 	void (*program_changed)(LadderCanvas *canvas);
 	/** After start, stop, pause. NULL: as values_changed. */
 	void (*state_changed)(LadderCanvas *canvas);

@@ -228,10 +228,9 @@ static void values_changed(LadderCanvas *canvas)
 	canvas_cells_later(canvas);
 }
 
-static void program_changed(LadderCanvas *canvas)
+static void program_gone(LadderCanvas *canvas)
 {
 	fbd_forget_places(LADDER_FBD_VIEW(canvas));
-	values_changed(canvas);
 }
 
 /* ---- names and tips ---- */
@@ -1014,7 +1013,8 @@ static void ladder_fbd_view_class_init(LadderFbdViewClass *class)
 	canvas->bookmarks_changed = bookmarks_changed;
 	canvas->checked = checked;
 	canvas->values_changed = values_changed;
-	canvas->program_changed = program_changed;
+	canvas->program_gone = program_gone;
+	canvas->program_changed = values_changed;
 }
 
 static void ladder_fbd_view_init(LadderFbdView *view)

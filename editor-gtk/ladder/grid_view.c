@@ -358,6 +358,11 @@ static void checked(LadderCanvas *canvas)
 /* ---- the simulation ---- */
 
 /* Variables may be at other places. */
+static void program_gone(LadderCanvas *canvas)
+{
+	live_forget_all(LADDER_GRID_VIEW(canvas));
+}
+
 static void program_changed(LadderCanvas *canvas)
 {
 	act_forget(LADDER_GRID_VIEW(canvas));
@@ -921,6 +926,7 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->bookmarks_changed = restyle;
 	canvas->checked = checked;
 	canvas->values_changed = live_values_changed;
+	canvas->program_gone = program_gone;
 	canvas->program_changed = program_changed;
 	canvas->state_changed = state_changed;
 }

@@ -185,10 +185,9 @@ static void values_changed(LadderCanvas *canvas)
 	canvas_cells_later(canvas);
 }
 
-static void program_changed(LadderCanvas *canvas)
+static void program_gone(LadderCanvas *canvas)
 {
 	sfc_forget_places(LADDER_SFC_VIEW(canvas));
-	values_changed(canvas);
 }
 
 /* ---- names and tips ---- */
@@ -1038,7 +1037,8 @@ static void ladder_sfc_view_class_init(LadderSfcViewClass *class)
 	canvas->rungs_changed = rungs_changed;
 	canvas->checked = checked;
 	canvas->values_changed = values_changed;
-	canvas->program_changed = program_changed;
+	canvas->program_gone = program_gone;
+	canvas->program_changed = values_changed;
 	g_signal_new("body-wanted", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST,
 		0, NULL, NULL, NULL, G_TYPE_NONE, 2, G_TYPE_INT, G_TYPE_INT);
 }

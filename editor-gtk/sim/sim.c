@@ -55,7 +55,7 @@ struct _LadderSim {
 	struct stops_follow *follow; /* moves them with their lines            */
 };
 
-enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
+enum { STATE_CHANGED, PROGRAM_GONE, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
@@ -297,12 +297,19 @@ static bool is_older(LadderSim *sim)
 	return sim->past && sim->replay->edited_us;
 }
 
+/* All forget the places of the program that was freed before the first of them asks another. */
+static void tell_program(LadderSim *sim)
+{
+	g_signal_emit(sim, signals[PROGRAM_GONE], 0);
+	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+}
+
 /* After the scan that is shown may have changed. Before: the program that was shown, and whether
  * an edit had replaced it, which is known before the newer one is taken. */
 static void tell_shown(LadderSim *sim, const struct sim_program *before, bool older)
 {
 	if (shown_program(sim) != before || is_older(sim) != older)
-		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+		tell_program(sim);
 	g_signal_emit(sim, signals[SHOWN], 0);
 }
 
@@ -588,7 +595,7 @@ static void take(LadderSim *sim)
 	if (other) {
 		if (!sim->mirror || sim->view.program != before)
 			forget_replay(sim);
-		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+		tell_program(sim);
 		tell_edit(sim);
 	}
 }
@@ -843,7 +850,7 @@ void ladder_sim_end(LadderSim *sim)
 	drop_source(sim);
 	forget_replay(sim);
 	sim->life++;
-	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+	tell_program(sim);
 	tell_state(sim);
 	g_signal_emit(sim, signals[SHOWN], 0);
 }
@@ -1025,7 +1032,7 @@ static void number_again(LadderSim *sim)
 	g_ptr_array_unref(before);
 	g_bytes_unref(differed);
 	if (!same && ladder_sim_is_on(sim))
-		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+		tell_program(sim);
 }
 
 /* A text that did not come: the next ones may not come either, and a build in vain takes as long as the
@@ -1401,6 +1408,8 @@ static void ladder_sim_class_init(LadderSimClass *class)
 	G_OBJECT_CLASS(class)->finalize = ladder_sim_finalize;
 	signals[STATE_CHANGED] = g_signal_new("state-changed", type, G_SIGNAL_RUN_LAST, 0,
 		NULL, NULL, NULL, G_TYPE_NONE, 0);
+	signals[PROGRAM_GONE] = g_signal_new("program-gone", type, G_SIGNAL_RUN_LAST,
+		0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[PROGRAM_CHANGED] = g_signal_new("program-changed", type, G_SIGNAL_RUN_LAST,
 		0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[SHOWN] = g_signal_new("shown", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,

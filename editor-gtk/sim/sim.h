@@ -10,6 +10,8 @@
  *
  * Signals:
  *   state-changed ()    state, period, speed, plant, board_speed or fault_on_error changed
+ *   program-gone ()     the program was freed: forget the places of values, and ask
+ *                       nobody. program-changed follows
  *   program-changed ()  another program runs, or ran the scan that is shown: places of
  *                       variables have changed
  *   shown ()            ladder_sim_twin() has new values; at most once a frame

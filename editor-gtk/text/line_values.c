@@ -827,7 +827,7 @@ void line_values_set_sim(LadderLineValues *values, LadderSim *sim)
 	if (!sim)
 		return;
 	g_signal_connect_object(sim, "shown", G_CALLBACK(shown), values, G_CONNECT_SWAPPED);
-	g_signal_connect_object(sim, "program-changed", G_CALLBACK(forget), values,
+	g_signal_connect_object(sim, "program-gone", G_CALLBACK(forget), values,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), values,
 				G_CONNECT_SWAPPED);
