@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_MOST = 240 };
+enum { CELL_MOST = 160 };
 
 static char *no_text(struct sink_memory *memory, struct project *project, struct diag_list *diags)
 {
@@ -121,49 +121,51 @@ static int line_of_title(const struct project *was, const struct pou *chart, con
 	return 0;
 }
 
-/* The action, condition or step of a chart that became the ladder in which @from lies. */
-static struct diag place_in_chart(const struct project *was, const struct pou *chart, const struct project *is,
-				  const struct pou *ladder, const struct diag *from)
+/* @place: gets the action, condition or step of a chart that became the ladder in which @from lies. */
+static void place_in_chart(const struct project *was, const struct pou *chart, const struct project *is,
+			   const struct pou *ladder, const struct diag *from, struct diag *place)
 {
-	struct diag place = { .file = chart->file, .line = chart->line, .pou = project_text(was, chart->name) };
 	const struct rung *rung = from->rung > 0 && from->rung <= ladder->rung_count ? ladder->rung[from->rung - 1] : NULL;
 	int at;
 
+	place->file = chart->file;
+	place->line = chart->line;
+	place->pou = project_text(was, chart->name);
 	for (int i = 0; i < chart->sfc->action_count; i++) {
 		const struct sfc_action *action = &chart->sfc->action[i];
 
-		if (!is_made_of(from->pou, place.pou, project_text(was, action->name)))
+		if (!is_made_of(from->pou, place->pou, project_text(was, action->name)))
 			continue;
-		place.line = action->line;
+		place->line = action->line;
 		if (!rung || !sfc_body_has_rungs(&action->body) || from->rung > action->body.count)
-			return place;
-		place.rung = action->body.first + from->rung;
-		place.row = from->row;
-		place.col = from->col;
-		place.line = (int)chart->rung[place.rung - 1]->line;
-		return place;
+			return;
+		place->rung = action->body.first + from->rung;
+		place->row = from->row;
+		place->col = from->col;
+		place->line = (int)chart->rung[place->rung - 1]->line;
+		return;
 	}
 	if (!rung)
-		return place;
+		return;
 	at = same_cell(is, rung, from, was, chart);
 	if (at >= 0) {
-		place.rung = at + 1;
-		place.line = (int)chart->rung[at]->line;
+		place->rung = at + 1;
+		place->line = (int)chart->rung[at]->line;
 	} else if (line_of_title(was, chart, project_text(is, rung->title))) {
-		place.line = line_of_title(was, chart, project_text(is, rung->title));
+		place->line = line_of_title(was, chart, project_text(is, rung->title));
 	}
-	return place;
 }
 
-static struct diag place_of(const struct project *was, const struct project *is, const struct diag *from)
+static void place_of(const struct project *was, const struct project *is, const struct diag *from, struct diag *place)
 {
 	const int made = from->pou ? project_find_pou(is, from->pou, strlen(from->pou)) : -1;
 
 	for (int i = 0; made >= 0 && i < was->pou_count; i++)
 		if (was->pou[i].language == LANGUAGE_SFC && was->pou[i].sfc &&
-		    is_made_of(from->pou, project_text(was, was->pou[i].name), NULL))
-			return place_in_chart(was, &was->pou[i], is, &is->pou[made], from);
-	return (struct diag){ .file = was->file };
+		    is_made_of(from->pou, project_text(was, was->pou[i].name), NULL)) {
+			place_in_chart(was, &was->pou[i], is, &is->pou[made], from, place);
+			return;
+		}
 }
 
 /* A place in a ladder that a chart has become is none of the file: it is that of a part of the chart. */
@@ -171,13 +173,12 @@ static void tell_again(const struct project *was, const struct project *is, cons
 		       struct diag_list *to)
 {
 	for (int i = 0; i < from->count; i++) {
-		struct diag place = { .file = was->file };
+		struct diag place = { .id = from->diag[i].id, .file = was->file };
 
-		if (diag_severity(from->diag[i].id) != SEVERITY_ERROR)
+		if (diag_severity(place.id) != SEVERITY_ERROR)
 			continue;
 		if (is)
-			place = place_of(was, is, &from->diag[i]);
-		place.id = from->diag[i].id;
+			place_of(was, is, &from->diag[i], &place);
 		diag_add(to, place, "%s", from->diag[i].arg);
 	}
 }
