@@ -279,7 +279,7 @@ def operates(screen):
     editor.type('5')
     editor.keys('Return')
     entry = editor.find('Level, New value', 'text')
-    until(lambda: described(editor, entry) == '"Level" ' + why + ': the program does not export it', 'the reason at the entry')
+    until(lambda: described(editor, entry) == '"Level" ' + why + ': it does not stand in VAR_ACCESS of the program', 'the reason at the entry')
     until(lambda: entry.text() == '5', 'what was typed')
     editor.shot('online-refused-board')
     editor.click(editor.find('Motor, Force'))
