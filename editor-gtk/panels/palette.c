@@ -195,11 +195,13 @@ static GArray *offers_new(void)
 	return offers;
 }
 
-/* Tiles are made when their family is opened: they are most of the window's widgets. */
+/* Tiles are made when their family is opened: they are most of the window's widgets. Those of a closed one are in no
+ * window; GTK 4.8 would give them the focus all the same, backwards from what is behind the family. */
 static void make_tiles(GtkExpander *expander)
 {
 	GArray *offers = g_object_get_data(G_OBJECT(expander), "offers");
 
+	gtk_widget_set_can_focus(gtk_expander_get_child(expander), gtk_expander_get_expanded(expander));
 	if (!gtk_expander_get_expanded(expander))
 		return;
 	for (guint i = 0; i < offers->len; i++) {
@@ -231,6 +233,7 @@ static GtkWidget *family_new(const char *name)
 	gtk_expander_set_child(GTK_EXPANDER(expander), flow);
 	g_object_set_data_full(G_OBJECT(expander), "offers", offers_new(),
 			       (GDestroyNotify)g_array_unref);
+	gtk_widget_set_can_focus(flow, FALSE);
 	g_signal_connect(expander, "notify::expanded", G_CALLBACK(make_tiles), NULL);
 	gtk_widget_add_css_class(expander, "family");
 	spoken_name(expander, name);

@@ -573,8 +573,11 @@ static gboolean close_page(struct tabs *tabs, AdwTabPage *page)
 
 void tabs_close(struct tabs *tabs)
 {
-	AdwTabPage *page = front_tab(tabs->core->front);
+	AdwTabPage *page;
 
+	/* What is typed may close pages, which the end of this one would do in the middle. */
+	front_take_typed(tabs->core->front);
+	page = front_tab(tabs->core->front);
 	if (page)
 		adw_tab_view_close_page(tabs->view, page);
 }

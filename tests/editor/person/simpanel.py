@@ -102,8 +102,10 @@ def keyboard(screen):
     sh('xdotool', 'mousemove', str(x), str(y), 'mousedown', '1')
     line(editor, 'Input Start, %IX0.0, on')
     editor.shot('simpanel-held')
-    sh('xdotool', 'mouseup', '1')
-    line(editor, 'Input Start, %IX0.0, off')
+    def released():
+        """Once more if it is still held: GTK 4.8 under X11 loses some releases while the window redraws in each frame."""
+        return editor.all('Input Start, %IX0.0, off', 'list item') or sh('xdotool', 'mouseup', '1')
+    until(released, 'the end of the press')
     sh('xdotool', 'keydown', 'space')
     line(editor, 'Input Start, %IX0.0, on')
     sh('xdotool', 'keyup', 'space')

@@ -157,6 +157,7 @@ static void test_language(const char *language)
 	int bad = 0;
 
 	speak(language);
+	CHECK_AS((strcmp(_("Problems"), "Problems") != 0) == (strcmp(language, "en") != 0), "the texts of the language are there");
 	open_window();
 	clock = gtk_widget_get_frame_clock(window);
 	g_signal_connect(clock, "after-paint", G_CALLBACK(painted), NULL);
