@@ -296,6 +296,90 @@ spew("$dir/s", "\@print n m sum u Main.i c Q N2 SYS_ERRORS\nGo=1\n" . join('', m
 	}
 }
 
+# The memory of a name may have other names: a value is as it was where its line stands, and a bound where its FOR does.
+spew("$dir/alias.rung", <<'END');
+RUNGBOARD 1
+VAR
+  B AT %IX0.0 : BOOL;
+  N AT %IW2 : INT;
+  A AT %MX0.0 : BOOL;
+  Wd AT %MW0 : WORD;
+  k : BOOL;
+  p : REF_TO BOOL := REF(k);
+  r : REFERENCE TO BOOL;
+  l : ARRAY[0..1] OF BOOL;
+  One : Own;
+  Q0 AT %QX0.0 : BOOL;
+  Q1 AT %QX0.1 : BOOL;
+  Q2 AT %QX0.2 : BOOL;
+  Q3 AT %QX0.3 : BOOL;
+  Q4 AT %QX0.4 : BOOL;
+END_VAR
+FUNCTION_BLOCK Own FBD
+VAR_IN_OUT
+  One : BOOL;
+  Two : BOOL;
+  List : ARRAY[0..1] OF BOOL;
+END_VAR
+VAR_INPUT
+  On : BOOL;
+END_VAR
+VAR_OUTPUT
+  Out, More : BOOL;
+END_VAR
+NETWORK
+  Was := One AND On
+  Two := NOT One
+  Out := Was
+NETWORK
+  Was := One AND On
+  List[0] := NOT One
+  More := Was
+END_FUNCTION_BLOCK
+PROGRAM Main FBD
+NETWORK
+  r REF= k
+NETWORK
+  V := A AND B
+  Wd := INT_TO_WORD(N)
+  Q0 := V
+NETWORK
+  V := k AND B
+  p^ := N > 2
+  Q1 := V
+NETWORK
+  V := k AND B
+  r := N > 3
+  Q2 := V
+NETWORK
+  V := r AND B
+  k := N > 4
+  Q3 := V
+NETWORK
+  V := p^ AND B
+  k := N > 5
+  Q4 := V
+NETWORK
+  One(One := l[0], Two := l[0], List := l, On := B)
+END_PROGRAM
+END
+{
+	srand 11;
+	spew("$dir/s", '@print %QB0 k Wd l[0] One.Out One.More' . "\n" . join '', map { sprintf "B=%d N=%d\n", rand() < 0.8, rand 8 } 1 .. 80);
+	my ($good, $said) = converts('alias.rung', 'ld', 'alias-ld.rung');
+	ok($good, 'networks with pointers, references and addresses become ladders') or diag($said);
+	my ($was, $is) = (trace_of('alias.rung', 's'), trace_of('alias-ld.rung', 's'));
+	ok($was =~ /^80 t=/m && $was eq $is, 'and do the same') or diag(first_difference($was, $is));
+	for (['m', 'b := 2;'], ['m', '%MB4 := 2;'], ['k', 'p^ := 2;'], ['k', 'r := 2;'], ['r', 'k := 2;'], ['k', 'o := 2;', 1], ['k', 'b := 2;', 1], ['m', 'q := 2;', 1]) {
+		my ($bound, $line, $good_one) = @$_;
+		spew("$dir/bound.rung", "RUNGBOARD 1\nVAR\n  Go AT %IX0.0 : BOOL;\n  m AT %MW4 : INT := 5;\n  b AT %MB4 : BYTE;\n  n, o, q, i : INT;\n  k : INT := 5;\n  p : REF_TO INT := REF(k);\n" .
+		     "  r : REFERENCE TO INT;\nEND_VAR\nPROGRAM Main LD\nRUNG\n  | NO Go | EXECUTE A |\n  EXECUTE A:\n    r REF= k;\n    FOR i := 1 TO $bound DO\n      $line\n      n := n + 1;\n    END_FOR;\n" .
+		     "  END_EXECUTE\nEND_PROGRAM\n");
+		($good, $said) = converts('bound.rung', 'fbd', 'bound-fbd.rung');
+		ok($good_one ? $good : $said =~ /^bound\.rung:\d+: rung 1 \(1,2\): error LD780: "FOR"/m, "a FOR to $bound around $line") or diag($said);
+	}
+}
+
 # A BOOL wire that one line reads is no variable: its contacts stand in that line's rung.
 spew("$dir/join.rung", <<'END');
 RUNGBOARD 1

@@ -351,8 +351,30 @@ bool text_is_pure(const struct acts *acts, const struct token *token)
 	return op != OP_COUNT || (word != WORD_COUNT && word_row(word)->kind == WORD_FN);
 }
 
-bool text_may_write(const struct acts *acts, const char *text, const struct token *name)
+/* Whose memory may have other names: of a VAR_IN_OUT and of a REFERENCE TO that of any variable; of an address that of
+ * others at addresses which programs write. */
+enum shared { SHARED_NOT, SHARED_AT, SHARED_ANY };
+
+static enum shared shared_as(struct acts *acts, const struct token *name)
 {
+	const struct var_table *vars = &acts->pou->vars;
+	const size_t base = strcspn(name->text, ".");
+	const uint32_t id = acts_intern(acts, name->text, base < name->len ? base : name->len);
+	const bool named = name->kind == TOKEN_NAME;
+	const struct meaning *m = named ? acts_meaning(acts, acts_intern(acts, name->text, name->len)) : NULL;
+	const int at = named ? vars_find(vars, names_fold(&acts->project->names, id)) : -1;
+
+	if ((at >= 0 && vars_flags(vars, at) & VAR_IN_OUT) || (m && m->through))
+		return SHARED_ANY;
+	m = named ? acts_meaning(acts, id) : NULL;
+	if (name->kind == TOKEN_ADDRESS)
+		return SHARED_AT;
+	return m && m->addr.area != AREA_NONE && iec_area_row(m->addr.area)->access != ACCESS_READ ? SHARED_AT : SHARED_NOT;
+}
+
+bool text_may_write(struct acts *acts, const char *text, const struct token *name)
+{
+	const enum shared as = shared_as(acts, name);
 	const char *dot = memchr(name->text, '.', name->len);
 	const size_t base = dot ? (size_t)(dot - name->text) : name->len;
 	bool output = false;
@@ -362,16 +384,25 @@ bool text_may_write(const struct acts *acts, const char *text, const struct toke
 	while (lex_next(&lex) != TOKEN_END) {
 		const struct token token = lex.token;
 		struct lex next = lex;
-		bool named;
+		bool named, written;
 
 		lex_next(&next);
 		if (token.kind == TOKEN_NAME && lex_is(&next, "(") && !text_is_pure(acts, &token))
 			return true;
 		named = token.kind == TOKEN_NAME && token.len >= base && ascii_same(token.text, name->text, base) &&
 			(token.len == base || token.text[base] == '.');
-		if (named && (output || lex_is(&next, ":=") || lex_is(&next, "S") || lex_is(&next, "R") ||
-			      lex_is(&next, "[") || lex_is(&next, "^")))
+		written = output || lex_is(&next, ":=") || lex_is(&next, "?=") || lex_is(&next, "S") ||
+			  lex_is(&next, "R") || lex_is(&next, "[");
+		if (named && (written || lex_is(&next, "^") || lex_is(&next, "REF")))
 			return true;
+		if (lex_is(&lex, "^"))
+			return true; /* a pointer leads anywhere */
+		if (written) {
+			const enum shared to = shared_as(acts, &token);
+
+			if (to == SHARED_ANY || as == SHARED_ANY || (to == SHARED_AT && as == SHARED_AT))
+				return true;
+		}
 		output = lex_is(&lex, "=>");
 	}
 	return false;

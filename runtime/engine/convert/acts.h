@@ -157,9 +157,9 @@ const struct meaning *acts_meaning(struct acts *acts, uint32_t operand);
 uint32_t acts_intern(struct acts *acts, const char *text, size_t len);
 /** text_is_pure - does a function of this name, or an operator before a parenthesis, write nothing? */
 bool text_is_pure(const struct acts *acts, const struct token *token);
-/** text_may_write - can the statement @text write the variable @name? Nobody knows what blocks and functions of the
- * project write. */
-bool text_may_write(const struct acts *acts, const char *text, const struct token *name);
+/** text_may_write - can the statement @text write the variable @name, perhaps by another name of its memory? Nobody knows
+ * what blocks and functions of the project write, nor where pointers lead. */
+bool text_may_write(struct acts *acts, const char *text, const struct token *name);
 /** acts_name - a name that nothing in the POU has: @text, @text_2 and so on. */
 uint32_t acts_name(struct acts *acts, const char *text);
 

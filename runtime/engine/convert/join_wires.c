@@ -130,7 +130,7 @@ static bool is_shown(const struct acts *acts, const struct st_item *item, const 
 }
 
 /* Is anything that the value reads written by the items between? */
-static bool stays(const struct acts *acts, const struct st_item *item, const char *value, int count)
+static bool stays(struct acts *acts, const struct st_item *item, const char *value, int count)
 {
 	struct lex lex;
 
