@@ -288,7 +288,8 @@ spew("$dir/s", "\@print n m sum u Main.i c Q N2 SYS_ERRORS\nGo=1\n" . join('', m
 	my $was = trace_of('case.rung', 's');
 	ok($was =~ /^40 t=/m && $was eq trace_of('case-fbd.rung', 's'), 'and do the same') or diag(first_difference($was, trace_of('case-fbd.rung', 's')));
 	for (['CASE Raw OF', 'CASE Raw + 1 OF', 'CASE'], ['FOR i := 1 TO N2 DO', 'FOR i := 1 TO N2 * 2 DO', 'FOR'], ['sum := sum + 1;', 'sum := sum + 1; N2 := 3;', ''],
-	     ['t[i] := t[i] + n;', 't[i] := t[i] + n; N2 := N2 - 1;', 'FOR']) {
+	     ['t[i] := t[i] + n;', 't[i] := t[i] + n; N2 := N2 - 1;', 'FOR'], ['FOR i := 1 TO N2 DO', 'FOR i := 1 TO i DO', 'FOR'],
+	     ['VAR i : INT;', 'VAR i : INT(-3..10);', 'FOR']) {
 		my ($old, $new, $word) = @$_;
 		spew("$dir/odd.rung", slurp("$dir/case.rung") =~ s/\Q$old\E/$new/r);
 		($good, $said) = converts('odd.rung', 'fbd', 'odd-fbd.rung');

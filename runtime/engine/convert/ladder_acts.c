@@ -1283,6 +1283,15 @@ static bool is_left_alone(const struct rungs *r, const struct boxed *boxed, int 
 	return true;
 }
 
+/* Does the loop itself write the variable @name? */
+static bool counts_in(const struct rungs *r, const struct loop *loop, const struct token *name)
+{
+	char text[2 * LIMIT_NAME];
+	const int len = snprintf(text, sizeof(text), "%.*s := 0", (int)loop->variable.len, loop->variable.text);
+
+	return len < 0 || len >= (int)sizeof(text) || text_may_write(r->acts, text, name);
+}
+
 /* `FOR i := from TO to BY by`: may its bounds be looked at in each round? */
 static bool may_jump_for(struct rungs *r, const struct boxed *boxed, int at)
 {
@@ -1295,11 +1304,12 @@ static bool may_jump_for(struct rungs *r, const struct boxed *boxed, int at)
 		return false;
 	variable = acts_meaning(r->acts, acts_intern(r->acts, loop.variable.text, loop.variable.len));
 	if (!variable || !(iec_type_row(variable->type)->class & ANY_INT) || iec_is_wide(variable->type) ||
-	    loop.step > INT8_MAX || loop.step < -INT8_MAX)
+	    meaning_is_ranged(variable) || loop.step > INT8_MAX || loop.step < -INT8_MAX)
 		return false;
-	return !memchr(loop.variable.text, '[', loop.variable.len) &&
-	       is_plain(loop.from.text, loop.from.len, &name) && is_plain(loop.to.text, loop.to.len, &to) &&
-	       is_left_alone(r, boxed, at, &to) && loop.step != 0;
+	if (memchr(loop.variable.text, '[', loop.variable.len) || loop.step == 0 ||
+	    !is_plain(loop.from.text, loop.from.len, &name) || !is_plain(loop.to.text, loop.to.len, &to))
+		return false;
+	return (!to.len || !counts_in(r, &loop, &to)) && is_left_alone(r, boxed, at, &to);
 }
 
 static bool may_jump(struct rungs *r, const struct boxed *boxed, int at)
