@@ -132,6 +132,58 @@ END_PROGRAM
 END
 both_ways('enable', 'enable.rung', "\@print Q N M Main.K\n. x2\nGo=1 X=1\n. x5\nQ=1 Go=0\n. x3\nX=0\nQ=0\nX=1\nGo=1\n. x3\nMain.K=40\nX=0 Q=1\nX=1\n");
 
+# ---- EN reads what the outputs store ----
+spew('kept.rung', <<'END');
+RUNGBOARD 1
+
+VAR
+  Set AT %IX0.1 : BOOL;
+  M   AT %MX0.0 : BOOL;
+  L   : ARRAY[0..3] OF BOOL;
+  N   AT %QW2 : INT;
+  O   AT %QW4 : INT;
+  P   AT %QW6 : INT;
+  S   AT %QW8 : INT;
+END_VAR
+
+FUNCTION_BLOCK Plus ST
+VAR_INPUT
+  A : INT;
+END_VAR
+VAR_OUTPUT
+  C : BOOL;
+  B : INT;
+  D : BOOL := TRUE;
+END_VAR
+  B := A + 1;
+  C := FALSE;
+  D := NOT D;
+END_FUNCTION_BLOCK
+
+PROGRAM Main FBD
+VAR
+  One, Two, Three, Four : Plus;
+  K : INT;
+END_VAR
+NETWORK
+  K := K + 1
+  M S= Set
+  L[1] S= Set
+  L[2] S= Set
+NETWORK
+  Two(EN := L[1] AND M, A := K, C => L[1], B => O)
+NETWORK
+  One(EN := M, A := K, C => M, B => N)
+NETWORK
+  Three(EN := Three.D, A := K, B => P)
+NETWORK
+  Four(EN := R_EDGE(L[2]), A := K, C => L[2], B => S)
+NETWORK
+  L[1] := Set
+END_PROGRAM
+END
+both_ways('kept', 'kept.rung', "\@print M N O P S L[1]\n.\nSet=1\nSet=0\n. x2\nSet=1\n. x2\nSet=0\nM=1\n. x2\nM=0\nSet=1\n");
+
 # ---- actions of POUs that are no charts, called from ladders, networks and text ----
 spew('actions.rung', <<'END');
 RUNGBOARD 1

@@ -155,7 +155,8 @@ static const char *modifiers(struct diagram *d, struct input input)
 
 /* ---- boxes ---- */
 
-static void put_move(struct diagram *d, int x, int y, struct input enable, struct input value, int id)
+/* @enable: NULL: it has no EN. */
+static void put_move(struct diagram *d, int x, int y, const struct input *enable, struct input value, int id)
 {
 	struct out *out = d->out;
 
@@ -163,10 +164,12 @@ static void put_move(struct diagram *d, int x, int y, struct input enable, struc
 		  3 * PIN, WIDTH, ++out->order);
 	put_position(out, x, y);
 	plco_open(out, "inputVariables");
-	plco_open(out, "variable formalParameter=\"EN\"%s", modifiers(d, enable));
-	put_connection(d, enable);
-	plco_close(out, "variable");
-	plco_open(out, "variable formalParameter=\"IN\"");
+	if (enable) {
+		plco_open(out, "variable formalParameter=\"EN\"%s", modifiers(d, *enable));
+		put_connection(d, *enable);
+		plco_close(out, "variable");
+	}
+	plco_open(out, "variable formalParameter=\"IN\"%s", modifiers(d, value));
 	put_connection(d, value);
 	plco_close(out, "variable");
 	plco_close(out, "inputVariables");
@@ -177,27 +180,54 @@ static void put_move(struct diagram *d, int x, int y, struct input enable, struc
 	plco_close(out, "block");
 }
 
+/* The EN of a call of an instance; -1: it has none. */
+static int enable_of(const struct diagram *d, const struct fbd_box *box)
+{
+	for (int i = box->first_pin; box->kind == FBD_BLOCK && i < box->first_pin + box->pins; i++)
+		if (!d->graph->pin[i].output && !strcmp(d->graph->pin[i].name, "EN") && d->input[i].id)
+			return i;
+	return -1;
+}
+
+static bool is_stored(const struct fbd_pin *pin)
+{
+	return pin->output && pin->operand;
+}
+
+/* What EN reads may be another value when the outputs are stored: a box keeps it, and an edge is found once. */
+static void keep_enable(struct diagram *d, int number)
+{
+	const struct fbd_box *box = &d->graph->box[number];
+	const int pin = enable_of(d, box);
+	const int x = x_of(d, number) - WIDTH - PIN, y = y_of(d, number);
+	bool stored = false;
+	int id;
+
+	for (int i = box->first_pin; pin >= 0 && i < box->first_pin + box->pins; i++)
+		stored = stored || is_stored(&d->graph->pin[i]);
+	if (!stored || (fbd_graph_source(d->graph, pin) >= 0 && !d->graph->pin[pin].previous && !d->input[pin].edge))
+		return;
+	id = ++d->out->ids;
+	plco_place(d->out, id, x + WIDTH, y);
+	put_move(d, x, y, NULL, d->input[pin], id);
+	d->input[pin] = (struct input){ id, "OUT", false, NULL };
+}
+
 /* Other tools store outputs of an instance in any scan: those of a call with EN go through a MOVE
  * with the same EN. */
 static struct input enabled(struct diagram *d, int box, int pin)
 {
 	const struct fbd_box *from = &d->graph->box[box];
 	const struct input value = { d->id[box], pin_name(d, from, pin), false, NULL };
+	const int enable = enable_of(d, from);
+	int id;
 
-	for (int i = from->first_pin; from->kind == FBD_BLOCK && i < from->first_pin + from->pins; i++) {
-		const struct fbd_pin *p = &d->graph->pin[i];
-		struct input enable;
-		int id;
-
-		if (p->output || strcmp(p->name, "EN") != 0 || !d->input[i].id)
-			continue;
-		enable = find_input(d, i, 0);
-		id = ++d->out->ids;
-		plco_place(d->out, id, x_of(d, box) + WIDTH + PIN + WIDTH, y_of(d, box) + PIN);
-		put_move(d, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, enable, value, id);
-		return (struct input){ id, "OUT", false, NULL };
-	}
-	return value;
+	if (enable < 0)
+		return value;
+	id = ++d->out->ids;
+	plco_place(d->out, id, x_of(d, box) + WIDTH + PIN + WIDTH, y_of(d, box) + PIN);
+	put_move(d, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, &d->input[enable], value, id);
+	return (struct input){ id, "OUT", false, NULL };
 }
 
 static void put_stored(struct diagram *d, int box, int pin)
@@ -248,13 +278,14 @@ static void put_box(struct diagram *d, int number)
 	struct out *out = d->out;
 	const char *named = box->instance ? plco_print(out, " instanceName=\"%s\"", box->instance) : "";
 
+	keep_enable(d, number);
 	plco_open(out, "block localId=\"%d\" typeName=\"%s\"%s height=\"%d\" width=\"%d\" executionOrderId=\"%d\"",
 		  d->id[number], function_of(d, box), named, PIN * (box->pins + 1), WIDTH, ++out->order);
 	put_position(out, x_of(d, number), y_of(d, number));
 	put_pins(d, box);
 	plco_close(out, "block");
 	for (int i = box->first_pin; i < box->first_pin + box->pins; i++)
-		if (d->graph->pin[i].output && d->graph->pin[i].operand)
+		if (is_stored(&d->graph->pin[i]))
 			put_stored(d, number, i);
 }
 
