@@ -112,6 +112,17 @@ imported($good . "<!-- end -->\n\n", 'a comment behind the end');
 refused('<project xmlns="http://www.plcopen.org/xml/tc6_0201">' . '<a>' x 100_000, 'LD74[0-3]', 'a hundred thousand elements in one another');
 refused('<project xmlns="http://www.plcopen.org/xml/tc6_0201"><a ' . join(' ', map { "a$_=\"\"" } 1 .. 200_000) . '>', 'LD74[0-3]', 'two hundred thousand attributes');
 imported($good =~ s/name="Main"/'name="' . 'M' x 200_000 . '"'/er, 'a name of 200,000 letters');
+{
+	my $list = sub { "<data name=\"x\" handleUnknown=\"discard\"><globalVars name=\"$_[0]\"><variable name=\"Gone\"><type><INT/></type></variable></globalVars></data>" };
+	my $with = sub { my $add = '<addData>' . $list->(@_) . '</addData>'; $good =~ s{</project>}{$add</project>}r };
+	for my $length (256, 1000, 1_000_000) {
+		my ($said, $rung) = imported($with->('A' x $length), "a list of global variables with a name of $length letters");
+		like($said, qr/lost: globalVars name="AAA\w+" is left out/, "$length letters: its name is left out, and that is told") or diag(substr $said, 0, 500);
+		like($rung, qr/Gone : INT/, "$length letters: its variables stay");
+	}
+	my ($said) = imported($with->('A' x 255), 'a name of 255 letters');
+	unlike($said, qr/globalVars name/, 'a name of 255 letters is one');
+}
 imported($good =~ s/<variable>A</'<variable>' . '(' x 100_000 . '<'/er, 'a hundred thousand parentheses');
 imported($good =~ s/(<contact localId="2".*?<\/contact>\n)/$1 x 20_000/esr, 'an element twenty thousand times');
 

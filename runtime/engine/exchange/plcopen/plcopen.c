@@ -144,19 +144,26 @@ static bool is_said(struct xml_node *project, const char *name)
 {
 	const size_t len = strlen(name);
 
-	for (struct xml_node *node = project; node && len; node = xml_next(node))
-		for (const char *at = node->text; at && *at; at++)
-			if (at[len - 1] && ascii_same(at, name, len) && at[len] == '.')
+	for (struct xml_node *node = project; node; node = xml_next(node))
+		for (const char *at = node->text; at && *at; at++) {
+			size_t same = 0;
+
+			/* The end of a text is no letter of a name. */
+			while (same < len && ascii_upper(at[same]) == ascii_upper(name[same]))
+				same++;
+			if (same == len && at[len] == '.')
 				return true;
-			else if (memchr(at, '\0', len))
-				break;
+		}
 	return false;
 }
 
 static void put_list(struct plcopen *c, struct xml_node *project, struct xml_node *list)
 {
-	const char *name = xml_take(list, "name");
-	const bool space = name && plc_is_name(name) && is_said(project, name);
+	const char *name = xml_value(list, "name");
+	const bool good = name && plc_is_name(name), space = good && is_said(project, name);
+
+	if (good)
+		xml_take(list, "name");
 
 	plc_put(c, space ? "\nNAMESPACE %s\n\n" : "\n", name);
 	plc_variables(c, list, "VAR_GLOBAL");

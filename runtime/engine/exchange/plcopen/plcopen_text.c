@@ -6,6 +6,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
+#include "engine/base/limits.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -189,7 +190,7 @@ bool plc_is_name(const char *name)
 	struct lex lex;
 
 	lex_init(&lex, name, len);
-	return len && lex_next(&lex) == TOKEN_NAME && lex.token.len == len && !strchr(name, '.');
+	return len && len <= LIMIT_NAME && lex_next(&lex) == TOKEN_NAME && lex.token.len == len && !strchr(name, '.');
 }
 
 bool plc_same(const char *a, const char *b)
