@@ -165,6 +165,31 @@ while (my @some = splice @names, 0, 100) {
 is("@odd", '', "$count changes of one element or attribute are answered");
 unlink glob 'made*.xml';
 
+# ---- numbers of elements ----
+# They come into names of the text: of a box with lines, of a wire.
+{
+	my $box = '<contact localId="70"><position x="0" y="0"/><connectionPointIn><connection refLocalId="LEFT"/></connectionPointIn><connectionPointOut/><variable>A</variable></contact>'
+		. '<block localId="ID" typeName="EXECUTE"><position x="0" y="0"/><inputVariables><variable formalParameter="EN"><connectionPointIn><connection refLocalId="70"/></connectionPointIn></variable></inputVariables><inOutVariables/>'
+		. '<outputVariables><variable formalParameter="ENO"><connectionPointOut/></variable></outputVariables><addData><data name="http://www.3s-software.com/plcopenxml/stcode" handleUnknown="implementation"><STCode xmlns="">;</STCode></data></addData></block>';
+	my $sum = '<inVariable localId="71"><position x="0" y="0"/><connectionPointOut/><expression>A</expression></inVariable>'
+		. '<block localId="ID" typeName="AND"><position x="0" y="0"/><inputVariables><variable formalParameter="IN1"><connectionPointIn><connection refLocalId="71"/></connectionPointIn></variable><variable formalParameter="IN2"><connectionPointIn><connection refLocalId="71"/></connectionPointIn></variable></inputVariables><inOutVariables/>'
+		. '<outputVariables><variable formalParameter="OUT"><connectionPointOut/></variable></outputVariables></block>'
+		. join '', map { "<outVariable localId=\"$_\"><position x=\"0\" y=\"0\"/><connectionPointIn><connection refLocalId=\"ID\"/></connectionPointIn><expression>A</expression></outVariable>" } 72, 73;
+	for my $id ('7 x', '-7', '+8', '7 | COIL A |&#10;RUNG&#10;  | ', '7:&#10;END_EXECUTE', ' 7', '9' x 300, '7(* ', '', 'x', '007') {
+		my $body = sub { (my $inner = $_[1]) =~ s/ID/$id/g; $inner =~ s/LEFT/700/; my $rail = $_[0] eq 'LD' ? '<leftPowerRail localId="700"><position x="0" y="0"/><connectionPointOut formalParameter="none"/></leftPowerRail>' : '';
+			"<pou name=\"Hostile\" pouType=\"program\"><interface><localVars><variable name=\"A\"><type><BOOL/></type></variable></localVars></interface><body><$_[0]>$rail$inner</$_[0]></body></pou>" };
+		for my $kind (['LD', $box, qr/^RUNG\n  \| NO A \| EXECUTE (Box\w+) \|\n  EXECUTE \1:\n\s*;\n  END_EXECUTE\n/m], ['FBD', $sum, qr/^  AND_\w+ := AND\(A, A\)$/m]) {
+			my $pou = $body->(@$kind);
+			my ($said, $rung) = imported($good =~ s{</pous>}{$pou</pous>}r, "$kind->[0] with the number \"$id\"");
+			next if $kind->[0] eq 'FBD' && $id eq '';
+			$rung =~ s/^.*?(?=PROGRAM Hostile)//s;
+			$rung =~ s/^END_PROGRAM\n\K.*//ms;
+			like($rung, $kind->[2], "$kind->[0] with the number \"$id\": a name is what stands there") or diag($said);
+			is(() = $rung =~ /^(?:RUNG|NETWORK)/mg, 1, "$kind->[0] with the number \"$id\": and nothing else");
+		}
+	}
+}
+
 # ---- circles, and what leads nowhere ----
 my $in = sub { "<connectionPointIn><connection refLocalId=\"$_[0]\"/></connectionPointIn>" };
 for ([qr/(<contact localId="2".*?refLocalId=)"\d+"/s, '"2"', 'a contact that leads to itself', 'LD748'],

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEEP = 2000, SAME_ROW = 10 }; /* elements whose heights differ by less stand in one row */
+enum { MOST_DEEP = 2000, SAME_ROW = 10, MOST_DIGITS = 18 }; /* elements whose heights differ by less stand in one row */
 
 static const struct { const char *name; enum plc_kind kind; } kinds[] = {
 	{ "leftPowerRail", PLC_LEFT }, { "rightPowerRail", PLC_RIGHT }, { "contact", PLC_CONTACT },
@@ -204,6 +204,16 @@ static void read_own(struct plcopen *c, struct plc_element *e)
 		e->name = "";
 }
 
+/* What names in the text end with: the number, or that of the element in its body if there is no plain one. */
+static const char *id_of(struct plcopen *c, const struct plc_graph *graph, const char *id)
+{
+	size_t digits = 0;
+
+	while (ascii_digit(id[digits]))
+		digits++;
+	return digits && digits <= MOST_DIGITS && !id[digits] ? id : plc_print(c, "x%d", graph->elements);
+}
+
 static bool add_element(struct plcopen *c, struct plc_graph *graph, struct xml_node *node)
 {
 	struct plc_element *e = arena_push(c->arena, &graph->element, &graph->elements, sizeof(*e));
@@ -216,8 +226,8 @@ static bool add_element(struct plcopen *c, struct plc_graph *graph, struct xml_n
 		return true;
 	node->taken = true;
 	e->id = xml_take(node, "localId");
-	e->id = e->id ? e->id : "";
-	e->number = *e->id ? strtoll(e->id, NULL, 10) : -1;
+	e->number = e->id && *e->id ? strtoll(e->id, NULL, 10) : -1;
+	e->id = id_of(c, graph, e->id ? e->id : "");
 	e->x = coordinate(node, "position", "x");
 	e->y = coordinate(node, "position", "y");
 	order = xml_take(node, "executionOrderId");

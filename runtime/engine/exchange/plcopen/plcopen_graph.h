@@ -39,8 +39,8 @@ struct plc_pin {
 struct plc_element {
 	enum plc_kind kind;
 	struct xml_node *node;
-	const char *id;         /* localId                                      */
-	long long number;       /* the same                                     */
+	const char *id;         /* as it may stand in a name: localId if that is digits */
+	long long number;       /* localId                                      */
 	int x, y;
 	long order;             /* executionOrderId; 0: none                    */
 	const char *name;       /* variable, expression, label, type of a block */
