@@ -448,4 +448,19 @@ like($made, qr/Add\(N\);.*Work_active\(N\);\n    In\(P1\);\n    In\(P0\);.*ACTIO
 spew('script', "\@print MAIN.A MAIN.B MAIN.N MAIN.M MAIN.One.Sum MAIN.One.Ins MAIN.One.Drive.Turns\n.\nGo=1\n. x3\nGVL.Go=0\n. x2\n");
 is(`$ladder trace application.rung script 2>trouble`, '', 'it runs');
 
+# The unit of the settings: those that literals have, whatever the sign of micro; another one is told.
+for ([us => 'us'], ["\xc2\xb5s" => 'us'], ["\xce\xbcs" => 'us'], [ms => 'ms'], [s => 's'], [m => 'm'], [h => 'h'], [d => 'd'], [ns => 'ns'], [MS => 'ms'], [ticks => undef], ["\xc2\xb5" => undef], ['us, PRIORITY := 9' => undef]) {
+	my ($unit, $is) = @$_;
+	my $amount = {h => '1.5', d => 1, ns => 500_000}->{$unit} // 500;
+	spew('unit.xml', $application =~ s/IntervalUnit="us"/IntervalUnit="$unit"/r =~ s/Interval="500"/Interval="$amount"/r);
+	my $said = `$ladder import unit.xml -o unit.rung 2>&1`;
+	is($?, 0, "the unit $unit: imported") or diag($said);
+	my ($interval) = slurp('unit.rung') =~ /INTERVAL := (.*?), PRIORITY := 3\)/;
+	is($interval, defined $is ? "T#$amount$is" : 'T#20ms', "the unit $unit: " . ($is // 'none'));
+	my $lost = () = $said =~ /lost: TaskSettings IntervalUnit="\Q$unit\E" is left out|lost: TaskSettings Interval="500" is left out|changed: the task Often says no interval; it gets 20 ms/g;
+	is($lost, defined $is ? 0 : 3, "the unit $unit: " . (defined $is ? 'nothing is lost' : 'it is told')) or diag($said);
+}
+spew('unit.xml', $application =~ s/Interval="500"/Interval="inf"/r);
+like(`$ladder import unit.xml -o unit.rung 2>&1`, qr/lost: TaskSettings Interval="inf" is left out/, 'an interval that is no number is told');
+
 done_testing;

@@ -77,8 +77,33 @@ static bool is_zero(const char *every)
 	return every && (!strcmp(every, "PT0S") || !strcmp(every, "T#0s") || !strcmp(every, "0"));
 }
 
-/* CODESYS gives what is no whole number of milliseconds in its settings alone; NULL: nothing is given. */
-static const char *set_interval(struct plcopen *c, struct xml_node *task)
+/* A unit of the settings as literals have it, whose micro may be a sign; NULL: it is none. */
+static const char *unit_of(const char *unit)
+{
+	static const char *const units[] = { "d", "h", "m", "s", "ms", "us", "ns" };
+
+	if (!strcmp(unit, "\xc2\xb5s") || !strcmp(unit, "\xce\xbcs"))
+		return "us";
+	for (size_t i = 0; i < sizeof(units) / sizeof(*units); i++)
+		if (plc_same(units[i], unit))
+			return units[i];
+	return NULL;
+}
+
+/* A decimal number above zero, as a literal has it. */
+static bool is_amount(const char *text)
+{
+	size_t digits = strspn(text, "0123456789");
+	const size_t all = digits;
+
+	if (digits && text[digits] == '.')
+		digits += 1 + strspn(text + digits + 1, "0123456789");
+	return all && !text[digits] && text[digits - 1] != '.' && strtod(text, NULL) > 0;
+}
+
+/* CODESYS gives what is no whole number of milliseconds in its settings alone. @otherwise stays if nothing is given;
+ * NULL: what is given says no time, and is reported as left out. */
+static const char *set_interval(struct plcopen *c, struct xml_node *task, const char *otherwise)
 {
 	struct xml_node *add = xml_look(task, "addData");
 
@@ -86,15 +111,21 @@ static const char *set_interval(struct plcopen *c, struct xml_node *task)
 		struct xml_node *settings = xml_look(data, "TaskSettings");
 		const char *every = settings ? xml_value(settings, "Interval") : NULL;
 		const char *unit = settings ? xml_value(settings, "IntervalUnit") : NULL;
-		char *end;
 
-		if (!every || !unit || strtod(every, &end) <= 0 || *end)
+		if (!every || !unit || is_zero(every))
 			continue;
 		add->taken = true;
-		xml_take_all(data);
-		return plc_print(c, "T#%s%s", every, unit);
+		if (unit_of(unit) && is_amount(every)) {
+			xml_take_all(data);
+			return plc_print(c, "T#%s%s", every, unit_of(unit));
+		}
+		/* Their attributes are what is left over. */
+		xml_take(data, "name");
+		data->taken = true;
+		settings->taken = true;
+		return NULL;
 	}
-	return NULL;
+	return otherwise;
 }
 
 static void put_task(struct plcopen *c, struct xml_node *task)
@@ -103,8 +134,8 @@ static void put_task(struct plcopen *c, struct xml_node *task)
 	const char *every = xml_take(task, "interval"), *single = xml_take(task, "single");
 	const char *priority = xml_take(task, "priority");
 
-	if (is_zero(every) && set_interval(c, task))
-		every = set_interval(c, task);
+	if (is_zero(every))
+		every = set_interval(c, task, every);
 	task->taken = true;
 	c->at = task->line;
 	plc_put(c, "  TASK %s (", name);
