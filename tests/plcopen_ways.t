@@ -381,6 +381,27 @@ END
 my ($numbers) = both_ways('numbers', 'numbers.EXP', "\@print PLC_PRG.r PLC_PRG.w\n%ID0=5\n");
 like($numbers, qr/r := UDINT_TO_REAL\(d\);\s*\(\* DWORD_TO_REAL \*\)/, 'its words are those that say so here');
 
+# ---- types with names of instructions and cells: they stay, as in a rung file; those of functions and blocks do not ----
+my @words = qw(R S LD ST CAL N ANDN JMPC JMP RET NO NC COIL OTE XIC);
+sub types_of { my ($text) = $_[0] =~ /^(TYPE\n.*?^END_TYPE\n)/ms; return $text }
+sub words_project {
+	return "RUNGBOARD 1\n\nTYPE\n" . join('', map { "  $_ : STRUCT\n    x : INT;\n  END_STRUCT;\n" } @_) . "END_TYPE\n\nPROGRAM Main IL\nVAR\n"
+		. join('', map { "  v$_ : $_;\n" } @_) . "  b : BOOL;\n  c : BOOL;\nEND_VAR\n  LD b\n  R c\n" . join('', map { "  LD v$_.x\n  ADD 1\n  ST v$_.x\n" } @_) . "END_PROGRAM\n";
+}
+my @may = grep { spew('word.rung', words_project($_)); system("$ladder check word.rung >trouble 2>&1") == 0 } @words;
+cmp_ok(scalar @may, '>=', 8, "types may be named @may");
+spew('words.rung', words_project(@may));
+my ($back) = both_ways('words', 'words.rung', '@print ' . join(' ', map { "Main.v$_.x" } @may) . "\n. x2\n");
+is(types_of($back), types_of(slurp('words.rung')), 'words as types: they keep their names');
+my ($again) = both_ways('words2', 'words.back.rung', '@print ' . join(' ', map { "Main.v$_.x" } @may) . "\n. x2\n");
+is($again, $back, 'words as types: and once more');
+for my $word (@may, 'TON', 'ADD', 'LIMIT') {
+	spew('word.xml', slurp('bare.xml') =~ s/"$may[0]"/"$word"/gr =~ s/(<dataType name="$word">.*?<\/dataType>)(.*)<dataType name="$word">.*?<\/dataType>/$1$2/sr);
+	my $said = `$ladder import word.xml -o word.rung 2>&1`;
+	my $is = grep({ $_ eq $word } @may) ? $word : "${word}_1";
+	like(slurp('word.rung'), qr/^  $is : STRUCT\n/m, "a type $word becomes $is") or diag($said);
+}
+
 # ---- an application of CODESYS or TwinCAT: all of it stands in data behind the project ----
 my $three = 'http://www.3s-software.com/plcopenxml';
 sub data { return qq(<data name="$three/$_[0]" handleUnknown="implementation">$_[1]</data>\n) }

@@ -8,6 +8,7 @@
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/check/reserved.h"
+#include "engine/model/words.h"
 
 #include <string.h>
 
@@ -19,12 +20,15 @@ static const char *renamed(const struct plcopen *c, const char *name, size_t len
 	return NULL;
 }
 
-/* Functions, blocks and types share their names with those that are built in. */
+/* Functions, blocks and types share their names with those that are built in. No cell and no instruction begins
+ * with the name of a type, so it may be R or LD. */
 static bool is_built_in(const struct xml_node *node, const char *name)
 {
 	const enum word word = word_find(name, strlen(name));
 
-	return (xml_is(node, "pou") || xml_is(node, "dataType")) &&
+	if (xml_is(node, "dataType"))
+		return word != WORD_COUNT && !words_is_operator(name, strlen(name));
+	return xml_is(node, "pou") &&
 	       ((word != WORD_COUNT && word_row(word)->kind != WORD_ELEM) ||
 		op_find(name, strlen(name)) != OP_COUNT);
 }
