@@ -469,6 +469,22 @@ like($made, qr/Add\(N\);.*Work_active\(N\);\n    In\(P1\);\n    In\(P0\);.*ACTIO
 spew('script', "\@print MAIN.A MAIN.B MAIN.N MAIN.M MAIN.One.Sum MAIN.One.Ins MAIN.One.Drive.Turns\n.\nGo=1\n. x3\nGVL.Go=0\n. x2\n");
 is(`$ladder trace application.rung script 2>trouble`, '', 'it runs');
 
+# Lists with variables of one name: the first keeps it, and each text says the variable that it meant.
+(my $lists = $application) =~ s{(</globalVars>)}{$1 . join '', map { my $list = $_; "<globalVars name=\"$list\">" . $variables->("GO:INT", "${list}Own:INT", 'EN:INT', 'Go_1:INT') . '</globalVars>' } qw(GVL2 GVL3 Silent)}e;
+$lists =~ s{N := N \+ 1;}{N := N + GVL2.Go + gvl3.go; GVL2.Go := 3; GVL3.GO := GVL2.Go + 1; GVL2.Go_1 := 70; GVL3.Go_1 := 71; GVL2.EN := 5; GVL3.EN := GVL2.EN + 1; B := GVL.Go; // GVL2.Go };
+$lists =~ s{<expression>NOT GVL.Go<}{<expression>NOT GVL.Go AND GVL2.Go &lt; 9<};
+spew('lists.xml', $lists);
+$report = `$ladder import lists.xml -o lists.rung 2>&1`;
+is($?, 0, 'lists with the same names: imported') or diag($report . slurp('lists.rung'));
+is(join(' ', sort $report =~ /changed: the name "(.*?)" becomes/g), 'EN GVL2.GO GVL3.EN GVL3.GO GVL3.Go_1 Silent.EN Silent.GO Silent.Go_1', 'each name that changes is told') or diag($report);
+$made = slurp('lists.rung');
+my %to = map { /"(.*?)" becomes (\w+)/ } grep { /becomes/ } split /\n/, $report;
+is(scalar(keys %{{ map { uc, 1 } values %to }}), 8, 'and each gets one of its own') or diag($report);
+like($made, qr/N := N \+ GVL2\.$to{'GVL2.GO'} \+ gvl3\.$to{'GVL3.GO'};/, 'a text says the variable of its list');
+like($made, qr/NOT GVL\.Go AND GVL2\.$to{'GVL2.GO'} < 9/, 'so does an expression of a chart');
+spew('script', "\@print MAIN.N $to{'GVL2.GO'} $to{'GVL3.GO'} Go_1 $to{'GVL3.Go_1'} EN_1 $to{'GVL3.EN'}\nGo=1\n. x3\n");
+like(`$ladder trace lists.rung script 2>&1`, qr/MAIN\.N=1[0-9]\D.*\b\Q$to{'GVL2.GO'}\E=3\b.*\b\Q$to{'GVL3.GO'}\E=4\b.*Go_1=70\b.*=71\b.*EN_1=5\b.*=6\b/s, 'and it runs so') or diag(`$ladder trace lists.rung script 2>&1`, $report);
+
 # The unit of the settings: those that literals have, whatever the sign of micro; another one is told.
 for ([us => 'us'], ["\xc2\xb5s" => 'us'], ["\xce\xbcs" => 'us'], [ms => 'ms'], [s => 's'], [m => 'm'], [h => 'h'], [d => 'd'], [ns => 'ns'], [MS => 'ms'], [ticks => undef], ["\xc2\xb5" => undef], ['us, PRIORITY := 9' => undef]) {
 	my ($unit, $is) = @$_;

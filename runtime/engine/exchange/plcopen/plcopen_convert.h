@@ -43,7 +43,8 @@ struct plcopen {
 	struct xml_node *own;   /* the text of an export, beside the XML; NULL: none */
 	struct plcopen_pou *pou;
 	int pous;
-	struct { struct plc_rename { const char *from, *to; } *one; int count; } rename;
+	/* Names that change; with a list, of its variable alone, where the list is said before it. */
+	struct { struct plc_rename { const char *from, *to, *list; } *one; int count; } rename;
 	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
 	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
 	struct plc_part added;  /* actions that the import adds to this POU       */
@@ -84,6 +85,8 @@ const char *plc_trim(struct plcopen *c, const char *text);
 void plc_leftovers(struct plcopen *c, struct xml_node *root);
 /** plc_renamed - @text with the names that the import changes. */
 const char *plc_renamed(struct plcopen *c, const char *text);
+/** plc_declared - the name that a declared variable gets. */
+const char *plc_declared(struct plcopen *c, const struct xml_node *variable);
 /** plc_find_renames - which names of the project nothing can have here. */
 void plc_find_renames(struct plcopen *c, struct xml_node *project);
 /** plc_same - whether two names are the same, in any case of ASCII letters. */

@@ -338,7 +338,7 @@ static void put_variable(struct plcopen *c, struct xml_node *variable)
 	plc_put(c, "  ");
 	if (unknown)
 		plc_put(c, "(* ");
-	plc_put(c, "%s", plc_renamed(c, name));
+	plc_put(c, "%s", plc_declared(c, variable));
 	if (address && *address)
 		plc_put(c, " AT %s", address);
 	plc_put(c, " : %s", type);

@@ -127,6 +127,7 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 	e->name = xml_take(e->node, "typeName");
 	e->name = e->name ? e->name : "";
 	e->code = plc_same(e->name, "EXECUTE") ? code_of(c, e->node) : NULL;
+	e->code = e->code ? plc_renamed(c, e->code) : NULL;
 	e->instance = xml_take(e->node, "instanceName");
 	e->instance = e->instance && *e->instance ? plc_renamed(c, e->instance) : NULL;
 	e->first_in = graph->pins;
