@@ -469,6 +469,24 @@ like($made, qr/Add\(N\);.*Work_active\(N\);\n    In\(P1\);\n    In\(P0\);.*ACTIO
 spew('script', "\@print MAIN.A MAIN.B MAIN.N MAIN.M MAIN.One.Sum MAIN.One.Ins MAIN.One.Drive.Turns\n.\nGo=1\n. x3\nGVL.Go=0\n. x2\n");
 is(`$ladder trace application.rung script 2>trouble`, '', 'it runs');
 
+# The places that the schema has may be there or not: what is made is the same, with a second application behind the first, too.
+for my $second ('', data('application', '<resource name="App2"><addData>' . data('pou', '<pou name="Further" pouType="program"><interface/>' . st(';') . '</pou>') . data('datatype', '<dataType name="Many"><baseType><INT/></baseType></dataType>') . '</addData></resource>')
+	. data('pou', '<pou name="Last" pouType="program"><interface/>' . st(';') . '</pou>')) {
+	my $whole = $application =~ s{(</addData></project>)}{$second$1}r;
+	my %made;
+	for my $gone ('', '<types><dataTypes/><pous/></types>', '<instances><configurations/></instances>', '<types><dataTypes/><pous/></types><instances><configurations/></instances>', '<dataTypes/>', '<pous/>', '<configurations/>', '<dataTypes/><pous/>') {
+		spew('places.xml', $gone ? $whole =~ s/\Q$gone\E//r : $whole);
+		my $said = `$ladder import places.xml -o places.rung 2>&1`;
+		is($?, 0, "an application without $gone: imported") or diag($said);
+		$made{$gone} = slurp('places.rung');
+		is($made{$gone}, $made{''}, "an application without $gone: the same");
+	}
+	like($made{''}, qr/^PROGRAM Further.*^PROGRAM Last/ms, 'all of the second one is there') if $second;
+	like($made{''}, qr/^  Many +: INT;/m, 'its types as well') if $second;
+}
+spew('places.xml', $application =~ s{<types>.*</addData>(?=</project>)}{}sr);
+like(`$ladder check places.xml 2>&1`, qr/^places\.xml:\d+: error LD752/m, 'with nothing at all it is refused');
+
 # Lists with variables of one name: the first keeps it, and each text says the variable that it meant.
 (my $lists = $application) =~ s{(</globalVars>)}{$1 . join '', map { my $list = $_; "<globalVars name=\"$list\">" . $variables->("GO:INT", "${list}Own:INT", 'EN:INT', 'Go_1:INT') . '</globalVars>' } qw(GVL2 GVL3 Silent)}e;
 $lists =~ s{N := N \+ 1;}{N := N + GVL2.Go + gvl3.go; GVL2.Go := 3; GVL3.GO := GVL2.Go + 1; GVL2.Go_1 := 70; GVL3.Go_1 := 71; GVL2.EN := 5; GVL3.EN := GVL2.EN + 1; B := GVL.Go; // GVL2.Go };

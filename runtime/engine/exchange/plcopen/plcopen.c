@@ -235,17 +235,25 @@ static void move_lists(struct plcopen *c, struct xml_node *project, struct xml_n
  * its POUs and types. They go where the schema has them. */
 static void adopt(struct plcopen *c, struct xml_node *project)
 {
-	struct xml_node *next;
+	struct { struct xml_node **node; int count; } found = { NULL, 0 };
 
-	for (struct xml_node *node = project; node; node = next) {
-		struct xml_node *data = node->parent, *place = NULL;
+	/* All are found first: what moves has other nodes behind it. */
+	for (struct xml_node *node = project; node; node = xml_next(node)) {
+		struct xml_node *data = node->parent, **added;
 
-		next = xml_next(node);
-		if (data && xml_is(data, "data") && data->parent && xml_is(data->parent, "addData"))
-			place = place_of(c, project, node);
-		if (!place || place == data)
+		if (!data || !xml_is(data, "data") || !data->parent || !xml_is(data->parent, "addData") ||
+		    (!xml_is(node, "pou") && !xml_is(node, "dataType") && !xml_is(node, "resource")))
 			continue;
-		take_data(data);
+		added = arena_push(c->arena, &found.node, &found.count, sizeof(struct xml_node *));
+		if (added)
+			*added = node;
+	}
+	for (int i = 0; i < found.count; i++) {
+		struct xml_node *node = found.node[i], *place = place_of(c, project, node);
+
+		if (!place)
+			continue;
+		take_data(node->parent);
 		if (xml_is(node, "resource"))
 			move_lists(c, project, node);
 		xml_move(node, place);
@@ -286,18 +294,21 @@ static bool check_root(struct plcopen *c, struct xml_node *root, const char *spa
 	root->taken = true;
 	for (struct xml_attribute *a = root->attribute; a; a = a->next)
 		a->taken = true;
-	if (!xml_look(root, "types") && !xml_look(root, "instances"))
-		return refuse(c, DIAG_PLCOPEN_EMPTY, root, "");
 	return true;
 }
 
 static void put_all(struct plcopen *c, struct xml_node *project)
 {
-	struct xml_node *types = xml_child(project, "types");
-	struct xml_node *instances = xml_child(project, "instances");
+	struct xml_node *types, *instances;
 
 	take_repeated(project);
 	adopt(c, project);
+	types = xml_child(project, "types");
+	instances = xml_child(project, "instances");
+	if (!types && !instances) {
+		refuse(c, DIAG_PLCOPEN_EMPTY, project, "");
+		return;
+	}
 	c->types = xml_look(types, "dataTypes");
 	plc_find_pous(c, xml_child(types, "pous"));
 	plc_find_own(c, project);
