@@ -222,4 +222,16 @@ for my $dir (glob "$tests/golden/bad-fault-*") {
 		basename($dir) . ': the same with sanitizers');
 }
 is($table{$_}->(), slurp("$tests/bad/$_"), "$_: what is refused, and why") for sort keys %table;
+
+# A message says REF( ) with as much of a long name as has room: whole letters, and the end of the parentheses.
+my $letter = "\xc3\xa4";
+my @long = map { my $lead = $_; map { my $count = $_; map { $lead . 'B' . $_ x $count } 'a', $letter } 20 .. 40, 50 .. 70, 120 } '', 'x';
+my @odd;
+for my $name (@long) {
+	spew("$folder/ref.rung", "RUNGBOARD 1\nVAR\n  $name : INT;\nEND_VAR\nPROGRAM M IL\n  R REF($name)\nEND_PROGRAM\n");
+	my ($status, $text) = answer($folder, $runner, 'check', 'ref.rung');
+	my ($said, $end) = $text =~ /error LD603: "REF\((x?B(?:a|$letter)*)(.*?)": /;
+	push @odd, $name if !defined $said || $end ne ')' || index($name, $said) != 0 || length $said < (length $name < 57 ? length $name : 57);
+}
+is_deeply(\@odd, [], scalar(@long) . ' long names in REF( ) are told');
 done_testing();

@@ -1359,7 +1359,7 @@ const char *scope_said(struct scope *scope, uint32_t id)
 
 	if (*text != '&' && *text != '@')
 		return text;
-	len = snprintf(said, sizeof(said), "REF(%.60s)", text + 1);
+	len = snprintf(said, sizeof(said), "REF(%.*s)", (int)utf8_cut(text + 1, sizeof(said) - sizeof("REF()")), text + 1);
 	id = names_intern(names, said, (size_t)len);
 	return id ? names_text(names, id) : text + 1;
 }
