@@ -39,7 +39,7 @@ static void split(struct place *place, const char *path)
 		if (!head_of(at + 1, len))
 			continue;
 		place->folder = (uint32_t)(at - path);
-		place->entry = (uint32_t)len;
+		place->entry = (uint16_t)len;
 		return;
 	}
 }
@@ -88,6 +88,34 @@ static void read_where(const char *folder, const char *entry, char *out, size_t 
 	free(real);
 }
 
+/* Whether an entry of the folder is numbered as the old one is: "pwmchip3" as "pwmchip0". */
+static bool is_kin(const char *entry, const char *old)
+{
+	const size_t head = head_of(old, strlen(old));
+
+	return strlen(entry) < PLACE_NAME - 4 && head_of(entry, strlen(entry)) == head && strncmp(entry, old, head) == 0;
+}
+
+/* Whether another entry has the same name. A folder that cannot be read may hold one. */
+static bool has_twin(const char *folder, const char *old, const char *wanted)
+{
+	char name[PLACE_NAME];
+	const struct dirent *entry;
+	bool twin = false;
+	DIR *all = opendir(folder);
+
+	if (!all)
+		return true;
+	while (!twin && (entry = readdir(all)) != NULL) {
+		if (!is_kin(entry->d_name, old) || strcmp(entry->d_name, old) == 0)
+			continue;
+		read_name(folder, entry->d_name, name, sizeof(name));
+		twin = strcmp(name, wanted) == 0;
+	}
+	closedir(all);
+	return twin;
+}
+
 void place_learn(struct place *place, const char *path)
 {
 	char folder[GUARD_PATH], entry[PLACE_NAME];
@@ -100,9 +128,11 @@ void place_learn(struct place *place, const char *path)
 	snprintf(entry, sizeof(entry), "%.*s", (int)place->entry, path + place->folder + 1);
 	read_where(folder, entry, place->where, sizeof(place->where));
 	read_name(folder, entry, place->name, sizeof(place->name));
+	place->several = place->name[0] && has_twin(folder, entry, place->name);
 }
 
-/* How well an entry fits: 2: the place and the name are the same, 1: the name, 0: it is another device. */
+/* How well an entry fits: 2: the place and the name are the same, 1: the name that no other one had,
+ * 0: it is another device. */
 static int fits(const struct place *place, const char *folder, const char *entry)
 {
 	char where[PLACE_WHERE], name[PLACE_NAME];
@@ -111,7 +141,9 @@ static int fits(const struct place *place, const char *folder, const char *entry
 	read_name(folder, entry, name, sizeof(name));
 	if (strcmp(name, place->name) != 0)
 		return 0;
-	return place->where[0] && strcmp(where, place->where) == 0 ? 2 : place->name[0] ? 1 : 0;
+	if (place->where[0] && strcmp(where, place->where) == 0)
+		return 2;
+	return place->name[0] && !place->several ? 1 : 0;
 }
 
 /* What a look into the folder has found. */
@@ -142,7 +174,7 @@ int place_find(const struct place *place, const char *path, char out[GUARD_PATH]
 	char folder[GUARD_PATH], old[PLACE_NAME];
 	struct found found = { .best = 0 };
 	const struct dirent *entry;
-	size_t head;
+	size_t len;
 	DIR *all;
 
 	snprintf(out, GUARD_PATH, "%s", path);
@@ -150,17 +182,15 @@ int place_find(const struct place *place, const char *path, char out[GUARD_PATH]
 		return 0;
 	snprintf(folder, sizeof(folder), "%.*s", (int)place->folder, path);
 	snprintf(old, sizeof(old), "%.*s", (int)place->entry, path + place->folder + 1);
-	head = head_of(old, strlen(old));
 	all = opendir(folder);
 	if (!all)
 		return -errno;
 	while ((entry = readdir(all)) != NULL)
-		if (strlen(entry->d_name) < PLACE_NAME - 4 && head_of(entry->d_name, strlen(entry->d_name)) == head &&
-		    strncmp(entry->d_name, old, head) == 0)
+		if (is_kin(entry->d_name, old))
 			look(place, folder, old, entry->d_name, &found);
 	closedir(all);
 	if (found.count != 1)
 		return -ENODEV;
-	head = (size_t)snprintf(out, GUARD_PATH, "%s/%s%s", folder, found.entry, path + place->folder + 1 + place->entry);
-	return head < GUARD_PATH ? 0 : -ENAMETOOLONG;
+	len = (size_t)snprintf(out, GUARD_PATH, "%s/%s%s", folder, found.entry, path + place->folder + 1 + place->entry);
+	return len < GUARD_PATH ? 0 : -ENAMETOOLONG;
 }

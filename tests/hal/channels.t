@@ -256,9 +256,14 @@ sub make_chip { # a link in the class, as the kernel makes it
 	symlink "../../$at", "$sys/class/pwm/pwmchip$number" or die;
 }
 sub duty_of { return 0 + (get("sys/class/pwm/pwmchip$_[0]/pwm0/duty_cycle") || 0) }
+# The last word: the number that a chip of the same name, which was there from the start, has in the end.
 for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its name', '1-0040', '1-0041', "pca9685\n", 1],
-	      ['elsewhere, without a name', '1-0040', '1-0041', '', 0], ['gone', '1-0040', undef, '', 0]) {
-	my ($how, $was, $is, $name, $found) = @$case;
+	      ['elsewhere, without a name', '1-0040', '1-0041', '', 0], ['gone', '1-0040', undef, '', 0],
+	      ['gone, and another one has its name', '1-0040', undef, "pca9685\n", 0, 1],
+	      ['gone, and another one has its name and its number', '1-0040', undef, "pca9685\n", 0, 0],
+	      ['elsewhere, and another one has its name', '1-0040', '1-0041', "pca9685\n", 0, 0],
+	      ['at its place, and another one has its name', '1-0040', '1-0040', "pca9685\n", 1, 0]) {
+	my ($how, $was, $is, $name, $found, $twin) = @$case;
 	my $copied = "$dir/ladderd";
 	copy($ladderd, $copied) or die;
 	chmod 0755, $copied;
@@ -266,6 +271,10 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	remove_tree("$sys/class/pwm");
 	make_chip("i2c-1/$was", 0);
 	show("devices/i2c-1/$was/name", $name) if $name;
+	if (defined $twin) {
+		make_chip('i2c-2/2-0040', 1);
+		show('devices/i2c-2/2-0040/name', $name);
+	}
 	my $its = put('named.io', slurp($map) =~ s/pwmchip0/$was/r);
 	$pid = start_guard($copied, $rung, '--io', $its);
 	ok(until_true(sub { duty_of(0) == 4_288_000 }), "$how: it writes") or diag get('err');
@@ -273,7 +282,12 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	unlink $copied;
 	unlink "$sys/class/pwm/pwmchip0";
 	remove_tree("$sys/devices/i2c-1/$was");
-	make_chip('i2c-2/2-0040', 0);
+	if (!$twin) {
+		unlink "$sys/class/pwm/pwmchip1";
+		remove_tree("$sys/devices/i2c-2");
+		make_chip('i2c-2/2-0040', 0);
+		show('devices/i2c-2/2-0040/name', $name) if defined $twin;
+	}
 	if ($is) {
 		make_chip("i2c-1/$is", 3);
 		show("devices/i2c-1/$is/name", $name) if $name;
@@ -282,7 +296,7 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	my $told = qr{ladder-guard: "\S*/pwmchip0/pwm0/duty_cycle" is not safe: No such device; the guard tries again};
 	ok(until_true(sub { $found ? duty_of(3) == $safe : get('err') =~ $told }),
 		$found ? 'the guard finds the chip' : 'the guard tells that it is not there') or diag get('err');
-	is(duty_of(0), 0, 'and does not touch the other chip');
+	is(duty_of($twin // 0), 0, 'and does not touch the other chip');
 	is(duty_of(3), 0, 'nor this one') if $is && !$found;
 	kill 'TERM', $pid;
 	finish($pid);
