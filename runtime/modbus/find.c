@@ -70,8 +70,8 @@ static void doubt(struct search *search, int unit, enum doubt why)
 	fflush(stdout);
 }
 
-/* Some devices end the connection when they are asked for a number that they do not have. False: it cannot be made
- * anew. */
+/* Some devices end the connection when they are asked for a number that they do not have, and some take a new one only
+ * after a while. False: it cannot be made anew. */
 static bool open_again(struct line *line)
 {
 	const struct timespec nap = { 0, OPENS_MS * 1000000 };
@@ -84,16 +84,33 @@ static bool open_again(struct line *line)
 	return false;
 }
 
+/* A device that ends a new connection was asked. One that takes none, or had ended an old one, was not: it is asked when
+ * it takes a new one. *@began_ns: when it was. */
+static enum heard ask_for_sure(struct line *line, int unit, const struct pdu *request, struct pdu *got, int64_t *began_ns)
+{
+	struct unit_counts counts = { .requests = 0 };
+	enum heard heard;
+	bool used;
+
+	do {
+		if (!open_again(line))
+			return HEARD_NO_LINE;
+		used = line->used;
+		*began_ns = line_now();
+		heard = line_ask(line, (uint8_t)unit, request, got, &counts);
+	} while (heard == HEARD_NO_LINE && used);
+	return heard;
+}
+
 /* False: the line has gone. */
 static bool ask(struct search *search, int unit)
 {
-	struct unit_counts counts = { .requests = 0 };
 	struct answer answer = { .unit = unit };
 	struct pdu request, got;
-	const int64_t began_ns = line_now();
+	int64_t began_ns;
 
 	pdu_read(&request, TABLE_HOLDING_REGISTER, 0, 1);
-	switch (line_ask(&search->line, (uint8_t)unit, &request, &got, &counts)) {
+	switch (ask_for_sure(&search->line, unit, &request, &got, &began_ns)) {
 	case HEARD_ANSWER:
 		break;
 	case HEARD_NOTHING:

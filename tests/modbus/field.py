@@ -5,6 +5,7 @@
 Serial lines are pseudo-terminals; a relay between them damages, delays and halves frames. All addresses are of this
 machine. A test waits for what must come, never for a time.
 """
+import contextlib
 import json
 import os
 import shutil
@@ -829,6 +830,57 @@ class Stand:
 
     def close(self):
         self.socket.close()
+
+
+class Slow:
+    """Takes one connection at a time, and refuses all for a while after each. What it does is as with Stand."""
+
+    def __init__(self, answer):
+        self.answer, self.listener = answer, socket.create_server(('127.0.0.1', 0))
+        self.port, self.ended = self.listener.getsockname()[1], False
+        self.thread = threading.Thread(target=self.serve, daemon=True)
+        self.thread.start()
+
+    def serve(self):
+        while not self.ended:
+            peer = self.listener.accept()[0]
+            self.listener.close()
+            self.exchange(peer)
+            peer.close()
+            time.sleep(0.2)
+            self.listener = socket.create_server(('127.0.0.1', self.port))
+        self.listener.close()
+
+    def exchange(self, peer):
+        try:
+            while frame := peer.recv(300):
+                said = self.answer(frame)
+                if said:
+                    peer.sendall(said[0])
+                    if said[1] == 'end':
+                        return
+        except OSError:
+            pass
+
+    def close(self):
+        self.ended = True
+        while self.thread.is_alive():
+            with contextlib.suppress(OSError):
+                socket.create_connection(('127.0.0.1', self.port)).close()
+            time.sleep(0.02)
+
+
+def test_a_scan_asks_each_unit_of_a_device_that_takes_connections_slowly():
+    # It ends the connection after each answer, so that the next request meets an ended one.
+    once = Slow(lambda frame: (frame[:4] + b'\0\5' + frame[6:7] + b'\3\2\0\0', 'end'))
+    done = run('scan', '--host', f'127.0.0.1:{once.port}', '--to', '4', '--timeout', '1000')
+    assert [line.split()[1] for line in lines_of(done)] == ['1', '2', '3', '4'], done.stdout + done.stderr
+    once.close()
+    # The scan connects anew after three units that are silent, before it asks the fourth one.
+    last = Slow(lambda frame: (frame[:4] + b'\0\5' + frame[6:7] + b'\3\2\0\0', '') if frame[6] == 4 else None)
+    done = run('scan', '--host', f'127.0.0.1:{last.port}', '--to', '5', '--timeout', '100')
+    assert [line.split()[1] for line in lines_of(done)] == ['4'], done.stdout + done.stderr
+    last.close()
 
 
 def test_a_scan_of_a_port_that_refuses_or_hangs():
