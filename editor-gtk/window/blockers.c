@@ -12,8 +12,17 @@
 
 #include <string.h>
 
+#define PAUSE_MS 100 /* a text is read as a whole for its conditions, and nobody reads faster */
+
+static void end_pause(struct blockers *blockers)
+{
+	g_clear_handle_id(&blockers->pause, g_source_remove);
+	blockers->late = false;
+}
+
 static void forget(struct blockers *blockers)
 {
+	end_pause(blockers);
 	if (blockers->sheet)
 		ladder_grid_view_set_blockers(blockers->sheet, -1, NULL, 0);
 	g_clear_weak_pointer(&blockers->sheet);
@@ -156,14 +165,14 @@ static char *why_of(GtkWidget *asked)
 					   ladder_text_view_why(LADDER_TEXT_VIEW(asked));
 }
 
-/* The text follows the values while the cursor stays, and nothing else is told. */
+/* The text follows the values while the cursor stays and its page is open, and nothing else is told. */
 static void look_again(struct blockers *blockers)
 {
 	struct messages *messages = blockers->core->messages;
-	char *place = place_of(blockers->asked), *why = NULL;
+	char *place = blockers->asked ? place_of(blockers->asked) : NULL, *why = NULL;
 	bool stays;
 
-	if (strcmp(place, blockers->place) == 0 && gtk_widget_get_mapped(blockers->asked))
+	if (place && strcmp(place, blockers->place) == 0 && gtk_widget_get_mapped(blockers->asked))
 		why = why_of(blockers->asked);
 	stays = why && (strcmp(why, blockers->told) == 0 || messages_retell(messages, blockers->told, why));
 	if (stays) {
@@ -175,6 +184,32 @@ static void look_again(struct blockers *blockers)
 	}
 	g_free(why);
 	g_free(place);
+}
+
+static void look_in_time(struct blockers *blockers);
+
+static gboolean pause_over(gpointer data)
+{
+	struct blockers *blockers = data;
+	const bool late = blockers->late;
+
+	blockers->pause = 0;
+	blockers->late = false;
+	if (late && blockers->place)
+		look_in_time(blockers);
+	return G_SOURCE_REMOVE;
+}
+
+/* Some times a second, and for the last scan that was shown. */
+static void look_in_time(struct blockers *blockers)
+{
+	if (blockers->pause) {
+		blockers->late = true;
+		return;
+	}
+	look_again(blockers);
+	if (blockers->place)
+		blockers->pause = g_timeout_add(PAUSE_MS, pause_over, blockers);
 }
 
 static void tell_text(struct blockers *blockers, GtkWidget *asked, const char *nothing)
@@ -195,8 +230,8 @@ static void look(struct blockers *blockers)
 {
 	struct why *why;
 
-	if (blockers->asked)
-		look_again(blockers);
+	if (blockers->place)
+		look_in_time(blockers);
 	if (!blockers->sheet)
 		return;
 	why = g_new0(struct why, 1);
@@ -274,7 +309,7 @@ void blockers_ask(struct blockers *blockers)
 /* While a simulation stands, no scan is shown. */
 static void moved(struct blockers *blockers)
 {
-	if (blockers->asked)
+	if (blockers->place)
 		look_again(blockers);
 }
 
@@ -290,6 +325,7 @@ void blockers_init(struct blockers *blockers, struct core *core)
 
 void blockers_clear(struct blockers *blockers)
 {
+	end_pause(blockers);
 	g_clear_weak_pointer(&blockers->sheet);
 	g_clear_weak_pointer(&blockers->asked);
 	g_clear_pointer(&blockers->place, g_free);

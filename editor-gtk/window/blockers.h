@@ -18,7 +18,9 @@ struct blockers {
 	int rung, row, col;     /* 0-based, of the rung                        */
 	char *told;
 	GtkWidget *asked;       /* weak; networks or a text that is asked; NULL: neither */
-	char *place;            /* of the cursor of @asked                     */
+	char *place;            /* of the cursor of @asked; it stays when @asked is closed. NULL: nothing is asked */
+	guint pause;            /* source; until it ends, @asked is not looked at again for a new scan. 0: none */
+	bool late;              /* a scan was shown in the pause               */
 };
 
 void blockers_init(struct blockers *blockers, struct core *core);

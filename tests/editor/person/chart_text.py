@@ -143,6 +143,11 @@ def watched(screen):
         editor.shot('chart-text-run' + ('-dark' if env else ''))
         editor.keys('ctrl+F12')
         editor.says('FALSE: NOT Fill.X is not true')
+        editor.click(max(editor.all('Close', 'push button'), key=lambda node: node.box()[1]))
+        until(lambda: not editor.all('Text of action Count', 'text'), 'the text to be gone')
+        on_chart(editor)
+        editor.keys('Home')
+        until(lambda: not editor.all('FALSE: NOT Fill.X is not true'), 'what was said of the text to be gone')
         editor.finish()
 
 

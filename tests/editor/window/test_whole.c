@@ -2,11 +2,13 @@
  *
  * test_whole - a window of 1024 px in each language, with each page and each panel, at rest and
  * while simulating: the text of each button, of each heading and of the title is whole; at rest
- * also each text in a list, and no list is wider than its place.
+ * also each text in a list, and no list is wider than its place. Why a condition holds is read some times a second,
+ * and not with each frame.
  */
 #include "editor-gtk/kit/cell_entry.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/text/text_view.h"
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"
 #include "tests/editor/screen.h"
@@ -173,11 +175,11 @@ static void wait_for_frames(void)
 	g_signal_handler_disconnect(clock, handler);
 }
 
-static void open_window(int width)
+static void open_window(int width, const char *text)
 {
 	LadderDocument *document = ladder_document_new();
 
-	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
 	ladder_document_check_now(document);
 	CHECK(ladder_document_project(document) != NULL);
 	window = GTK_WIDGET(ladder_window_new(NULL, document));
@@ -267,6 +269,64 @@ static void delete_map(void)
 	g_free(map);
 }
 
+/* ---- why a condition holds ---- */
+
+static const char counting[] =
+	"RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n  Count : DINT;\nEND_VAR\n"
+	"  Count := Count + 1;\n  IF Count < 0 THEN\n    ;\n  END_IF;\nEND_PROGRAM\n";
+
+/* The widget of this type, or the label that says whether a condition holds. */
+static GtkWidget *find(GtkWidget *widget, const char *type)
+{
+	GtkWidget *found = NULL;
+
+	if (type ? is_named(widget, type) && gtk_widget_get_mapped(widget) :
+	    GTK_IS_LABEL(widget) && (g_str_has_prefix(text_of(widget), "TRUE: ") ||
+				     g_str_has_prefix(text_of(widget), "FALSE: ")))
+		return widget;
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found; child = gtk_widget_get_next_sibling(child))
+		found = find(child, type);
+	return found;
+}
+
+static void said_anew(int *times)
+{
+	++*times;
+}
+
+static void check_why(void)
+{
+	GtkWidget *list = NULL, *label = NULL;
+	GtkTextBuffer *text;
+	GtkTextIter at, end;
+	gint64 began;
+	int times = 0;
+
+	speak("en");
+	open_window(1024, counting);
+	gtk_widget_activate_action(window, "win.go-to", "(iiii)", 0, 0, 0, 0);
+	WAIT((list = find(window, "LadderTextView")) != NULL);
+	CHECK(list != NULL);
+	if (!list)
+		return;
+	text = GTK_TEXT_BUFFER(ladder_text_view_buffer(LADDER_TEXT_VIEW(list)));
+	gtk_text_buffer_get_start_iter(text, &at);
+	CHECK(gtk_text_iter_forward_search(&at, "IF Count", 0, &at, &end, NULL));
+	gtk_text_buffer_place_cursor(text, &at);
+	do_action("sim_mode");
+	do_action("sim_run");
+	WAIT((do_action("sim_why"), turn(0), (label = find(window, NULL)) != NULL));
+	CHECK(label != NULL);
+	began = g_get_monotonic_time();
+	if (label)
+		g_signal_connect_swapped(label, "notify::label", G_CALLBACK(said_anew), &times);
+	WAIT(times >= 8);
+	printf("# %d times in %d ms\n", times, (int)((g_get_monotonic_time() - began) / 1000));
+	CHECK(times >= 8);
+	CHECK(times <= 2 + (g_get_monotonic_time() - began) / 95000);
+	close_window();
+}
+
 int main(void)
 {
 	static const char *const languages[] = { "en", "de", "fr", "zh_CN" };
@@ -282,7 +342,7 @@ int main(void)
 	map = write_map();
 	for (gsize i = 0; i < G_N_ELEMENTS(languages); i++) {
 		speak(languages[i]);
-		open_window(1024);
+		open_window(1024, sample);
 		check_tables(languages[i], "");
 		check_all(languages[i], true, "");
 		CHECK_AS(tabs_in_menu(window) == 0, languages[i]);
@@ -292,5 +352,6 @@ int main(void)
 		close_window();
 	}
 	delete_map();
+	check_why();
 	return tap_done();
 }
