@@ -636,7 +636,8 @@ static void append_languages(struct tree *tree, GMenu *section, const char *labe
 		if (!pou_can_become(project, pou, (enum pou_language)to))
 			continue;
 		item = g_menu_item_new(_(verb_row(verb)->label), NULL);
-		g_menu_item_set_action_and_target(item, "win.language-of", "(ii)", (int)verb, pou);
+		g_menu_item_set_action_and_target(item, "win.language-of", "(is)", (int)verb,
+						 project_text(project, project->pou[pou].name));
 		g_menu_append_item(languages, item);
 		g_object_unref(item);
 	}

@@ -661,13 +661,18 @@ static void go_to(GtkWidget *widget, const char *name, GVariant *place)
 	tabs_go(&LADDER_WINDOW(widget)->tabs, pou, rung, row, col);
 }
 
+/* The menu names the POU: another one may have its number by then. */
 static void language_of(GtkWidget *widget, const char *name, GVariant *of)
 {
-	int verb, pou;
+	LadderWindow *window = LADDER_WINDOW(widget);
+	const struct project *project = ladder_document_project(window->core.document);
+	const char *pou;
+	int verb;
 
 	(void)name;
-	g_variant_get(of, "(ii)", &verb, &pou);
-	do_language_of(LADDER_WINDOW(widget), (enum verb)verb, pou);
+	g_variant_get(of, "(i&s)", &verb, &pou);
+	if (project)
+		do_language_of(window, (enum verb)verb, project_find_pou(project, pou, strlen(pou)));
 }
 
 static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
@@ -837,7 +842,7 @@ static void install_actions(GtkWidgetClass *class)
 	for (gsize i = 0; i < G_N_ELEMENTS(on_text); i++)
 		gtk_widget_class_install_action(class, on_text[i], "s", act_on_text);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
-	gtk_widget_class_install_action(class, "win.language-of", "(ii)", language_of);
+	gtk_widget_class_install_action(class, "win.language-of", "(is)", language_of);
 	for (gsize i = 0; i < G_N_ELEMENTS(on_pou); i++)
 		gtk_widget_class_install_action(class, on_pou[i], "i", act_on_pou);
 	for (gsize i = 0; i < G_N_ELEMENTS(on_type); i++)

@@ -227,6 +227,16 @@ def tree(screen):
     editor.shot('show-tree-menu')
     editor.find('Show as instruction list', 'menu item').press()
     says(editor, '“Belt” as IL, read-only')
+    # The order changes while the menu is open: it is still that of its program.
+    editor.click([node for node in editor.all('Belt', 'label') if node.name == 'Belt' and node.box()[0] < 215][0])
+    editor.keys('alt+Up')
+    says(editor, '“Belt” now runs first in each scan')
+    choose('Main', 'Show as')
+    entry = until(lambda: editor.all('Show as networks', 'menu item'), 'a language')[0]
+    editor.find('Undo', 'push button').press()
+    says(editor, 'Undone: ')
+    entry.press()
+    says(editor, '“Main” as FBD, read-only')
     choose('Main', 'Convert to', 'Convert to Structured Text')
     says(editor, '“Main” is in ST now')
     assert 'PROGRAM Main ST' in editor.save(path)
