@@ -552,6 +552,7 @@ static void ask_board(LadderIomapView *view)
 	g_clear_pointer(&view->untold, g_free);
 	view->connected = true;
 	look(view);
+	tell(view, NULL); /* why it did not tell them before is no longer true */
 }
 
 static void look_again(GtkWidget *widget, const char *action, GVariant *unused)

@@ -144,14 +144,15 @@ def there(screen):
 
 
 class OldBoard:
-    """Between a desk and a board: the board knows no service 42, as ladderd before the lists of devices."""
+    """Between a desk and a board: the board knows no service 42, as ladderd before the lists of devices. `busy`: it knows
+    it, and is still looking."""
 
     def __init__(self, board):
         self.path, self.where = board.folder + '/link', 'unix:%s/old' % board.folder
         self.listener = socket.socket(socket.AF_UNIX)
         self.listener.bind(board.folder + '/old')
         self.listener.listen()
-        self.asked = 0
+        self.asked, self.busy = 0, False
         threading.Thread(target=self.accept, daemon=True).start()
 
     def accept(self):
@@ -168,7 +169,9 @@ class OldBoard:
             data += more
             while len(data) >= 4 and len(data) >= 4 + (size := struct.unpack('<I', data[:4])[0]):
                 service = data[4]
-                if service == what:
+                if self.busy and service == client.DEVICES:
+                    data = data[:8] + bytes([0 if other == client.DEVICES else data[8]]) + data[9:]
+                elif service == what:
                     self.asked, service = self.asked + (what == client.DEVICES), other
                 target.sendall(data[:4] + bytes([service]) + data[5:4 + size])
                 data = data[4 + size:]
@@ -209,5 +212,25 @@ def older(screen):
     board.stop()
 
 
+def slow(screen):
+    """a board that looks again: what it did not tell before is no longer said"""
+    board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng')
+    old = OldBoard(board)
+    for name, text in ('plant.rung', PROGRAM), ('plant.io', MAP):
+        with open(os.path.join(screen.home, name), 'w') as out:
+            out.write(text)
+    editor = Editor(screen, os.path.join(screen.home, 'plant.rung'))
+    editor.to_sheet()
+    open_map(editor)
+    connect(editor, old.where)
+    says(editor, 'plant · RUN')
+    told = '“plant” does not tell its lines and devices'
+    says(editor, told + ' (this board is too old or too small for that).')
+    old.busy = True
+    editor.click(editor.find('Refresh lines and devices', 'push button'))
+    until(lambda: not [node for node in editor.all(told, 'label') if told in node.name], 'the message to go', 40)
+    board.stop()
+
+
 if __name__ == "__main__":
-    main([quality, there, older])
+    main([quality, there, older, slow])
