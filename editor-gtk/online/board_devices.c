@@ -107,9 +107,11 @@ static bool take(struct asking *asking, struct wire_reader *in)
 	return !in->failed;
 }
 
-static const char *why_not(const struct board_answer *answer)
+/* @looks: its answer was that it has none yet. */
+static const char *why_not(const struct board_answer *answer, bool looks)
 {
-	return answer->end == DESK_GONE ? "" : *answer->text ? answer->text : _("its answer makes no sense");
+	return answer->end == DESK_GONE ? "" : *answer->text ? answer->text :
+	       looks ? _("it is still looking") : _("its answer makes no sense");
 }
 
 static void answered(gpointer data, struct board_answer *answer)
@@ -129,7 +131,7 @@ static void answered(gpointer data, struct board_answer *answer)
 		send(asking, false);
 	} else {
 		if (owner)
-			asking->came(owner, good && ready ? g_steal_pointer(&asking->devices) : NULL, why_not(answer));
+			asking->came(owner, good && ready ? g_steal_pointer(&asking->devices) : NULL, why_not(answer, good && !ready));
 		asking_free(asking);
 	}
 	g_clear_object(&owner);

@@ -213,7 +213,7 @@ def older(screen):
 
 
 def slow(screen):
-    """a board that looks again: what it did not tell before is no longer said"""
+    """a board that looks again: what it did not tell before is no longer said; one that never ends is still looking"""
     board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng')
     old = OldBoard(board)
     for name, text in ('plant.rung', PROGRAM), ('plant.io', MAP):
@@ -229,6 +229,8 @@ def slow(screen):
     old.busy = True
     editor.click(editor.find('Refresh lines and devices', 'push button'))
     until(lambda: not [node for node in editor.all(told, 'label') if told in node.name], 'the message to go', 40)
+    until(lambda: editor.all(told + ' (it is still looking).', 'label'), 'the board to be given up', 120)
+    editor.shot('field-still')
     board.stop()
 
 
