@@ -77,7 +77,7 @@ GArray *live_parts(const struct live_map *map, const char *text)
 
 		if (*text == '%' || g_ascii_isalpha(*text) || *text == '_' || *text & 0x80)
 			part.at = live_map_find(map, text, len);
-		if (part.at.type != IEC_NONE && (!part.at.constant || part.at.number)) {
+		if (part.at.type != IEC_NONE) {
 			part.named = live_map_named(map, text, len);
 			part.text = g_strndup(text, len);
 			g_array_append_val(parts, part);

@@ -148,6 +148,19 @@ def dark_and_small(screen):
     editor.shot('live-dark-chinese')
 
 
+def constants(screen):
+    """a comparison shows the value of a constant, too, not its name"""
+    editor = Editor(screen, new_file(screen, PROGRAM.replace('PROGRAM', """VAR CONSTANT
+  Most : INT := 80;
+END_VAR
+
+PROGRAM""", 1).replace('Level > 500', 'Level < Most')))
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    until(lambda: [cell for cell in editor.cells() if '0 < 80' in cell], 'both values')
+
+
 dark_and_small.size = '1024x700x24'
 motor.quick = 'editor-gtk/sim'
-main([motor, force, numbers, dark_and_small])
+main([motor, force, numbers, constants, dark_and_small])
