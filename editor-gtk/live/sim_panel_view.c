@@ -24,6 +24,7 @@ struct _LadderSimRowView {
 	GtkListItem *item;       /* borrowed                                    */
 	LadderSimRow *row;       /* NULL: none                                  */
 	LadderSimRow *held;      /* pressed with the pointer; NULL: none        */
+	bool by_button;          /* not by a finger                             */
 	struct live_seen value_seen, preset_seen, done_seen;
 	bool telling;            /* widgets are being set: ignore their signals */
 	double sent;             /* the value that the slider set last          */
@@ -195,6 +196,26 @@ static void show_told(LadderSimRowView *view)
 	g_free(told);
 }
 
+static void let_go(LadderSimRowView *view)
+{
+	if (view->held)
+		sim_row_unpress(view->held, view->sim);
+	g_clear_object(&view->held);
+}
+
+/* Is the button of the mouse up, whatever the events said? One may be lost when a machine is busy. */
+static bool is_button_up(LadderSimRowView *view)
+{
+	GtkNative *native = gtk_widget_get_native(GTK_WIDGET(view));
+	GdkSurface *surface = native ? gtk_native_get_surface(native) : NULL;
+	GdkSeat *seat = gdk_display_get_default_seat(gtk_widget_get_display(GTK_WIDGET(view)));
+	GdkDevice *pointer = seat ? gdk_seat_get_pointer(seat) : NULL;
+	GdkModifierType state = 0;
+
+	return surface && pointer && gdk_surface_get_device_position(surface, pointer, NULL, NULL, &state) &&
+	       !(state & GDK_BUTTON1_MASK);
+}
+
 void ladder_sim_row_view_update(LadderSimRowView *view)
 {
 	const bool known = view->value_seen.known, forced = is_forced(view);
@@ -203,6 +224,8 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 
 	if (!view->row || view->row->kind == SIM_HEADING || !ladder_sim_twin(view->sim))
 		return;
+	if (view->held && view->by_button && is_button_up(view))
+		let_go(view);
 	changed = look(view, &view->value_seen, view->row->at);
 	changed = look(view, &view->preset_seen, view->row->preset) || changed;
 	changed = look(view, &view->done_seen, view->row->done) || changed;
@@ -575,17 +598,12 @@ static void select_line(LadderSimRowView *view)
 		gtk_widget_grab_focus(item);
 }
 
-static void let_go(LadderSimRowView *view)
-{
-	if (view->held)
-		sim_row_unpress(view->held, view->sim);
-	g_clear_object(&view->held);
-}
-
 /* The gesture is not claimed: the list item would wait for its release forever. */
-static void press(LadderSimRowView *view)
+static void press(GtkGestureClick *click, int count, double x, double y, LadderSimRowView *view)
 {
+	(void)count, (void)x, (void)y;
 	select_line(view);
+	view->by_button = !gtk_gesture_single_get_current_sequence(GTK_GESTURE_SINGLE(click));
 	g_set_object(&view->held, view->row);
 	if (view->held)
 		sim_row_press(view->held, view->sim);
@@ -595,7 +613,7 @@ static void can_be_pressed(LadderSimRowView *view, GtkWidget *widget)
 {
 	GtkGesture *click = gtk_gesture_click_new();
 
-	g_signal_connect_swapped(click, "pressed", G_CALLBACK(press), view);
+	g_signal_connect(click, "pressed", G_CALLBACK(press), view);
 	g_signal_connect_swapped(click, "released", G_CALLBACK(let_go), view);
 	g_signal_connect_swapped(click, "end", G_CALLBACK(let_go), view);
 	g_signal_connect_swapped(click, "cancel", G_CALLBACK(let_go), view);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """simpanel - the panel of a simulation: switches, push buttons, keys, values, forces."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -102,10 +103,11 @@ def keyboard(screen):
     sh('xdotool', 'mousemove', str(x), str(y), 'mousedown', '1')
     line(editor, 'Input Start, %IX0.0, on')
     editor.shot('simpanel-held')
-    def released():
-        """Once more if it is still held: GTK 4.8 under X11 loses some releases while the window redraws in each frame."""
-        return editor.all('Input Start, %IX0.0, off', 'list item') or sh('xdotool', 'mouseup', '1')
-    until(released, 'the end of the press')
+    scan = int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
+    until(lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1]) > scan + 40, 'scans with the button down')
+    line(editor, 'Input Start, %IX0.0, on')
+    sh('xdotool', 'mouseup', '1')
+    line(editor, 'Input Start, %IX0.0, off')
     sh('xdotool', 'keydown', 'space')
     line(editor, 'Input Start, %IX0.0, on')
     sh('xdotool', 'keyup', 'space')
