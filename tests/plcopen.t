@@ -92,6 +92,18 @@ like($rung, qr/Name\s*: STRING\[12\] := 'it';/, 'a text without its quotes');
 like($rung, qr/Sum\s*: INT; \(\* of all \*\)/, 'documentation');
 trace_is('types', "\@print Sum\n.\n", "1 t=10 Sum=16\n");
 
+# ---- what extensions of Beremiz have ----
+($rung, $said) = imported('places', project('', pou('Main', 'program', '<localVars>'
+	. variable('Level', 'HMI_INT') . variable('Count', 'HMI_UDINT')
+	. join('', map { my ($name, $type, $at) = @$_; variable($name, $type) =~ s/<variable /<variable address="$at" /r }
+		['Position', 'DINT', '%QD0.2'], ['Start', 'BOOL', '%IX0.2'], ['Speed', 'INT', '%QW3'], ['Third', 'LREAL', '%IL0.1.4'])
+	. '</localVars>', text_body('ST', "IF Start THEN\n{{\n  if (x) { call(GetFbVar(Level)); }\n}}\n  Position := 7;\nEND_IF;\nSpeed := 1;"))));
+like($rung, qr/Level\s*: INT;\n\s*Count\s*: UDINT;/, 'the numbers of a page');
+like($rung, qr/^  Position\s+: DINT;\n  Start +AT %IX0\.2 : BOOL;\n  Speed +AT %QW3\s*: INT;\n  Third\s+: LREAL;/m, 'a place of a slave is no address here');
+like($said, qr/lost: Main: "Position" has no address here: %QD0\.2 is none\n(?:.*\n)*.*lost: Main: "Third" has no address here: %IL0\.1\.4 is none/s, 'and is told');
+like($rung, qr/^\s*\{\{\n  if \(x\) \{ call\(GetFbVar\(Level\)\); \}\n\}\}\n/m, 'C between two braces is kept');
+trace_is('places', "\@print Position\nStart=1\n", "1 t=10 Position=7\n");
+
 # ---- lists, and an error in the line of the XML ----
 my $count = variable('Count', 'INT') . variable('Go', 'BOOL');
 imported('list', project('', pou('Main', 'program', "<localVars>$count</localVars>", text_body('IL', "LD Count\nADD 1\nST Count"))));

@@ -513,6 +513,10 @@ static void tell_pragma(struct reader *r)
 		from++;
 	for (to = from; to < end && (*to == '_' || (ascii_upper(*to) >= 'A' && ascii_upper(*to) <= 'Z'));)
 		to++;
+	if (from == to) { /* no word: its brackets, such as {{ */
+		from = r->lex.token.text;
+		to = from + strspn(from, "{");
+	}
 	if (r->pou && r->pou->fbd && to - from == 2 && ascii_same(from, "at", 2))
 		return; /* read_fbd() reads it */
 	kind = reader_intern(r, from, (size_t)(to - from));

@@ -18,6 +18,17 @@ void write_id(const struct sink *sink, const struct project *project, uint32_t i
 	sink_write(sink, project_text(project, id), names_len(&project->names, id));
 }
 
+/* The end of a pragma whose `{` stands before @at; NULL: it has none. Beremiz writes C as `{{ … }}`, with braces inside. */
+static const char *pragma_end(const char *at, const char *end)
+{
+	if (at < end && *at == '{')
+		for (const char *close = at; end - close >= 2; close++)
+			if (close[0] == '}' && close[1] == '}')
+				return close + 2;
+	at = memchr(at, '}', (size_t)(end - at));
+	return at ? at + 1 : NULL;
+}
+
 bool comment_next(struct lex *lex)
 {
 	const char *close;
@@ -26,10 +37,10 @@ bool comment_next(struct lex *lex)
 		return true;
 	if (!lex_is(lex, "{"))
 		return false;
-	close = memchr(lex->at, '}', (size_t)(lex->end - lex->at));
+	close = pragma_end(lex->at, lex->end);
 	if (!close)
 		return false;
-	for (; lex->at <= close; lex->at++) {
+	for (; lex->at < close; lex->at++) {
 		if (*lex->at != '\n')
 			continue;
 		lex->line++;

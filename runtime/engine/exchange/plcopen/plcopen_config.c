@@ -205,18 +205,18 @@ static void put_located(struct plcopen *c, struct xml_node *list)
 		return;
 	plc_put(c, "VAR_CONFIG\n");
 	for (struct xml_node *each = list->first; each; each = each->next) {
-		const char *address, *value;
+		const char *name, *type, *address, *value;
 
 		if (!xml_is(each, "configVariable"))
 			continue;
 		each->taken = true;
 		c->at = each->line;
-		address = xml_take(each, "address");
+		name = xml_take(each, "instancePathAndName");
+		type = plc_type(c, xml_child(each, "type"));
+		address = plc_address(c, each, name ? name : "", type);
 		value = plc_value(c, each);
-		plc_put(c, "  %s%s%s : %s%s%s;", xml_take(each, "instancePathAndName"),
-			address && *address ? " AT " : "", address ? address : "",
-			plc_type(c, xml_child(each, "type")), value ? " := " : "",
-			value ? value : "");
+		plc_put(c, "  %s%s%s : %s%s%s;", name ? name : "", address ? " AT " : "", address ? address : "",
+			type, value ? " := " : "", value ? value : "");
 		plc_comment(c, plc_documentation(c, each));
 		plc_put(c, "\n");
 	}

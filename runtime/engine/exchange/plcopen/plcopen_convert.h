@@ -97,6 +97,12 @@ struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
 /* ---- plcopen_declare.c ---- */
 /** plc_type - the text of a type: of the first element in @node. */
 const char *plc_type(struct plcopen *c, struct xml_node *node);
+/**
+ * plc_address - the address of a variable or of a line of VAR_CONFIG; NULL: it has none, or one that is none here, which
+ * the report tells
+ * @name, @type:  of the variable, as the rung file has them
+ */
+const char *plc_address(struct plcopen *c, struct xml_node *variable, const char *name, const char *type);
 /** plc_value - the text of an initialValue; NULL: it has none. */
 const char *plc_value(struct plcopen *c, struct xml_node *node);
 /** plc_types - all types of the project. */

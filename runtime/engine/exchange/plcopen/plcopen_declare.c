@@ -106,10 +106,12 @@ static const char *structure(struct plcopen *c, struct xml_node *node)
 	return plc_print(c, "STRUCT %sEND_STRUCT", plc_built(c, &all));
 }
 
-/* Types that an extension of Beremiz adds. */
+/* Types that an extension of Beremiz adds: svghmi/pous.xml. */
 static const struct { const char *name, *means; } added_types[] = {
-	{ "HMI_INT", "DINT" }, { "HMI_REAL", "REAL" }, { "HMI_LREAL", "LREAL" }, { "HMI_STRING", "STRING" },
-	{ "HMI_BOOL", "BOOL" }, { "HMI_NODE", "BOOL" }, { "HMI_LABEL", "STRING" },
+	{ "HMI_SINT", "SINT" }, { "HMI_INT", "INT" }, { "HMI_DINT", "DINT" }, { "HMI_LINT", "LINT" },
+	{ "HMI_USINT", "USINT" }, { "HMI_UINT", "UINT" }, { "HMI_UDINT", "UDINT" }, { "HMI_ULINT", "ULINT" },
+	{ "HMI_REAL", "REAL" }, { "HMI_LREAL", "LREAL" }, { "HMI_STRING", "STRING" }, { "HMI_BOOL", "BOOL" },
+	{ "HMI_NODE", "BOOL" }, { "HMI_LABEL", "STRING" },
 };
 
 /* Whether the project has a type of this name. */
@@ -275,14 +277,32 @@ static void put_value(struct plcopen *c, struct xml_node *variable, const char *
 	plc_put(c, " := %s", value);
 }
 
-/* Also an open one, %I* and %QW*. */
-static bool is_address(const char *text)
+/*
+ * Also an open one, %I* and %QW*. In an extension of Beremiz %QD0.2 is the third place of a slave, as large as the type.
+ * Here it is bit 2 of a double word, which holds a BOOL only.
+ */
+static bool is_address(const char *text, const char *type)
 {
 	struct iec_addr address;
 	const size_t len = strlen(text);
 
-	return !len || text[len - 1] == '*' ||
-	       iec_addr_parse(text, len, &address) == ADDR_OK;
+	if (!len || text[len - 1] == '*')
+		return true;
+	return iec_addr_parse(text, len, &address) == ADDR_OK &&
+	       (address.bits > 1 || ascii_upper(text[2]) == 'X' || plc_same(type, "BOOL"));
+}
+
+const char *plc_address(struct plcopen *c, struct xml_node *variable, const char *name, const char *type)
+{
+	const char *address = xml_take(variable, "address");
+
+	if (!address || !*address)
+		return NULL;
+	if (is_address(address, type))
+		return address;
+	plc_report(c, REPORT_LOST, variable,
+		   report_said(c->report, REPORTED("\"%s\" has no address here: %s is none")), name, address);
+	return NULL;
 }
 
 /* Whether something of the file or built in has the type. A type of a library that is missing
@@ -310,7 +330,7 @@ static bool is_known(struct plcopen *c, const struct xml_node *node, int depth)
 
 static void put_variable(struct plcopen *c, struct xml_node *variable)
 {
-	const char *name = xml_take(variable, "name"), *address = xml_take(variable, "address");
+	const char *name = xml_take(variable, "name"), *address;
 	const char *edge = xml_take(variable, "edge"), *type;
 	bool unknown;
 	struct xml_node *kind = xml_child(variable, "type");
@@ -318,12 +338,7 @@ static void put_variable(struct plcopen *c, struct xml_node *variable)
 	variable->taken = true;
 	c->at = variable->line;
 	type = plc_type(c, kind);
-	if (address && !is_address(address)) {
-		plc_report(c, REPORT_LOST, variable,
-			   report_said(c->report, REPORTED("\"%s\" has no address here: %s is none")), name ? name : "",
-			   address);
-		address = NULL;
-	}
+	address = plc_address(c, variable, name ? name : "", type);
 	unknown = *type && !is_known(c, kind, 0);
 	if (unknown)
 		plc_report(c, REPORT_LOST, variable,
@@ -339,7 +354,7 @@ static void put_variable(struct plcopen *c, struct xml_node *variable)
 	if (unknown)
 		plc_put(c, "(* ");
 	plc_put(c, "%s", plc_declared(c, variable));
-	if (address && *address)
+	if (address)
 		plc_put(c, " AT %s", address);
 	plc_put(c, " : %s", type);
 	if (edge && !strcmp(edge, "rising"))
