@@ -500,7 +500,7 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 	popover_put(popover, scroller);
 	popover_form(popover, cell);
 	if (gtk_widget_compute_bounds(cell, scroller, &bounds))
-		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &(GdkRectangle){
+		popover_point(popover, &(GdkRectangle){
 			(int)bounds.origin.x, (int)bounds.origin.y,
 			(int)bounds.size.width, (int)bounds.size.height });
 	gtk_popover_popup(GTK_POPOVER(popover));

@@ -397,7 +397,7 @@ static void ask(LadderSimPanel *panel, GtkWidget *child)
 	gtk_popover_set_child(GTK_POPOVER(panel->asking), child);
 	gtk_widget_set_parent(panel->asking, GTK_WIDGET(panel));
 	if (at && gtk_widget_compute_bounds(at, GTK_WIDGET(panel), &box))
-		gtk_popover_set_pointing_to(GTK_POPOVER(panel->asking), &(GdkRectangle){
+		popover_point(panel->asking, &(GdkRectangle){
 			(int)box.origin.x, (int)box.origin.y, (int)box.size.width,
 			(int)box.size.height });
 	g_signal_connect_swapped(panel->asking, "closed", G_CALLBACK(closed), panel);

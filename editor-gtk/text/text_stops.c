@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/text/text_stops.h"
 
+#include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/style.h"
@@ -445,7 +446,7 @@ void text_stops_ask(struct text_stops *stops, int line)
 	stops->asked = stops->part->lines + line;
 	gtk_editable_set_text(GTK_EDITABLE(stops->entry), at && at->condition ? at->condition : "");
 	show_why(stops, NULL);
-	gtk_popover_set_pointing_to(GTK_POPOVER(stops->popover), &where);
+	popover_point(stops->popover, &where);
 	gtk_popover_popup(GTK_POPOVER(stops->popover));
 	gtk_widget_grab_focus(stops->entry);
 }

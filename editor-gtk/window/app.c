@@ -18,6 +18,7 @@
 #include "editor-gtk/kit/gtk48/blink.h"
 #include "editor-gtk/kit/gtk48/gl.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/press.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/window/preferences.h"
@@ -485,6 +486,7 @@ static void startup(GtkApplication *application)
 	gtk_source_init();
 	app_style();
 	popover_init();
+	press_init();
 	slow_bar_choose_all();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);

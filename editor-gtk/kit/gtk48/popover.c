@@ -339,11 +339,58 @@ static void show_chosen(GtkWidget *popover)
 	g_idle_add_full(G_PRIORITY_HIGH_IDLE, scroll_to_chosen, g_object_ref(popover), g_object_unref);
 }
 
+/* ---- a popover points into its window ---- */
+
+static void (*show_popover)(GtkWidget *popover);
+
+/* What a popover points to in @window, the widget with the surface of its parent. */
+static GdkRectangle pointed(GtkWidget *popover, GtkWidget *window)
+{
+	GtkWidget *parent = gtk_widget_get_parent(popover);
+	GdkRectangle at = { 0, 0, 0, 0 };
+	double x, y;
+
+	gtk_popover_get_pointing_to(GTK_POPOVER(popover), &at);
+	if (!gtk_widget_translate_coordinates(parent, window, at.x, at.y, &x, &y))
+		return at;
+	return (GdkRectangle){ (int)x, (int)y, at.width, at.height };
+}
+
+static bool is_outside(const GdkRectangle *at, int width, int height)
+{
+	return at->x + at->width <= 0 || at->x >= width || at->y + at->height <= 0 ||
+	       at->y >= height;
+}
+
+static void point_inside(GtkWidget *popover, GtkWidget *window)
+{
+	const int width = gtk_widget_get_width(window), height = gtk_widget_get_height(window);
+	const GdkRectangle at = pointed(popover, window);
+	double x, y;
+
+	if (width > 0 && height > 0 && is_outside(&at, width, height) &&
+	    gtk_widget_translate_coordinates(window, gtk_widget_get_parent(popover),
+					     within(at.x, width), within(at.y, height), &x, &y))
+		gtk_popover_set_pointing_to(GTK_POPOVER(popover),
+					    &(GdkRectangle){ (int)x, (int)y, 1, 1 });
+}
+
+static void shown(GtkWidget *popover)
+{
+	GtkWidget *parent = gtk_widget_get_parent(popover);
+
+	if (parent && gtk_widget_get_native(parent))
+		point_inside(popover, GTK_WIDGET(gtk_widget_get_native(parent)));
+	show_popover(popover);
+}
+
 void popover_init(void)
 {
 	/* stays: its signals live in it */
 	GtkWidgetClass *class = g_type_class_ref(GTK_TYPE_POPOVER);
 
+	show_popover = class->show;
+	class->show = shown;
 	map_popover = class->map;
 	unmap_popover = class->unmap;
 	class->map = mapped;

@@ -13,8 +13,10 @@
  *   12 of tests/editor/person/storm.py, which tests it.
  * - Crash, popover_drop(): a popover that is unparented while the pointer is in it is asked
  *   for its surface in the next layout and has none.
- * - Crash, popover_point(): a popover that points outside its parent, such as to a cell that
- *   was scrolled away, looks for a monitor there and finds none.
+ * - Crash, popover_init(): a popover that points outside the window, such as to a line that was
+ *   scrolled away, looks for a monitor there and finds none. It points to the nearest place in the
+ *   window instead. To see it: storm 4, which asks for the condition of a breakpoint.
+ *   Test: test_popover.c.
  * - Cut text, popover_tell(): a popover measures its height for more width than its child
  *   gets, so that the last line of a wrapped label is cut off. To see it: a refusal that
  *   needs just two lines at a line of quick entry. An open popover does not grow

@@ -181,6 +181,27 @@ static void test_told(void)
 	goes(page, "a popover with a reason goes with its page");
 }
 
+/* GTK looks for a monitor at the place that a popover points to, and complains if there is none. */
+static void test_outside(void)
+{
+	static const GdkRectangle places[] = {
+		{ 5, 90000, 10, 10 }, { 5, -90000, 10, 10 }, { 90000, 5, 10, 10 }, { -90000, -90000, 10, 10 },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(places); i++) {
+		GtkWidget *page = gtk_drawing_area_new(), *popover = gtk_popover_new();
+
+		gtk_widget_set_focusable(page, TRUE);
+		put(page);
+		gtk_popover_set_child(GTK_POPOVER(popover), gtk_label_new("Condition"));
+		popover_put(popover, page);
+		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &places[i]);
+		gtk_popover_popup(GTK_POPOVER(popover));
+		CHECK_SOON(is_open(page));
+		goes(page, "a popover that points outside the window is shown in it");
+	}
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 900, 600, &window);
@@ -194,6 +215,7 @@ int main(void)
 	test_late_pointer();
 	test_whole();
 	test_told();
+	test_outside();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
