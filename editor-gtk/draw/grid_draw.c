@@ -654,6 +654,13 @@ static float badge(const struct pen *pen, enum token ground, const char *text, f
 	return fits.width + 6;
 }
 
+unsigned int grid_mark_of(const struct diag *diag)
+{
+	if (diag->id == DIAG_COIL_TWICE)
+		return MARK_TWICE;
+	return diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR : MARK_WARNING;
+}
+
 #define FORCED "F"
 #define TWICE  "2\xc3\x97"
 #define FAILED "!"

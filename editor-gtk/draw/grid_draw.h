@@ -13,6 +13,8 @@
 #include "editor-gtk/kit/picture.h"
 #include "editor-gtk/draw/rung_layout.h"
 
+#include "engine/base/diag.h"
+
 /* State of a cell while a program runs. */
 enum live_bit {
 	LIVE_KNOWN = 1,  /* else it is not scanned: dotted                      */
@@ -50,6 +52,8 @@ enum mark {
 	MARK_BLOCKS = 1024,  /* it blocks power; scene.note gives the reason     */
 };
 struct grid_mark { int row, column; unsigned int marks; };
+/** grid_mark_of - the mark of the place of a message: MARK_ERROR, MARK_WARNING or MARK_TWICE. */
+unsigned int grid_mark_of(const struct diag *diag);
 
 enum rung_state {
 	RUNG_CURRENT = 1,    /* bar at the left                                 */

@@ -650,14 +650,15 @@ static size_t head_len(const char *text, size_t len)
 }
 
 /* `Stop` is a push button, `STOP` the word that ends the program: a word without operand
- * counts only in capitals, as in the catalogue. */
+ * counts only in capitals, as in the catalogue; so does RETURN. */
 static bool is_name_rather(const struct entry_place *place, enum word word, const char *text,
 			   size_t len)
 {
 	const struct word_row *row = words_row(&place->project->words, word);
 
 	return row->place == PLACE_LAST && row->operand == OPND_NONE &&
-	       ascii_is(row->word, text, len) && strncmp(row->word, text, len) != 0;
+	       ((ascii_is(row->word, text, len) && strncmp(row->word, text, len) != 0) ||
+		(ascii_is("RETURN", text, len) && strncmp("RETURN", text, len) != 0));
 }
 
 static bool read_line(const struct entry_place *place, const char *text, size_t len,

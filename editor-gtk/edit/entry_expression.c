@@ -72,27 +72,33 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	return true;
 }
 
-/* An address or a pin in the spelling of another dialect is kept as ours: a file has only that. */
-static bool is_foreign(const struct entry_place *place, const struct token *token,
-		       struct entry_target *target)
+/* An address is kept as the name of its variable or in its canonical spelling, and so is a pin in
+ * the spelling of another dialect, as everywhere else. What stands behind a dot or before := in a
+ * call is the name of a member or a pin. */
+static bool is_respelled(const struct entry_place *place, const struct lex *lex, bool member,
+			 struct entry_target *target)
 {
-	struct iec_addr addr;
+	const struct token *token = &lex->token;
+	struct lex ahead = *lex;
 
-	if ((token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME) ||
-	    iec_addr_parse(token->text, token->len, &addr) == ADDR_OK)
+	if (member || (token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME))
 		return false;
 	entry_target_find(place, token->text, token->len, target);
-	return target->means == MEANS_NEW_PIN ||
-	       (target->means == MEANS_VALUE &&
-		(token->text[0] == '%' || target->addr.area != AREA_NONE));
+	if (target->means != MEANS_NEW_PIN &&
+	    (target->means != MEANS_VALUE ||
+	     (token->text[0] != '%' && target->addr.area == AREA_NONE)))
+		return false;
+	lex_next(&ahead);
+	return target->means == MEANS_NEW_PIN || !lex_is(&ahead, "(");
 }
 
-static bool add_token(const struct entry_place *place, const struct token *token,
+static bool add_token(const struct entry_place *place, const struct lex *lex, bool member,
 		      struct entry_target *target, char *out, size_t size)
 {
+	const struct token *token = &lex->token;
 	bool fits;
 
-	if (is_foreign(place, token, target))
+	if (is_respelled(place, lex, member, target))
 		return entry_append(out, size, target->text, strlen(target->text));
 	return token->kind == TOKEN_NUMBER &&
 	       entry_literal(token->text, token->len, out, size, &fits) ? fits :
@@ -108,17 +114,24 @@ static bool print(const struct entry_place *place, const char *text, size_t len,
 	char *out = entry->operand;
 	const size_t size = sizeof(entry->operand);
 	struct lex lex;
-	bool before = false, first = true, good = true;
+	bool before = false, first = true, good = true, dot = false;
+	int depth = 0;
 
 	lex_init(&lex, text, len);
 	while (lex_next(&lex) != TOKEN_END && good) {
+		struct lex ahead = lex;
 		bool sign = false;
+
+		lex_next(&ahead);
+		depth += lex_is(&lex, "(") - lex_is(&lex, ")");
 
 		for (size_t i = 0; i < sizeof(wide) / sizeof(*wide); i++)
 			sign |= lex.token.kind == TOKEN_SYMBOL && lex_is(&lex, wide[i]);
 		if (!first && (before || sign || lex.token.space_before))
 			good = entry_append(out, size, " ", 1);
-		good = good && add_token(place, &lex.token, &w->target, out, size);
+		good = good && add_token(place, &lex, dot || (depth > 0 && lex_is(&ahead, ":=")),
+					 &w->target, out, size);
+		dot = lex_is(&lex, ".");
 		before = sign;
 		first = false;
 		if (!keep_said(&lex, w, entry))

@@ -515,10 +515,32 @@ static size_t dashes(const char *text)
 	return strspn(text, "- ");
 }
 
+/* -<RET>-, -<RETURN>-, ->>Label: outputs that have no bars or brackets. */
+static size_t flow_glyph(const char *text, enum word *word)
+{
+	const char *end = *text == '<' ? strchr(text, '>') : NULL;
+	bool below;
+
+	if (!strncmp(text, ">>", 2)) {
+		*word = ELEM_JUMP;
+		return 2;
+	}
+	if (!end)
+		return 0;
+	*word = find_element(text + 1, (size_t)(end - text - 1), &below);
+	if (*word == WORD_COUNT)
+		*word = word_find(text + 1, (size_t)(end - text - 1));
+	return *word != WORD_COUNT && *word < ELEM_PIN && word_row(*word)->place == PLACE_LAST &&
+	       (word_row(*word)->operand == OPND_NONE || word_row(*word)->operand == OPND_LOOP_END) ?
+		(size_t)(end - text) + 1 : 0;
+}
+
 size_t entry_glyph(const char *line, enum word *word)
 {
-	const size_t before = dashes(line);
+	const size_t before = dashes(line), flow = flow_glyph(line + before, word);
 
+	if (flow)
+		return before + flow + dashes(line + before + flow);
 	if (line[before] != '|' && line[before] != '(')
 		return 0;
 	for (int i = 0; i < WORD_KNOWN; i++) {

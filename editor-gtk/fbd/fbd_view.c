@@ -210,8 +210,7 @@ static void checked(LadderCanvas *canvas)
 	g_array_set_size(view->marks, 0);
 	for (int i = 0; pou && i < diags->count; i++) {
 		const struct diag *diag = &diags->diag[i];
-		struct fbd_problem problem = {
-			.marks = diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR : MARK_WARNING };
+		struct fbd_problem problem = { .marks = grid_mark_of(diag) };
 
 		if (!diag->pou || strcmp(diag->pou, project_text(project, pou->name)) != 0)
 			continue;

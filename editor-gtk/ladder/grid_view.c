@@ -325,14 +325,10 @@ static void project_changed(LadderCanvas *canvas)
 
 static void add_mark(LadderGridView *view, const struct diag *diag)
 {
-	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
 	struct sheet_mark mark = {
-		diag->rung - 1 - view->first, diag->row - 1, diag->col - 1,
-		error ? MARK_ERROR : MARK_WARNING, diag,
+		diag->rung - 1 - view->first, diag->row - 1, diag->col - 1, grid_mark_of(diag), diag,
 	};
 
-	if (diag->id == DIAG_COIL_TWICE)
-		mark.marks = MARK_TWICE;
 	g_array_append_val(view->marks, mark);
 }
 

@@ -70,9 +70,7 @@ static int mark_wrong(const struct diag_list *diags, const struct rung_layout *l
 		    col < 0 || col >= rung->cols)
 			continue;
 		mark[count++] = (struct grid_mark){
-			row, rung_layout_column(layout, row, col),
-			diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR :
-								    MARK_WARNING };
+			row, rung_layout_column(layout, row, col), grid_mark_of(diag) };
 	}
 	return count;
 }
@@ -219,7 +217,7 @@ static int mark_network(const struct diag_list *diags, const struct fbd_layout *
 		if (!diag->pou || !name_equal(diag->pou, pou) ||
 		    !fbd_layout_of_diag(layout, diag, &at.box, &at.pin))
 			continue;
-		at.marks = diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR : MARK_WARNING;
+		at.marks = grid_mark_of(diag);
 		mark[count++] = at;
 	}
 	return count;

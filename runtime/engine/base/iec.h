@@ -118,7 +118,7 @@ enum iec_addr_result { ADDR_OK, ADDR_NONE, ADDR_RANGE };
 /**
  * iec_addr_parse - a direct address such as %IX0.3, %MW4, I3, Q10, V0.3, SM0.5
  *
- * Short forms (without `%`) too: I3 is bit 3 of the inputs, B5 is M5.
+ * Short forms (without `%`) too: I3 is bit 3 of the inputs, AI3 the fourth analog input.
  * Returns ADDR_NONE when the text is no address, ADDR_RANGE when it is one that
  * no area can have (a bit above 7, beyond the most bytes). areas_have() tells whether a
  * program has it.   Scan-safe: yes.

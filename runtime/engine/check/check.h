@@ -48,7 +48,7 @@ bool check_loops(const struct project *project, const struct pou *pou, int first
  * @scratch: some memory a project; dead afterwards
  *
  * Unknown and duplicate names, labels, AT types, writes to inputs and
- * constants, coils in two places, instances called twice, never written, never
+ * constants, coils in more than one place, instances called twice, never written, never
  * read, unreachable rungs. Of an IL POU it only counts the uses: check_il()
  * judges it.
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.

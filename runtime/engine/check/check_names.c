@@ -1077,6 +1077,21 @@ static void check_values(struct names_check *c)
 	}
 }
 
+/* Each coil of a place that two of them write: which one is meant, only a person knows. */
+static void report_coils(struct names_check *c)
+{
+	for (const struct use_coil *coil = c->uses.coil; coil; coil = coil->next) {
+		struct diag place = place_of(c, DIAG_COIL_TWICE, coil->pou, coil->line);
+
+		place.column = coil->column;
+		place.rung = coil->rung;
+		place.row = coil->row;
+		place.col = coil->col;
+		if (uses_coil_twice(&c->uses, coil))
+			diag_add(c->diags, place, "%s", text_of(c, coil->name));
+	}
+}
+
 bool check_names(struct scope *scope, uint8_t *const *bad,
 		 struct arena *scratch, struct diag_list *diags)
 {
@@ -1100,6 +1115,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	c.good &= check_config(scope, &c.uses, diags);
 	check_values(&c);
 	c.good &= check_access(scope, &c.uses, scratch, diags);
+	report_coils(&c);
 	for (int i = 0; i <= c.project->pou_count; i++)
 		check_uses(&c, i);
 	if (scratch->failed || c.project->arena.failed)

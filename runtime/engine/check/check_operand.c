@@ -199,7 +199,7 @@ static enum diag_id write_fault(const struct meaning *m)
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 
-/* @always: written at every evaluation, as a coil does; two such places are reported. */
+/* @always: written at every evaluation, as a coil does; report_coils() tells such places. */
 static const struct meaning *operand_write(struct operand_check *c, struct operand_spot at,
 					uint32_t id, bool always)
 {
@@ -215,8 +215,15 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 	always &= c->pou->language != LANGUAGE_SFC;
 	if (m->through)
 		uses_add(c->uses, m, USE_READ); /* the pointer is */
-	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
-		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
+	if (always) {
+		const struct diag place = operand_place(c, DIAG_COIL_TWICE, at);
+
+		uses_add_coil(c->uses, m, (struct use_coil){
+			.pou = c->pou, .name = id, .line = place.line, .column = place.column,
+			.rung = place.rung, .row = place.row, .col = place.col });
+	} else {
+		uses_add(c->uses, m, USE_WRITTEN);
+	}
 	return m;
 }
 

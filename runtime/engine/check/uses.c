@@ -2,8 +2,8 @@
  *
  * uses - flags for each declared variable, and bit maps of the process image.
  *
- * The maps find overlaps: a use of %MW0 sets the bits of its 16 bits, a coil that writes a part of a
- * variable those of the part. It knows no rungs and no diagnostics.
+ * The maps find overlaps: a use of %MW0 sets the bits of its 16 bits, a coil those of the variable or
+ * of its part. It knows no rungs and no diagnostics.
  */
 #include "engine/check/uses.h"
 #include "engine/model/shape.h"
@@ -20,6 +20,8 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 	uses->areas = scope_areas(scope);
 	uses->arena = arena;
 	uses->coils = NULL;
+	uses->coil = NULL;
+	uses->coil_end = &uses->coil;
 	uses->base = arena_alloc(arena, sizeof(*uses->base) *
 				 ((size_t)project->pou_count + 1));
 	if (!uses->base)
@@ -32,7 +34,8 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 	uses->flags = arena_alloc(arena, (size_t)count);
 	uses->map.read = arena_alloc(arena, bytes);
 	uses->map.written = arena_alloc(arena, bytes);
-	uses->map.coil = arena_alloc(arena, bytes);
+	uses->map.coils.once = arena_alloc(arena, bytes);
+	uses->map.coils.twice = arena_alloc(arena, bytes);
 	return !arena->failed;
 }
 
@@ -88,17 +91,20 @@ static bool map_has(const uint8_t *map, struct span span)
 	return false;
 }
 
-static bool map_add(struct uses *uses, struct span at, unsigned int use)
+static void map_add(struct uses *uses, struct span at, unsigned int use)
 {
-	bool again = use & USE_COIL && map_has(uses->map.coil, at);
-
 	if (use & USE_READ)
 		map_set(uses->map.read, at);
 	if (use & USE_WRITTEN)
 		map_set(uses->map.written, at);
-	if (use & USE_COIL)
-		map_set(uses->map.coil, at);
-	return again;
+}
+
+/* Another coil: bits that one has already are written twice. */
+static void coil_set(struct use_coils coils, struct span at)
+{
+	if (map_has(coils.once, at))
+		map_set(coils.twice, at);
+	map_set(coils.once, at);
 }
 
 /* Of a meaning with a variable. */
@@ -116,60 +122,105 @@ static bool is_part(const struct meaning *meaning)
 	       meaning->offset > 0;
 }
 
-/* A coil writes a part of variable @number. True: another one writes a bit of it, too. */
-static bool part_add(struct uses *uses, int number, const struct meaning *meaning)
+/* The bits of its variable that a coil writes; none of a variable without a size. */
+static struct span part_span(const struct uses *uses, const struct meaning *meaning, size_t *bytes)
 {
 	const struct extent whole = shape_of_var(&uses->project->words, meaning->var);
-	const unsigned int bits = meaning->type == IEC_BOOL && meaning->part ? 1 :
-				  meaning->type == IEC_STRING ? 8 :
-				  8u * iec_type_row(meaning->type)->size;
-	const uint64_t first = meaning->offset * (uint64_t)8 + (meaning->part ? meaning->first % 8 : 0);
-	const struct span at = { (uint32_t)first, bits };
-	bool again;
+	uint64_t first = 0, count = whole.size * (uint64_t)8;
 
-	if (first + bits > whole.size * 8 || whole.size * 8 > UINT32_MAX)
-		return false;
+	*bytes = (size_t)whole.size;
+	if (count > UINT32_MAX)
+		return (struct span){ 0, 0 };
+	if (is_part(meaning) || meaning->var->array.count) {
+		first = meaning->offset * (uint64_t)8 + (meaning->part ? meaning->first % 8 : 0);
+		count = meaning->type == IEC_BOOL && meaning->part ? 1 :
+			meaning->type == IEC_STRING ? 8 : 8u * iec_type_row(meaning->type)->size;
+	}
+	if (first + count > whole.size * (uint64_t)8)
+		count = 0;
+	return (struct span){ (uint32_t)first, (uint32_t)count };
+}
+
+static struct span add_part(struct uses *uses, int number, const struct meaning *meaning)
+{
+	size_t bytes;
+	const struct span at = part_span(uses, meaning, &bytes);
+	struct use_coils *coils;
+
+	if (!at.count)
+		return at;
 	if (!uses->coils)
 		uses->coils = arena_alloc(uses->arena, sizeof(*uses->coils) * (size_t)uses->count);
-	if (uses->coils && !uses->coils[number])
-		uses->coils[number] = arena_alloc(uses->arena, (size_t)whole.size);
-	if (!uses->coils || !uses->coils[number])
-		return false;
-	again = uses->flags[number] & USE_COIL || map_has(uses->coils[number], at);
-	map_set(uses->coils[number], at);
-	return again;
+	if (!uses->coils)
+		return (struct span){ 0, 0 };
+	coils = &uses->coils[number];
+	if (!coils->once) {
+		coils->once = arena_alloc(uses->arena, bytes);
+		coils->twice = arena_alloc(uses->arena, bytes);
+	}
+	if (!coils->once || !coils->twice)
+		return (struct span){ 0, 0 };
+	coil_set(*coils, at);
+	return at;
 }
 
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use)
 {
-	const unsigned int once = use & (USE_COIL | USE_CALLED);
-	bool again = false;
+	bool again;
 	int number;
-
-	/* Two computed indices seldom reach the same element, so they do not conflict. */
-	if (meaning->opens > 0 || meaning->through)
-		use &= ~(unsigned int)USE_COIL;
 
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
 	if (meaning->addr.area != AREA_NONE)
-		again = map_add(uses, span_of(uses, meaning->addr,
-					      meaning_reach(meaning)), use);
+		map_add(uses, span_of(uses, meaning->addr, meaning_reach(meaning)), use);
 	if (!meaning->var)
-		return again;
+		return false;
 	number = number_of(uses, meaning);
 	if (is_part(meaning) || meaning->var->array.count) {
-		if (use & USE_COIL && meaning->addr.area == AREA_NONE)
-			again = part_add(uses, number, meaning);
-		uses->flags[number] |= (uint8_t)(use & ~(unsigned int)USE_COIL);
-		return again;
+		uses->flags[number] |= (uint8_t)use;
+		return false;
 	}
-	again |= (uses->flags[number] & once) != 0 ||
-		 (use & USE_COIL && uses->coils && uses->coils[number]);
-	again &= !(uses->flags[number] & USE_TWICE);
+	again = uses->flags[number] & use & USE_CALLED && !(uses->flags[number] & USE_TWICE);
 	uses->flags[number] |= (uint8_t)(use | (again ? USE_TWICE : 0));
 	return again;
+}
+
+void uses_add_coil(struct uses *uses, const struct meaning *meaning, struct use_coil at)
+{
+	struct use_coil *kept;
+	struct span span;
+
+	uses_add(uses, meaning, USE_WRITTEN);
+	/* Two computed indices seldom reach the same element, so they do not conflict. */
+	if (meaning->opens > 0 || meaning->through || meaning->kind == MEANING_LITERAL ||
+	    meaning->kind == MEANING_NONE || (meaning->addr.area == AREA_NONE && !meaning->var))
+		return;
+	at.number = USE_COIL_IMAGE;
+	if (meaning->addr.area != AREA_NONE) {
+		span = span_of(uses, meaning->addr, meaning_reach(meaning));
+		coil_set(uses->map.coils, span);
+	} else {
+		at.number = number_of(uses, meaning);
+		span = add_part(uses, at.number, meaning);
+	}
+	kept = span.count ? arena_alloc(uses->arena, sizeof(*kept)) : NULL;
+	if (!kept)
+		return;
+	*kept = at;
+	kept->next = NULL;
+	kept->first = span.first;
+	kept->count = span.count;
+	*uses->coil_end = kept;
+	uses->coil_end = &kept->next;
+}
+
+bool uses_coil_twice(const struct uses *uses, const struct use_coil *coil)
+{
+	const struct use_coils *coils = coil->number == USE_COIL_IMAGE ? &uses->map.coils :
+					&uses->coils[coil->number];
+
+	return map_has(coils->twice, (struct span){ coil->first, coil->count });
 }
 
 void uses_add_index(struct uses *uses, struct scope *scope, const struct pou *pou,

@@ -13,15 +13,31 @@
 enum use {
 	USE_READ = 1,
 	USE_WRITTEN = 2,
-	USE_COIL = 4,    /* set at every evaluation, not only with power      */
 	USE_CALLED = 8,
-	USE_TWICE = 16,  /* USE_COIL or USE_CALLED was reported a second time */
+	USE_TWICE = 16,  /* USE_CALLED a second time                          */
+};
+
+/* A bit each for every bit of the process image, or of a variable: written by coils, by two. */
+struct use_coils {
+	uint8_t *once, *twice;
 };
 
 /* A bit each for every bit of the process image. */
 struct use_map {
-	uint8_t *read, *written, *coil;
+	uint8_t *read, *written;
+	struct use_coils coils;
 };
+
+/* The place of a coil. */
+struct use_coil {
+	struct use_coil *next;
+	const struct pou *pou;
+	uint32_t name;        /* of its operand                               */
+	int line, column, rung, row, col; /* as in struct diag                */
+	int number;           /* of the variable, or USE_COIL_IMAGE           */
+	uint32_t first, count; /* bits of the image, or of the variable       */
+};
+#define USE_COIL_IMAGE (-1)
 
 struct uses {
 	const struct project *project;
@@ -31,8 +47,8 @@ struct uses {
 	int count;            /* of declared variables                        */
 	struct use_map map;
 	struct arena *arena;
-	uint8_t **coils;      /* NULL, or of every declared variable NULL or a bit for each bit of
-				 it: written by a coil that names a part of it */
+	struct use_coils *coils; /* NULL, or of every declared variable: none if no coil writes it */
+	struct use_coil *coil, **coil_end; /* all coils, in their order       */
 };
 
 /** uses_init - nothing is used yet. @scope: borrowed. Owns: @arena. Fails: false: no memory. */
@@ -40,13 +56,19 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 
 /**
  * uses_add - notes one use
- * @use: USE_READ, USE_WRITTEN, USE_CALLED, or USE_WRITTEN | USE_COIL
+ * @use: USE_READ, USE_WRITTEN, USE_CALLED
  *
- * True when this is the second coil or the second call of the same place, or of places that share a
- * bit; of a whole variable once.
+ * True when this is the second call of the same instance; later ones are not told.
  */
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use);
+
+/** uses_add_coil - the meaning is written by a coil at the place @at, whose next, number, first and
+ * count are ignored. */
+void uses_add_coil(struct uses *uses, const struct meaning *meaning, struct use_coil at);
+/** uses_coil_twice - is the place of @coil, or a bit of it, written by another coil, too? Ask it
+ * when all coils are noted. */
+bool uses_coil_twice(const struct uses *uses, const struct use_coil *coil);
 
 /** uses_add_index - the variables that the indices of operand @text are read from;
  * @meaning: its own. */

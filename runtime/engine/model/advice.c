@@ -17,7 +17,7 @@ enum diag_id advice_word(const struct project *project, const struct pou *pou,
 			 unsigned int kinds, const struct diag_list *diags, const char *wanted,
 			 char *out, size_t size)
 {
-	if (project->advice && diags->count < SUGGEST_MOST)
+	if (project->advice && diags->errors < SUGGEST_MOST)
 		return project->advice->nearest(project, pou, kinds, wanted, out, size);
 	snprintf(out, size, "%s", wanted);
 	return DIAG_COUNT;

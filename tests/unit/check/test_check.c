@@ -365,7 +365,7 @@ static void test_usage(void)
 {
 	const char *const twice[] = {
 		"| NO A | COIL Q0 |", "| NO A | COIL %QX0.0 |",
-		"| NO A | S Q1 |", "| NO A | R Q1 |",
+		"| NO A | S Q1 |", "| NO A | R Q1 |", "| NO A | COIL Q2 |", "| NO A | COIL Q0 |",
 	};
 	const char *const calls[] = {
 		"| NO A | TON T |", "| NO A | TON T |", "| NO A | TON T |",
@@ -373,7 +373,7 @@ static void test_usage(void)
 
 	forget();
 	declare("A", IEC_BOOL, ELEM_EMPTY, "%IX0.0");
-	CHECK_TEXT(names(4, twice, NULL), "LD310(1,2)%QX0.0");
+	CHECK_TEXT(names(6, twice, NULL), "LD310(1,2)Q0 LD310(1,2)%QX0.0 LD310(1,2)Q0");
 	declare("T", IEC_NONE, FB_TON, NULL);
 	CHECK_TEXT(names(3, calls, NULL), "LD311(1,2)T");
 	forget();
