@@ -80,6 +80,7 @@ struct channels {
 	_Atomic int held;
 	_Atomic int worst;
 	_Atomic int lines;         /* the worst of the lines of chips           */
+	uint64_t changes;          /* how often a quality became another one; of the scan */
 };
 
 /** channel_number - a value of any type as a number. Scan-safe: yes. */

@@ -167,6 +167,7 @@ void channels_read(struct channels *channels, struct image *image, int64_t now_n
 
 		if (!cell->point.output && (!is_always_good(cell) || cell->goods))
 			store_value(cell, image);
+		channels->changes += (int)quality != atomic_load_explicit(&cell->quality, memory_order_relaxed);
 		atomic_store_explicit(&cell->quality, (int)quality, memory_order_relaxed);
 		if (quality > worst)
 			worst = quality;
@@ -390,6 +391,11 @@ enum hal_quality channels_point(const struct channels *channels, int point)
 
 	return !cell ? QUALITY_GOOD :
 		(enum hal_quality)atomic_load_explicit(&cell->quality, memory_order_relaxed);
+}
+
+uint64_t channels_changes(const struct channels *channels)
+{
+	return channels ? channels->changes : 0;
 }
 
 struct channels_count channels_tally(const struct channels *channels)

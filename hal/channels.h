@@ -92,6 +92,9 @@ enum hal_quality channels_quality(const struct channels *channels);
 enum hal_quality channels_point(const struct channels *channels, int point);
 /** channels_lines - what channels_tell_lines() has told. Scan-safe: yes. */
 enum hal_quality channels_lines(const struct channels *channels);
+/** channels_changes - how often the quality of a point became another one. By the thread that scans. Scan-safe:
+ * yes. */
+uint64_t channels_changes(const struct channels *channels);
 /** channels_tally - how many have which quality. Scan-safe: yes. */
 struct channels_count channels_tally(const struct channels *channels);
 /**

@@ -19,6 +19,15 @@ struct show {
 	bool all;
 };
 
+static const char *quality_of(void *context, struct location at)
+{
+	static const char *const word[] = { [RECORD_STALE] = "stale", [RECORD_BROKEN] = "fault" };
+	const struct playback *playback = context;
+
+	return word[record_quality_of(playback->bad, playback->bad_len,
+				      playback->twin.resource.image.program, at)];
+}
+
 static bool show_columns(struct show *show)
 {
 	const struct call *call = show->call;
@@ -110,6 +119,8 @@ static enum status show(struct call *call, const struct record_file *file, enum 
 		trace_init(&show->trace, &show->playback.twin.resource.image, &call->out, form,
 			   call_flag(call, "--changes"));
 		show->trace.stop = &call->out_failed;
+		show->trace.quality = quality_of;
+		show->trace.quality_context = &show->playback;
 		status = show_columns(show) ? run(show, from_ns) : STATUS_NO;
 		trace_free(&show->trace);
 	}

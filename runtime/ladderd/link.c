@@ -257,6 +257,34 @@ void link_trial_over(struct link *link, bool back)
 	wake_up(link);
 }
 
+/* ---- quality in the record ---- */
+
+static uint64_t quality_serial(void *context)
+{
+	const struct hal *hal = &((const struct link *)context)->cycle->hal;
+	const bool lines = hal_quality(hal) != QUALITY_GOOD;
+
+	return hal_worst(hal) == QUALITY_GOOD ? 0 : 2 * channels_changes(hal_channels(hal)) + 1 + lines;
+}
+
+/* As io_quality() tells it to desks: all lines of chips are stale if one does not answer. */
+static void each_bad(void *context, struct recorder *recorder)
+{
+	const struct cycle *cycle = ((const struct link *)context)->cycle;
+	const struct hal *hal = &cycle->hal;
+	const struct areas *areas = &cycle->resource.image.program->areas;
+	const enum hal_quality lines = hal_quality(hal) == QUALITY_GOOD ? QUALITY_GOOD : QUALITY_STALE;
+
+	for (int i = 0; hal->map && i < hal->map->count; i++) {
+		const struct io_point *point = &hal->map->point[i];
+		const enum hal_quality quality = point->channel ? channels_point(hal_channels(hal), i) : lines;
+
+		if (quality != QUALITY_GOOD && areas_have(areas, point->addr))
+			recorder_bad(recorder, 8 * areas_byte(areas, point->addr) + point->addr.bit,
+				     point->addr.bits, quality == QUALITY_FAULT);
+	}
+}
+
 void link_note(struct link *link, enum link_note note, int64_t now_ns)
 {
 	const struct cycle *cycle = link->cycle;
@@ -1338,6 +1366,8 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	}
 	if (link->record) {
 		recorder_init(&link->recorder, link->record, link->with.record_kb * 1024);
+		recorder_tell_quality(&link->recorder, &(struct recorder_quality){
+			.serial = quality_serial, .each = each_bad, .context = link });
 		link->exchange.recorder = &link->recorder;
 	}
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };

@@ -43,15 +43,35 @@ static void act(struct recorder *recorder, struct resource *resource, const char
 	recorder_changed(recorder, resource);
 }
 
+/* Every third scan another value is bad. */
+static int scans;
+
+static uint64_t quality_serial(void *context)
+{
+	(void)context;
+	return (uint64_t)(scans / 3 % 4);
+}
+
+static void each_bad(void *context, struct recorder *recorder)
+{
+	const uint32_t *at = context;
+
+	recorder_bad(recorder, 8 * at[AREA_I] + (uint32_t)scans % 8, 3, scans % 2);
+	recorder_bad(recorder, 8 * at[AREA_AI], 16, false);
+}
+
 static void play(struct recorder *recorder, struct resource *resource)
 {
 	const struct program *program = resource->image.program;
 	uint8_t identity[32];
 
 	code_identity(program, identity);
+	recorder_tell_quality(recorder, &(struct recorder_quality){ quality_serial, each_bad,
+								    (void *)(uintptr_t)program->areas.at });
 	resource_start(resource);
 	recorder_begin(recorder, resource, identity, RECORD_START);
 	for (int i = 1; i < 40; i++) {
+		scans = i;
 		image_area(&resource->image, AREA_I)[0] = (uint8_t)(i / 5);
 		recorder_scan(recorder, resource, i * INT64_C(10000000));
 		resource_scan(resource, i * INT64_C(10000000));
@@ -119,7 +139,8 @@ static void read_and_play(const uint8_t *bytes, size_t len)
 	}
 	if (playback_init(&playback, file)) {
 		for (int i = 0; i < 200 && playback_next(&playback); i++)
-			;
+			record_quality_of(playback.bad, playback.bad_len, playback.twin.resource.image.program,
+					  image_find(&playback.twin.resource.image, "In", 2));
 		playback_seek(&playback, record_file_first(file));
 	}
 	playback_free(&playback);

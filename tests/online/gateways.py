@@ -302,6 +302,39 @@ def test_each_value_has_its_own_quality():
                 '{"%IW0": "stale", "%IX10.0": "fault", "%IW2": "stale"}}' in out), (out, err)
 
 
+def test_a_record_tells_which_values_were_not_good():
+    with plant() as board:
+        gateway, desk = as_gateway(board.socket, 'modbus'), board.client()
+        gateway.io_put((LEVEL, INT, 5), (FULL, BOOL, True), (VALVE, BOOL, True), (SET, INT, 0))
+        until(lambda: desk.read('Level') == [5])
+        link.let_it_scan(desk)
+        for _ in range(3):
+            gateway.io_put((FULL, BOOL, None))
+        until(lambda: desk.read('Level', 'Full') and desk.quality == [STALE, FAULT])
+        link.let_it_scan(desk)
+        gateway.io_put((LEVEL, INT, 6), (FULL, BOOL, True))
+        until(lambda: desk.read('Level', 'Full') == [6, True] and desk.quality == [0, 0])
+        link.let_it_scan(desk)
+        assert board.command('record', '-o', 'a.record')[0] == 0
+        shown = board.ladder('replay', 'a.record', 'Level', 'Full', 'Other', 'Twice', '--changes')
+        assert shown.returncode == 0 and not shown.stderr, shown
+        steps = [line.split(' ', 2)[2] for line in shown.stdout.splitlines()]
+        # The device fails at once; the other value is stale after 400 ms and has its substitute then.
+        assert steps[0] == 'Level=77!stale Full=0!stale Twice=154', steps
+        assert steps[1] == 'Level=5 Full=1 Twice=10', steps
+        assert steps[2] == 'Full=0!fault', steps
+        assert steps[3] == 'Level=77!stale Twice=154', steps
+        assert steps[4] == 'Level=6 Full=1 Twice=12', steps
+        # Also where it begins in the middle.
+        shown = board.ladder('replay', 'a.record', 'Level', '--last', '1ms').stdout
+        assert shown.endswith(' Level=6\n'), shown
+        wave = board.ladder('replay', 'a.record', 'Full', '--vcd').stdout
+        assert [line for line in wave.splitlines() if 'comment' in line] == [
+            '$comment Full: stale $end', '$comment Full: good $end', '$comment Full: fault $end', '$comment Full: good $end'], wave
+        with open(board.folder + '/a.record', 'rb') as file:
+            assert file.read(12) == b'RUNGRECD\x02\0\0\0'
+
+
 def test_another_map_is_told():
     with plant('--slots', '.') as board:
         gateway, desk = as_gateway(board.socket, 'modbus'), board.client()

@@ -107,6 +107,19 @@ struct location image_locate(const struct image *image, struct iec_addr addr);
 struct location image_find(const struct image *image, const char *name,
 			   size_t len);
 
+/** image_bits - the bits that a variable has in a process image, whose areas follow one another. Fails:
+ * false: it is no input, output or other address. Scan-safe: yes. */
+static inline bool image_bits(const struct program *program, struct location at, uint32_t *first,
+			      uint32_t *count)
+{
+	at = location_whole(at);
+	if (at.type == IEC_NONE || at.constant)
+		return false;
+	*first = at.area != AREA_NONE ? 8 * program->areas.at[at.area] + at.where : 8 * at.where;
+	*count = at.area != AREA_NONE ? 1 : 8 * (uint32_t)iec_type_row(at.type)->size;
+	return at.area != AREA_NONE || at.where < program->areas.size;
+}
+
 /* A value between scans. The next image_begin (inputs) or the program sees a value that
  * was set. Scan-safe: yes. */
 union iec_value image_get(const struct image *image, struct location at);

@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#define BAD_PART 32u /* a list of values that are not good has at most this part of the ring */
 #define GAP_MOST 4u /* bytes that did not change, between two that did: one run    */
 
 /* ---- bytes ---- */
@@ -214,6 +215,63 @@ static void put_inputs(struct recorder *recorder, const struct resource *resourc
 		put_bytes(recorder, (uint8_t[2]){ 0, 0 }, 2);
 }
 
+/* ---- quality ---- */
+
+static void end_bad(struct recorder *recorder)
+{
+	struct record record = { .len = 0 };
+
+	if (!recorder->bad_count)
+		return;
+	put_number(&record, 2 * (uint64_t)recorder->bad_count + recorder->bad_fault);
+	put_number(&record, recorder->bad_at);
+	if (recorder->head + record.len <= recorder->quality_end)
+		put_record(recorder, &record);
+	recorder->bad_count = 0;
+}
+
+/* Neighbours are one run. */
+void recorder_bad(struct recorder *recorder, uint32_t bit, uint32_t count, bool fault)
+{
+	if (recorder->bad_count && recorder->bad_fault == fault &&
+	    recorder->bad_at + recorder->bad_count == bit) {
+		recorder->bad_count += count;
+		return;
+	}
+	end_bad(recorder);
+	recorder->bad_at = bit;
+	recorder->bad_count = count;
+	recorder->bad_fault = fault;
+}
+
+static void put_quality(struct recorder *recorder, uint64_t serial)
+{
+	put_bytes(recorder, &(uint8_t){ RECORD_STATE | RECORD_QUALITY << RECORD_SUB }, 1);
+	recorder->quality_end = recorder->head + recorder->size / BAD_PART;
+	if (serial)
+		recorder->quality.each(recorder->quality.context, recorder);
+	end_bad(recorder);
+	put_bytes(recorder, &(uint8_t){ 0 }, 1);
+	recorder->quality_serial = serial;
+}
+
+/* A list stands until the next one, or until a keyframe. */
+static void see_quality(struct recorder *recorder)
+{
+	uint64_t serial;
+
+	if (!recorder->quality.each)
+		return;
+	serial = recorder->quality.serial(recorder->quality.context);
+	if (serial != recorder->quality_serial)
+		put_quality(recorder, serial);
+}
+
+void recorder_tell_quality(struct recorder *recorder, const struct recorder_quality *quality)
+{
+	recorder->quality = *quality;
+}
+
 /* ---- keyframes ---- */
 
 static void put_tasks(struct recorder *recorder, const struct resource *resource)
@@ -305,6 +363,8 @@ static void put_key(struct recorder *recorder, const struct resource *resource,
 	put_tasks(recorder, resource);
 	put_forces(recorder, &resource->image);
 	put_bytes(recorder, resource->image.memory, recorder_core(resource->image.program));
+	recorder->quality_serial = 0;
+	see_quality(recorder);
 	see_inputs(recorder, resource);
 }
 
@@ -364,6 +424,7 @@ void recorder_scan(struct recorder *recorder, const struct resource *resource, i
 		recorder->now_ns = now_ns;
 		return;
 	}
+	see_quality(recorder);
 	put_inputs(recorder, resource);
 	head |= (resource->late ? RECORD_LATE : 0u) | (resource->io_fault ? RECORD_IO : 0u) |
 		(resource->watch ? RECORD_WATCH : 0u) |
@@ -495,6 +556,7 @@ void recorder_failed(struct recorder *recorder, const struct resource *resource)
 	put_inputs(recorder, resource);
 	see_inputs(recorder, resource);
 	put_state(recorder, RECORD_FAILED, &fault, 1);
+	see_quality(recorder);
 }
 
 void recorder_take(const struct recorder *recorder, struct recorder_part *part)

@@ -31,7 +31,7 @@ enum { RECORD_LATE = 8, RECORD_IO = 16, RECORD_WATCH = 32, RECORD_DUE = 64, RECO
 /* Why there is a keyframe. NEXT: the scans before it lead to the same state. */
 enum record_why { RECORD_NEXT, RECORD_START, RECORD_SWAP, RECORD_WHY_COUNT };
 enum record_state { RECORD_STOPPED, RECORD_FAILED, RECORD_TASKS, RECORD_INTERRUPTED,
-		    RECORD_STATE_COUNT };
+		    RECORD_QUALITY, RECORD_STATE_COUNT };
 /* Flags of a keyframe. */
 enum {
 	KEY_HALTED = 1, KEY_LATE = 2, KEY_IO = 4, KEY_WARM = 8, KEY_LOST = 16, KEY_OLD_COPY = 32,
@@ -42,6 +42,16 @@ enum { KEY_BEGAN = 1, KEY_DUE = 2, KEY_RAN = 4, KEY_WAS = 8 };
 #define KEY_HEAD  145u /* bytes of a keyframe before its tasks                 */
 #define KEY_TASK  37u
 #define KEY_FORCE 20u
+
+struct recorder;
+/* Which values of the I/O map are not good, as their owner knows it. */
+struct recorder_quality {
+	/* Another number whenever a value became good or bad; 0: all are good. */
+	uint64_t (*serial)(void *context);
+	/* Calls recorder_bad() for each value that is not good. */
+	void (*each)(void *context, struct recorder *recorder);
+	void *context;
+};
 
 struct recorder {
 	uint8_t *ring, *seen;         /* `seen`: inputs as they are in the record  */
@@ -56,6 +66,11 @@ struct recorder {
 	uint8_t identity[32];
 	uint64_t scan;                /* of the last one, counted for ever         */
 	int64_t now_ns, step_ns, wall_ns, period_ns;
+	struct recorder_quality quality; /* `each` is NULL: all are good always */
+	uint64_t quality_serial;      /* of the list that is in the record         */
+	uint64_t quality_end;         /* where a list must end                     */
+	uint32_t bad_at, bad_count;   /* the run that goes on; 0: none             */
+	bool bad_fault;
 };
 
 /** recorder_core - bytes of memory that a keyframe holds: without the power of cells.
@@ -68,6 +83,12 @@ bool recorder_input(const struct program *program, uint32_t i, uint32_t *at, uin
 /** recorder_init - an empty ring. @memory: @size + RECORDER_BESIDE bytes, borrowed. Scan-safe:
  * yes. */
 void recorder_init(struct recorder *recorder, uint8_t *memory, uint32_t size);
+
+/** recorder_tell_quality - from now on the record has the quality of values, too. Scan-safe: yes. */
+void recorder_tell_quality(struct recorder *recorder, const struct recorder_quality *quality);
+/** recorder_bad - called by `each`: @count bits of the process image from @bit on are a value, or some,
+ * that is stale, or in fault. Scan-safe: yes. */
+void recorder_bad(struct recorder *recorder, uint32_t bit, uint32_t count, bool fault);
 
 /* All of these between two scans, by the thread that scans. */
 

@@ -192,6 +192,21 @@ static bool take_run(struct reader *in, uint64_t *gap, uint64_t *len, const uint
 	return !in->failed && *len;
 }
 
+/* A run of bits that are not good. False: the list ends, or its form is wrong. */
+static bool take_bad(struct reader *in, uint64_t *first, uint64_t *count, bool *fault)
+{
+	const uint64_t head = take_number(in);
+
+	if (in->failed || !head)
+		return false;
+	*count = head >> 1;
+	*fault = head & 1;
+	*first = take_number(in);
+	if (!*count || *count > 8 * (uint64_t)LIMIT_AREAS || *first > 8 * (uint64_t)LIMIT_AREAS)
+		in->failed = true;
+	return !in->failed;
+}
+
 static bool is_text(uint32_t place)
 {
 	return CODE_TYPE(place) == IEC_STRING;
@@ -211,6 +226,16 @@ static void take_change(struct reader *in, struct item *item)
 		in->failed = true;
 	else
 		item->text = take(in, item->text_len);
+}
+
+static void take_quality(struct reader *in, struct item *item)
+{
+	uint64_t first, count;
+	bool fault;
+
+	item->runs = in->at;
+	while (take_bad(in, &first, &count, &fault))
+		continue;
 }
 
 static void take_interruption(struct reader *in, struct item *item)
@@ -250,6 +275,8 @@ static bool next_item(struct reader *in, struct item *item)
 	case RECORD_STATE:
 		if (item->head >> RECORD_SUB == RECORD_INTERRUPTED)
 			take_interruption(in, item);
+		else if (item->head >> RECORD_SUB == RECORD_QUALITY)
+			take_quality(in, item);
 		else if (item->head >> RECORD_SUB != RECORD_STOPPED)
 			item->number = take8(in);
 		if (item->head >> RECORD_SUB >= RECORD_STATE_COUNT)
@@ -259,6 +286,11 @@ static bool next_item(struct reader *in, struct item *item)
 		in->failed = true;
 	}
 	return !in->failed;
+}
+
+static bool is_state(const struct item *item, enum record_state state)
+{
+	return item->kind == RECORD_STATE && item->head >> RECORD_SUB == (uint32_t)state;
 }
 
 /* ---- the file ---- */
@@ -408,6 +440,18 @@ static bool is_good_inputs(const struct program *program, const struct item *ite
 	return !in.failed;
 }
 
+static bool is_good_quality(const struct program *program, const struct item *item, const uint8_t *end)
+{
+	struct reader in = { item->runs, end, false };
+	uint64_t first, count;
+	bool fault;
+
+	while (take_bad(&in, &first, &count, &fault))
+		if (first + count > 8 * (uint64_t)program->areas.size)
+			return false;
+	return !in.failed;
+}
+
 static bool is_good_change(const struct program *program, const struct item *item)
 {
 	const struct location at = place_locate(program, item->place);
@@ -487,6 +531,8 @@ static bool follow(struct record_file *file, struct course *course, const struct
 	case RECORD_WRITE: case RECORD_FORCE: case RECORD_UNFORCE:
 		return !program || is_good_change(program, item);
 	case RECORD_STATE:
+		if (item->head >> RECORD_SUB == RECORD_QUALITY)
+			return !program || is_good_quality(program, item, end);
 		return item->head >> RECORD_SUB != RECORD_FAILED ||
 		       (item->number > FAULT_NONE && item->number < FAULT_COUNT);
 	}
@@ -564,7 +610,7 @@ static bool open_head(struct record_file *file, struct reader *in, enum diag_id 
 	if (!magic || memcmp(magic, RECORD_MAGIC, 8) != 0)
 		return false;
 	*why = DIAG_RECORD_NEWER;
-	if (version != RECORD_VERSION)
+	if (!version || version > RECORD_VERSION)
 		return false;
 	*why = DIAG_RECORD_DAMAGED;
 	if (!board)
@@ -665,10 +711,12 @@ bool record_programs(struct record_parts *parts)
 	bool good = item;
 
 	parts->program_count = 0;
+	parts->has_quality = false;
 	while (good && in.at < in.end) {
 		uint32_t i = 0;
 
 		good = next_item(&in, item);
+		parts->has_quality |= good && is_state(item, RECORD_QUALITY);
 		if (!good || item->kind != RECORD_KEY)
 			continue;
 		while (i < parts->program_count &&
@@ -714,7 +762,7 @@ bool record_write(const struct record_parts *parts, const struct sink *out)
 	for (uint32_t i = 0; i < parts->program_count; i++)
 		known += parts->program[i].image != NULL;
 	give(&writer, RECORD_MAGIC, 8);
-	give32(&writer, RECORD_VERSION);
+	give32(&writer, parts->has_quality ? RECORD_VERSION : 1);
 	give32(&writer, board);
 	give(&writer, parts->board, board);
 	give32(&writer, known);
@@ -836,7 +884,26 @@ static bool load_key(struct playback *playback, const struct key *key)
 	playback->twin.scan = key->scan;
 	playback->twin.now_ns = key->now_ns ? key->now_ns - playback->file->begin_ns : 0;
 	playback->wall_ns = add(key->now_ns, key->wall_ns);
+	playback->bad = NULL;
+	playback->bad_len = 0;
 	return true;
+}
+
+static void use_quality(struct playback *playback, const struct item *item, const uint8_t *end)
+{
+	playback->bad = item->runs;
+	playback->bad_len = (size_t)(end - item->runs);
+}
+
+/* A list behind a keyframe, or behind a FAULT, belongs to that state. */
+static void take_quality_behind(struct playback *playback, struct item *item)
+{
+	struct reader in = reader_at(playback, playback->at);
+
+	if (in.at == in.end || !next_item(&in, item) || !is_state(item, RECORD_QUALITY))
+		return;
+	use_quality(playback, item, in.at);
+	playback->at = (size_t)(in.at - playback->file->log);
 }
 
 /* Temporaries may differ: a board that leaves out rungs does not write all of them in each scan. */
@@ -947,11 +1014,6 @@ static void do_change(struct image *image, const struct item *item)
 		image_force(image, at, value);
 	else
 		image_unforce(image, at);
-}
-
-static bool is_state(const struct item *item, enum record_state state)
-{
-	return item->kind == RECORD_STATE && item->head >> RECORD_SUB == (uint32_t)state;
 }
 
 /* ---- interruptions ---- */
@@ -1078,6 +1140,7 @@ static void finish_scan(struct playback *playback, struct item *item)
 		set_inputs(&resource->image, &inputs, fault.at);
 	resource_fail(resource, (enum fault)item->number);
 	playback->at = (size_t)(in.at - playback->file->log);
+	take_quality_behind(playback, item);
 }
 
 static uint32_t tasks_after(struct reader in)
@@ -1120,6 +1183,8 @@ static bool do_item(struct playback *playback, struct item *item, bool *scanned)
 			resource_stop(resource);
 		else if (is_state(item, RECORD_FAILED))
 			resource_fail(resource, (enum fault)item->number);
+		else if (is_state(item, RECORD_QUALITY))
+			use_quality(playback, item, in.at);
 		return true;
 	}
 	return false;
@@ -1145,8 +1210,10 @@ static bool jump(struct playback *playback, const struct place_of_key *key)
 	struct item *item = malloc(sizeof(*item));
 	bool good = item && next_item(&in, item) && load_key(playback, &item->key);
 
-	free(item);
 	playback->at = (size_t)(in.at - playback->file->log);
+	if (good)
+		take_quality_behind(playback, item);
+	free(item);
 	return good;
 }
 
@@ -1180,4 +1247,23 @@ bool playback_init(struct playback *playback, const struct record_file *file)
 void playback_free(struct playback *playback)
 {
 	twin_free(&playback->twin);
+}
+
+/* ---- quality of values ---- */
+
+enum record_quality record_quality_of(const uint8_t *bad, size_t len, const struct program *program,
+				      struct location at)
+{
+	struct reader in = { bad, bad ? bad + len : bad, false };
+	enum record_quality quality = RECORD_GOOD;
+	uint64_t first, count;
+	uint32_t bit, bits;
+	bool fault;
+
+	if (!bad || !image_bits(program, at, &bit, &bits))
+		return RECORD_GOOD;
+	while (take_bad(&in, &first, &count, &fault))
+		if (first < (uint64_t)bit + bits && bit < first + count && quality != RECORD_BROKEN)
+			quality = fault ? RECORD_BROKEN : RECORD_STALE;
+	return quality;
 }

@@ -14,7 +14,7 @@
 #include "engine/trial/twin.h"
 
 #define RECORD_MAGIC   "RUNGRECD"
-#define RECORD_VERSION 1u
+#define RECORD_VERSION 2u    /* that of a log without quality of values is 1   */
 #define RECORD_PROGRAMS 16 /* in a file, at most                               */
 #define RECORD_MOST    (256u << 20) /* bytes of a file                         */
 
@@ -31,8 +31,9 @@ struct record_parts {
 	uint32_t program_count;
 	const uint8_t *log;
 	size_t len;
+	bool has_quality;         /* of values; else older versions can read it */
 };
-/** record_programs - finds the programs that a log names, without their images. Scan-safe: no.
+/** record_programs - finds the programs that a log names, without their images, and has_quality. Scan-safe: no.
  * Fails: false: the log is damaged, or names too many. */
 bool record_programs(struct record_parts *parts);
 /** record_write - the file. Programs without an image are left out. Scan-safe: no. Fails:
@@ -73,6 +74,9 @@ struct playback {
 	bool exact;               /* set before a seek: power of cells only where the board
 				   * computed it, and keyframes are compared */
 	uint64_t differs;         /* scan of the first keyframe that differs; 0: none */
+	/* Which values were not good: runs of the log, for record_quality_of(). NULL: all were good. */
+	const uint8_t *bad;
+	size_t bad_len;
 	/* Its own. */
 	size_t at;                /* the next record                          */
 	int64_t time_ns, step_ns;
@@ -92,4 +96,12 @@ bool playback_next(struct playback *playback);
 /** playback_seek - to the state right after a scan. Fails: false: it is not in the file, or no
  * memory. */
 bool playback_seek(struct playback *playback, uint64_t scan);
+
+/* ---- quality of values ---- */
+
+enum record_quality { RECORD_GOOD, RECORD_STALE, RECORD_BROKEN };
+/** record_quality_of - of the value at @at, in runs as those of struct playback: the worst of its bits.
+ * Scan-safe: yes. */
+enum record_quality record_quality_of(const uint8_t *bad, size_t len, const struct program *program,
+				      struct location at);
 #endif

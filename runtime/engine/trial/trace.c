@@ -13,6 +13,7 @@
 #include <string.h>
 
 #define RANGE_MAX 65536 /* columns of one range */
+#define VALUE_TEXT (IEC_VALUE_TEXT + 16) /* a value and what is told of it */
 
 void trace_init(struct trace *trace, const struct image *image,
 		const struct sink *out, enum trace_form form, bool changes)
@@ -75,6 +76,16 @@ static bool trace_update(struct trace_column *column, union iec_value value)
 	}
 	column->last = value;
 	return !same;
+}
+
+/* As trace_update(), of what is told of the value. The plant has no I/O map. */
+static bool quality_update(const struct trace *trace, struct trace_column *column)
+{
+	const char *before = column->bad;
+
+	column->bad = !trace->quality || column->gone || column->image != trace->image ? NULL :
+		      trace->quality(trace->quality_context, column->at);
+	return column->bad != before;
 }
 
 /* What declares @name, if its values have names. */
@@ -308,11 +319,16 @@ static void print_value(const struct trace *trace, const struct trace_column *co
 		snprintf(text, size, "%s", word);
 	else
 		iec_value_print(column->at.type, column->last, text, size);
+	if (column->bad) {
+		const size_t len = strlen(text);
+
+		snprintf(text + len, size - len, "!%s", column->bad);
+	}
 }
 
 static void write_value(struct trace *trace, const struct trace_column *column)
 {
-	char text[IEC_VALUE_TEXT];
+	char text[VALUE_TEXT];
 
 	print_value(trace, column, text, sizeof(text));
 	sink_text(trace->out, text);
@@ -338,8 +354,9 @@ static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
 		union iec_value value = present(column);
+		const bool other = quality_update(trace, column);
 
-		if (!trace_update(column, value) && trace->changes)
+		if (!trace_update(column, value) && !other && trace->changes)
 			continue;
 		if (!any)
 			sink_printf(trace->out, "%llu t=%s",
@@ -381,7 +398,7 @@ static void csv_field(struct trace *trace, const char *text)
 static void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 {
 	union iec_value time = { .i = now_ns };
-	char text[IEC_VALUE_TEXT];
+	char text[VALUE_TEXT];
 	bool changed = false;
 
 	if (!trace->begun)
@@ -389,6 +406,7 @@ static void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 	for (int i = 0; i < trace->count; i++) {
 		struct trace_column *column = &trace->column[i];
 
+		changed |= quality_update(trace, column);
 		changed |= trace_update(column,
 					present(column));
 	}
@@ -497,19 +515,39 @@ static void trace_vcd_head(struct trace *trace)
 	trace->stamp_ns = 0;
 }
 
+static void vcd_stamp(struct trace *trace, int64_t now_ns)
+{
+	if (trace->stamp_ns != now_ns)
+		sink_printf(trace->out, "#%lld\n", (long long)now_ns);
+	trace->stamp_ns = now_ns;
+}
+
+/* A wave has no such mark: the value stays, and a comment says what it is. */
+static void vcd_quality(struct trace *trace, int64_t now_ns)
+{
+	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
+		struct trace_column *column = &trace->column[i];
+
+		if (!quality_update(trace, column))
+			continue;
+		vcd_stamp(trace, now_ns);
+		sink_printf(trace->out, "$comment %s: %s $end\n", column->name,
+			    column->bad ? column->bad : "good");
+	}
+}
+
 static void trace_vcd(struct trace *trace, int64_t now_ns)
 {
 	if (!trace->begun)
 		trace_vcd_head(trace);
 	trace->last_ns = now_ns;
+	vcd_quality(trace, now_ns);
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
 
 		if (!trace_update(column, present(column)))
 			continue;
-		if (trace->stamp_ns != now_ns)
-			sink_printf(trace->out, "#%lld\n", (long long)now_ns);
-		trace->stamp_ns = now_ns;
+		vcd_stamp(trace, now_ns);
 		vcd_value(trace, i);
 	}
 }

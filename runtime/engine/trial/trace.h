@@ -6,6 +6,7 @@
  * image and writes to a sink.
  *
  *   12 t=120 Motor=1 Runout.ET=20.5      scan, time in ms, values
+ *   13 t=130 Level=77!stale              a value of the I/O map that is not good
  */
 #ifndef TRIAL_TRACE_H
 #define TRIAL_TRACE_H
@@ -26,6 +27,7 @@ struct trace_column {
 	bool gone;             /* the image has no such variable now           */
 	union iec_value last;  /* value shown last; 0 to begin with; a STRING's bytes are
 			        * the trace's own */
+	const char *bad;       /* what was told of it last: see struct trace; NULL: it was good */
 };
 
 struct trace {
@@ -39,6 +41,10 @@ struct trace {
 	struct project *project; /* set likewise, or NULL: values of enumerations get their names */
 	const bool *stop;      /* set by the caller after trace_init, or NULL: when it is
 			        * true, running scans ends */
+	/* Set likewise, or NULL: what a value is that is not good, `stale` or `fault`; NULL: it is good.
+	 * `Level=77!stale` in lines and CSV, a comment in VCD. The words live for ever. */
+	const char *(*quality)(void *context, struct location at);
+	void *quality_context;
 	bool begun;            /* the head of CSV or VCD is written          */
 	int64_t stamp_ns;      /* VCD: time written last                     */
 	int64_t last_ns;       /* VCD: time of the last scan                 */
