@@ -18,6 +18,7 @@ struct line {
 	struct location at;   /* in the program whose scan is shown             */
 	struct location here; /* in that of the scan that is taken              */
 	double *sample;       /* TIMING_SCANS of them, by scan                  */
+	guint8 *quality;      /* likewise, of enum sim_quality                  */
 };
 struct timing {
 	LadderSim *sim;
@@ -35,6 +36,7 @@ static void line_free(gpointer pointer)
 
 	g_free(line->name);
 	g_free(line->sample);
+	g_free(line->quality);
 	g_free(line);
 }
 
@@ -93,6 +95,7 @@ bool timing_add(struct timing *timing, const char *name)
 	line = g_new0(struct line, 1);
 	line->name = g_strdup(name);
 	line->sample = g_new0(double, TIMING_SCANS);
+	line->quality = g_new0(guint8, TIMING_SCANS);
 	line->at = live_value_find(live_image(timing->sim, false), name);
 	g_ptr_array_add(timing->lines, line);
 	begin_anew(timing);
@@ -166,6 +169,7 @@ static void take(struct timing *timing, const struct twin *twin)
 
 		line->sample[slot] = line->here.type == IEC_NONE ? 0 :
 			live_value_number(line->here.type, image_get(image, line->here));
+		line->quality[slot] = (guint8)ladder_sim_replay_quality(timing->sim, timing->replay, line->here);
 	}
 	timing->end = twin->scan + 1;
 	if (timing->end - timing->first > TIMING_SCANS)
@@ -245,6 +249,11 @@ guint64 timing_scan_at(const struct timing *timing, gint64 ns)
 double timing_value(const struct timing *timing, int line, guint64 scan)
 {
 	return line_at(timing, line)->sample[scan % TIMING_SCANS];
+}
+
+enum sim_quality timing_quality(const struct timing *timing, int line, guint64 scan)
+{
+	return (enum sim_quality)line_at(timing, line)->quality[scan % TIMING_SCANS];
 }
 
 bool timing_range(const struct timing *timing, int line, guint64 from, guint64 to,

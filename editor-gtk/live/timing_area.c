@@ -41,6 +41,7 @@ struct _LadderTimingArea {
 	gint64 mark_ns;           /* second cursor, to measure from; -1: none   */
 	double drag_x;            /* where a drag began                         */
 	double pan_ns;            /* right_ns when a pan began                  */
+	char *bad;                /* what a screen reader says of values that are not good */
 	guint idle;               /* takes the scans that are missing           */
 	GtkAdjustment *scrolled;  /* vertical scrolling; NULL: none             */
 };
@@ -142,6 +143,31 @@ static gboolean fill_idle(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+static bool has_scan(LadderTimingArea *area, guint64 scan)
+{
+	return scan >= timing_first(area->timing) && scan < timing_end(area->timing);
+}
+
+/* The lines whose values are not good at the scan that is shown. */
+static void say_bad(LadderTimingArea *area)
+{
+	const struct twin *twin = ladder_sim_twin(area->sim);
+	GString *text = g_string_new(NULL);
+
+	for (int i = 0; twin && has_scan(area, twin->scan) && i < timing_lines(area->timing); i++) {
+		const enum sim_quality quality = timing_quality(area->timing, i, twin->scan);
+
+		if (quality == SIM_GOOD)
+			continue;
+		g_string_append(text, text->len ? ", " : "");
+		g_string_append_printf(text, _("%s: %s"), timing_name(area->timing, i), live_quality_word(quality));
+	}
+	if (g_strcmp0(area->bad, text->str) != 0)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(area), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text->str, -1);
+	g_free(area->bad);
+	area->bad = g_string_free(text, FALSE);
+}
+
 static void tell_cursor(LadderTimingArea *area)
 {
 	const struct twin *twin = ladder_sim_twin(area->sim);
@@ -167,6 +193,7 @@ static void shown(LadderTimingArea *area)
 		area->idle = g_idle_add(fill_idle, area);
 	if (ladder_sim_is_past(area->sim))
 		tell_cursor(area);
+	say_bad(area);
 	if (end != timing_end(area->timing) || ladder_sim_state(area->sim) != SIM_RUN)
 		gtk_widget_queue_draw(GTK_WIDGET(area));
 }
@@ -473,6 +500,78 @@ static guint64 scan_from(struct drawing *drawing)
 	return timing_scan_at(drawing->timing, (gint64)MAX(drawing->left_ns, 0));
 }
 
+static void set_color(cairo_t *cairo, const GdkRGBA *color, float alpha)
+{
+	cairo_set_source_rgba(cairo, (double)color->red, (double)color->green,
+			      (double)color->blue, (double)alpha);
+}
+
+/* ---- stretches that are not good ---- */
+
+#define HATCH_PX 7
+
+/* Slanted strokes, as colour alone would not be enough; those of a fault cross. */
+static void hatch(cairo_t *cairo, double x, double y, double width, double height, bool cross)
+{
+	cairo_save(cairo);
+	cairo_rectangle(cairo, x, y, width, height);
+	cairo_clip(cairo);
+	for (double at = floor((x - height) / HATCH_PX) * HATCH_PX; at < x + width + height; at += HATCH_PX) {
+		cairo_move_to(cairo, at, y + height);
+		cairo_line_to(cairo, at + height, y);
+		if (!cross)
+			continue;
+		cairo_move_to(cairo, at, y);
+		cairo_line_to(cairo, at + height, y + height);
+	}
+	cairo_stroke(cairo);
+	cairo_restore(cairo);
+}
+
+static double x_in_plot(struct drawing *drawing, guint64 scan)
+{
+	return CLAMP(x_of(drawing->area, (double)timing_time(drawing->timing, scan)), NAMES_PX, drawing->width);
+}
+
+/* The first scan from @scan on with another quality. */
+static guint64 stretch_end(const struct timing *timing, int line, guint64 scan)
+{
+	const enum sim_quality quality = timing_quality(timing, line, scan);
+
+	do
+		scan++;
+	while (scan < timing_end(timing) && timing_quality(timing, line, scan) == quality);
+	return scan;
+}
+
+/* The plot behind the curve is grey where the value was not good. A stretch of one scan has a pixel at least. */
+static void draw_stretches(struct drawing *drawing, int line, double top, cairo_t *cairo)
+{
+	const struct timing *timing = drawing->timing;
+	const GdkRGBA *color = &drawing->theme->color[TOKEN_COMMENT];
+	guint64 end;
+
+	cairo_set_line_width(cairo, 1);
+	cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
+	for (guint64 scan = scan_from(drawing); scan < timing_end(timing); scan = end) {
+		const enum sim_quality quality = timing_quality(timing, line, scan);
+		const double x = x_in_plot(drawing, scan);
+		double width;
+
+		end = stretch_end(timing, line, scan);
+		if (quality == SIM_GOOD)
+			continue;
+		if (x >= drawing->width)
+			return;
+		width = MAX(x_in_plot(drawing, MIN(end, timing_end(timing) - 1)) - x, 1);
+		set_color(cairo, color, 0.16f);
+		cairo_rectangle(cairo, x, top + 4, width, ROW_PX - 8);
+		cairo_fill(cairo);
+		set_color(cairo, color, 0.6f);
+		hatch(cairo, x, top + 4, width, ROW_PX - 8, quality == SIM_VALUE_FAULT);
+	}
+}
+
 struct curve {
 	cairo_t *cairo;
 	double y, height, low, range;  /* place and range of its values       */
@@ -534,12 +633,6 @@ static void trace_curve(struct drawing *drawing, int line, struct curve *curve, 
 	cairo_close_path(curve->cairo);
 }
 
-static void set_color(cairo_t *cairo, const GdkRGBA *color, float alpha)
-{
-	cairo_set_source_rgba(cairo, (double)color->red, (double)color->green,
-			      (double)color->blue, (double)alpha);
-}
-
 static void range_of(struct drawing *drawing, int line, struct curve *curve)
 {
 	double low = 0, high = 1;
@@ -575,6 +668,7 @@ static void draw_curve(struct drawing *drawing, int line, double top)
 
 	range_of(drawing, line, &curve);
 	curve.cairo = cairo;
+	draw_stretches(drawing, line, top, cairo);
 	cairo_set_antialias(cairo, bit ? CAIRO_ANTIALIAS_NONE : CAIRO_ANTIALIAS_DEFAULT);
 	if (bit) {
 		trace_curve(drawing, line, &curve, true);
@@ -603,16 +697,21 @@ static guint64 scan_shown(struct drawing *drawing)
 static void draw_name(struct drawing *drawing, int line, double top)
 {
 	const struct location at = timing_at(drawing->timing, line);
+	enum sim_quality quality = SIM_GOOD;
 	char value[32] = "";
 
 	if (line == drawing->area->selected)
 		fill(drawing, TOKEN_ACCENT, drawing->theme->wash, 0, top, NAMES_PX,
 		     ROW_PX);
-	if (timing_first(drawing->timing) < timing_end(drawing->timing))
+	if (timing_first(drawing->timing) < timing_end(drawing->timing)) {
 		live_number_print(at.type, timing_value(drawing->timing, line, scan_shown(drawing)),
 				  value, sizeof(value));
-	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(drawing->timing, line), 14, top + 22,
-	     NAMES_PX - 100);
+		quality = timing_quality(drawing->timing, line, scan_shown(drawing));
+	}
+	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(drawing->timing, line), 14,
+	     top + (quality == SIM_GOOD ? 22 : 15), NAMES_PX - 100);
+	if (quality != SIM_GOOD)
+		text(drawing, LETTER_ADDRESS, TOKEN_ERROR, live_quality_text(quality), 14, top + 29, NAMES_PX - 100);
 	text(drawing, LETTER_VALUE, TOKEN_ACCENT, value, NAMES_PX - 78, top + 22, 74);
 }
 
@@ -731,6 +830,54 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 	lettering_trim(area->lettering);
 }
 
+/* ---- words below the pointer ---- */
+
+/* A scan of the stretch that is below @x: the one that stands there, or, as a stretch may be narrower than a
+ * pixel, a bad one of that pixel. */
+static bool find_bad(LadderTimingArea *area, int line, double x, guint64 *scan)
+{
+	const guint64 end = timing_end(area->timing);
+	const double until = ns_at(area, x + 1);
+
+	*scan = timing_scan_at(area->timing, (gint64)MAX(ns_at(area, x - 1), 0));
+	for (; *scan < end && (double)timing_time(area->timing, *scan) <= until; (*scan)++)
+		if (timing_quality(area->timing, line, *scan) != SIM_GOOD)
+			return true;
+	return false;
+}
+
+static guint64 stretch_begin(const struct timing *timing, int line, guint64 scan)
+{
+	const enum sim_quality quality = timing_quality(timing, line, scan);
+
+	while (scan > timing_first(timing) && timing_quality(timing, line, scan - 1) == quality)
+		scan--;
+	return scan;
+}
+
+static gboolean query_tooltip(GtkWidget *widget, int x, int y, gboolean keyboard, GtkTooltip *tooltip,
+			      gpointer unused)
+{
+	LadderTimingArea *area = LADDER_TIMING_AREA(widget);
+	const struct timing *timing = area->timing;
+	const int line = keyboard ? -1 : line_at(area, y);
+	char *text, from[32], to[32];
+	guint64 scan, end;
+
+	(void)unused;
+	if (line < 0 || x < NAMES_PX || timing_first(timing) >= timing_end(timing) ||
+	    !ladder_sim_is_on(area->sim) || !find_bad(area, line, x, &scan))
+		return FALSE;
+	end = MIN(stretch_end(timing, line, scan), timing_end(timing) - 1);
+	live_time_print(timing_time(timing, stretch_begin(timing, line, scan)), from, sizeof(from));
+	live_time_print(timing_time(timing, end), to, sizeof(to));
+	text = g_strdup_printf(_("%s: %s, from %s to %s"), timing_name(timing, line),
+			       live_quality_word(timing_quality(timing, line, scan)), from, to);
+	gtk_tooltip_set_text(tooltip, text);
+	g_free(text);
+	return TRUE;
+}
+
 /* ---- the widget ---- */
 
 static void area_measure(GtkWidget *widget, GtkOrientation orientation, int for_size,
@@ -770,6 +917,7 @@ static void ladder_timing_area_dispose(GObject *object)
 
 	g_clear_handle_id(&area->idle, g_source_remove);
 	g_clear_pointer(&area->timing, timing_free);
+	g_clear_pointer(&area->bad, g_free);
 	g_clear_pointer(&area->lettering, lettering_free);
 	g_clear_object(&area->scrolled);
 	g_clear_object(&area->sim);
@@ -828,6 +976,8 @@ static void ladder_timing_area_init(LadderTimingArea *area)
 	add_drag(area, GDK_BUTTON_PRIMARY, G_CALLBACK(drag_begin), G_CALLBACK(drag_update));
 	add_drag(area, GDK_BUTTON_MIDDLE, G_CALLBACK(pan_begin), G_CALLBACK(pan_update));
 	add_menu(area);
+	gtk_widget_set_has_tooltip(GTK_WIDGET(area), TRUE);
+	g_signal_connect(area, "query-tooltip", G_CALLBACK(query_tooltip), NULL);
 	g_signal_connect(wheel, "scroll", G_CALLBACK(scroll), area);
 	gtk_widget_add_controller(GTK_WIDGET(area), wheel);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), area);

@@ -242,7 +242,16 @@ bool ladder_sim_knows(LadderSim *sim, struct location at)
 
 enum sim_quality ladder_sim_quality(LadderSim *sim, struct location at)
 {
-	return ladder_sim_is_on(sim) && !sim->past ? sim->source->quality(sim->source, at) : SIM_GOOD;
+	if (!ladder_sim_is_on(sim) || at.type == IEC_NONE)
+		return SIM_GOOD;
+	return sim->source->quality(sim->source, &sim->view, sim->past ? sim->replay : NULL, at);
+}
+
+enum sim_quality ladder_sim_replay_quality(LadderSim *sim, const struct sim_replay *replay, struct location at)
+{
+	if (!ladder_sim_is_on(sim) || !replay->program || at.type == IEC_NONE)
+		return SIM_GOOD;
+	return sim->source->quality(sim->source, &sim->view, replay, at);
 }
 
 bool ladder_sim_has_power(LadderSim *sim, const char *unit)

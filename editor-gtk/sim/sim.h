@@ -225,7 +225,8 @@ bool ladder_sim_knows(LadderSim *sim, struct location at);
 /* How good the value of an input or output is, as the board says. STALE: it has had no new one for the time of
  * the I/O map; FAULT: its device is gone, answers with errors, or measures what cannot be. */
 enum sim_quality { SIM_GOOD, SIM_STALE, SIM_VALUE_FAULT };
-/** ladder_sim_quality - of the newest scan of a board; good in a simulation and of scans before. */
+/** ladder_sim_quality - at the scan that is shown: as the board says or has recorded it; in a simulation as the
+ * inputs of the driver `quality` of the I/O map say. */
 enum sim_quality ladder_sim_quality(LadderSim *sim, struct location at);
 /** ladder_sim_has_power - the same of the power of the cells of a program or of an instance. */
 bool ladder_sim_has_power(LadderSim *sim, const char *unit);
@@ -279,6 +280,8 @@ void sim_replay_free(struct sim_replay *replay);
 bool ladder_sim_replay(LadderSim *sim, struct sim_replay *replay, guint64 scan);
 /** sim_replay_twin - the state after its scan; NULL: of none. Borrowed until the next step. */
 const struct twin *sim_replay_twin(const struct sim_replay *replay);
+/** ladder_sim_replay_quality - of a place in the twin of @replay, as ladder_sim_quality(). */
+enum sim_quality ladder_sim_replay_quality(LadderSim *sim, const struct sim_replay *replay, struct location at);
 /** sim_replay_program - changes with the places of variables; 0: of no program. */
 guint64 sim_replay_program(const struct sim_replay *replay);
 

@@ -17,6 +17,12 @@
 #define WANT_MS 50    /* needs of several views are asked for together         */
 #define WANTS_MOST 4096 /* needs that are stored                               */
 
+/* From this scan on a value has this quality. */
+struct mark {
+	guint64 scan;
+	enum sim_quality quality;
+};
+
 struct sim_mirror {
 	struct sim_source source;
 	struct sim_board board;
@@ -29,9 +35,13 @@ struct sim_mirror {
 	gint64 base_ns;          /* of the board's clock: time 0 here          */
 	bool begun;              /* a moment has come                          */
 	bool plays;              /* a recording: all is known, and nothing comes  */
+	guint8 *last_bad;        /* of its last scan, as of struct playback      */
+	gsize last_bad_len;
 	int forces;              /* as the board counts; -1: not told          */
 	bool other;              /* something became known: places are to be found again */
 	GHashTable *known;       /* word of a place → enum sim_quality, + 1      */
+	GHashTable *marks;       /* word of a place → GArray of struct mark, oldest first */
+	GArray *marked;          /* words of places that become another quality at the next moment */
 	GHashTable *powered;     /* names of units, of the program             */
 	GArray *wants;           /* words of places, the newest last           */
 	GPtrArray *units;        /* names, likewise                            */
@@ -71,6 +81,8 @@ static void free_source(struct sim_source *source)
 	g_clear_handle_id(&mirror->want_timer, g_source_remove);
 	g_clear_handle_id(&mirror->notify_idle, g_source_remove);
 	g_hash_table_unref(mirror->known);
+	g_hash_table_unref(mirror->marks);
+	g_array_unref(mirror->marked);
 	g_hash_table_unref(mirror->powered);
 	g_array_unref(mirror->wants);
 	g_ptr_array_unref(mirror->units);
@@ -78,6 +90,7 @@ static void free_source(struct sim_source *source)
 	sim_history_free(mirror->history);
 	twin_free(&mirror->twin);
 	sim_program_unref(mirror->board.program);
+	g_free(mirror->last_bad);
 	g_free(mirror->name);
 	g_free(mirror);
 }
@@ -165,6 +178,15 @@ static void leave_texts(const struct sim_mirror *mirror, struct twin *twin)
 	twin->safe = NULL;
 }
 
+/* The bytes of the playback go with its file. */
+static void keep_bad(const struct sim_mirror *mirror, struct sim_replay *replay)
+{
+	g_free(replay->bad);
+	replay->bad_len = mirror->playback.bad_len;
+	replay->bad = g_memdup2(mirror->playback.bad, replay->bad_len);
+	replay->recorded = true;
+}
+
 static bool play(struct sim_mirror *mirror, guint64 scan, struct twin *twin)
 {
 	gint64 clock;
@@ -195,8 +217,10 @@ static bool replay(struct sim_source *source, struct sim_replay *replay, guint64
 	if (mirror->joined && scan >= mirror->first && scan <= mirror->last &&
 	    play(mirror, scan, &replay->replay.twin)) {
 		replay->at = 0; /* not in the history */
+		keep_bad(mirror, replay);
 		return true;
 	}
+	replay->recorded = false;
 	return sim_history_seek(mirror->history, &replay->at, &replay->replay.twin, scan);
 }
 
@@ -265,17 +289,87 @@ static bool knows(struct sim_source *source, struct location at)
 	return false;
 }
 
-static enum sim_quality quality(struct sim_source *source, struct location at)
-{
-	struct sim_mirror *mirror = mirror_of(source);
-	gpointer word, found = NULL;
+/* ---- quality ---- */
 
-	at = location_whole(at);
-	if (mirror->plays || at.type == IEC_NONE || at.constant)
-		return SIM_GOOD;
-	word = GUINT_TO_POINTER(place_word(program_of(mirror), at));
-	found = g_hash_table_lookup(mirror->known, word);
+G_STATIC_ASSERT((int)RECORD_STALE == (int)SIM_STALE && (int)RECORD_BROKEN == (int)SIM_VALUE_FAULT);
+
+static enum sim_quality known_quality(const struct sim_mirror *mirror, gpointer word)
+{
+	const gpointer found = g_hash_table_lookup(mirror->known, word);
+
 	return found ? (enum sim_quality)(GPOINTER_TO_UINT(found) - 1) : SIM_GOOD;
+}
+
+/* As it was at a scan that was published. */
+static enum sim_quality quality_at(const struct sim_mirror *mirror, gpointer word, guint64 scan)
+{
+	const GArray *marks = g_hash_table_lookup(mirror->marks, word);
+	guint low = 0, high = marks ? marks->len : 0;
+
+	while (low < high) {
+		const guint middle = low + (high - low) / 2;
+
+		if (g_array_index(marks, struct mark, middle).scan <= scan)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return low ? g_array_index(marks, struct mark, low - 1).quality : SIM_GOOD;
+}
+
+static enum sim_quality quality(struct sim_source *source, const struct sim_view *view,
+				const struct sim_replay *replay, struct location at)
+{
+	const struct sim_mirror *mirror = mirror_of(source);
+	const guint8 *bad = replay ? replay->bad : mirror->last_bad;
+	gpointer word;
+
+	(void)view;
+	at = location_whole(at);
+	if (at.type == IEC_NONE || at.constant)
+		return SIM_GOOD;
+	if (replay ? replay->recorded : mirror->plays)
+		return (enum sim_quality)record_quality_of(bad, replay ? replay->bad_len : mirror->last_bad_len,
+							   program_of(mirror), at);
+	word = GUINT_TO_POINTER(place_word(program_of(mirror), at));
+	return replay ? quality_at(mirror, word, replay->replay.twin.scan) : known_quality(mirror, word);
+}
+
+static void forget_marks(struct sim_mirror *mirror)
+{
+	g_hash_table_remove_all(mirror->marks);
+	g_array_set_size(mirror->marked, 0);
+}
+
+/* Of what the history has forgotten only the last one is needed. */
+static void drop_marks(const struct sim_mirror *mirror, GArray *marks)
+{
+	const guint64 first = sim_history_first(mirror->history);
+	guint count = 0;
+
+	while (count + 1 < marks->len && g_array_index(marks, struct mark, count + 1).scan <= first)
+		count++;
+	if (count)
+		g_array_remove_range(marks, 0, count);
+}
+
+/* Values came before the moment that says of which scan they are. */
+static void mark_changes(struct sim_mirror *mirror)
+{
+	for (guint i = 0; i < mirror->marked->len; i++) {
+		const gpointer word = GUINT_TO_POINTER(g_array_index(mirror->marked, guint32, i));
+		GArray *marks = g_hash_table_lookup(mirror->marks, word);
+		const struct mark mark = { mirror->twin.scan, known_quality(mirror, word) };
+
+		if (!marks) {
+			marks = g_array_new(FALSE, FALSE, sizeof(struct mark));
+			g_hash_table_insert(mirror->marks, word, marks);
+		}
+		if (marks->len && marks->len % 1024 == 0)
+			drop_marks(mirror, marks);
+		g_array_append_val(marks, mark);
+	}
+	g_array_set_size(mirror->marked, 0);
 }
 
 /* ---- cells ---- */
@@ -482,6 +576,7 @@ void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced
 		      union iec_value value)
 {
 	struct image *image = &mirror->twin.resource.image;
+	guint32 word;
 
 	if (at.type == IEC_NONE || at.constant)
 		return;
@@ -493,8 +588,10 @@ void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced
 		image_force(image, at, value);
 	else
 		image_set(image, at, value);
-	if (g_hash_table_insert(mirror->known, GUINT_TO_POINTER(place_word(program_of(mirror), at)),
-				GUINT_TO_POINTER((guint)quality + 1)))
+	word = place_word(program_of(mirror), at);
+	if (quality_at(mirror, GUINT_TO_POINTER(word), G_MAXUINT64) != quality)
+		g_array_append_val(mirror->marked, word);
+	if (g_hash_table_insert(mirror->known, GUINT_TO_POINTER(word), GUINT_TO_POINTER((guint)quality + 1)))
 		mirror->other = true;
 }
 
@@ -554,6 +651,7 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 		mirror->history = sim_history_new(twin, SIM_BYTES);
 		mirror->era = ++eras;
 		drop_record(mirror);
+		forget_marks(mirror);
 	} else if (mirror->begun && moment->scan < twin->scan) {
 		return;
 	}
@@ -561,6 +659,7 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 	twin->scan = twin->resource.scans = moment->scan;
 	twin->now_ns = moment->now_ns - mirror->base_ns;
 	twin->resource.state = moment->state;
+	mark_changes(mirror);
 	sim_history_add(mirror->history, twin);
 	if (mirror->file && !mirror->joined)
 		join_record(mirror);
@@ -609,6 +708,8 @@ bool sim_mirror_play(struct sim_mirror *mirror, struct record_file *file)
 	twin_copy(&mirror->twin, &last.twin);
 	mirror->twin.period_ns = period_ns > 0 ? period_ns : SIM_PERIOD;
 	leave_texts(mirror, &mirror->twin);
+	mirror->last_bad_len = last.bad_len;
+	mirror->last_bad = g_memdup2(last.bad, last.bad_len);
 	moment = (struct sim_moment){ mirror->twin.resource.state, record_file_last(file),
 				      mirror->twin.now_ns };
 	playback_free(&last);
@@ -658,6 +759,8 @@ struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc not
 	mirror->history = sim_history_new(&mirror->twin, SIM_BYTES);
 	mirror->era = ++eras;
 	mirror->known = g_hash_table_new(NULL, NULL);
+	mirror->marks = g_hash_table_new_full(NULL, NULL, NULL, (GDestroyNotify)g_array_unref);
+	mirror->marked = g_array_new(FALSE, FALSE, sizeof(guint32));
 	mirror->powered = g_hash_table_new(NULL, NULL);
 	mirror->wants = g_array_new(FALSE, FALSE, sizeof(guint32));
 	mirror->units = g_ptr_array_new();

@@ -91,6 +91,13 @@ static bool build(struct ladder *ladder, const char *file, const char *text, gsi
 	return ladder_load_text(ladder, file, text, len) && ladder_build(ladder);
 }
 
+static void take_map(struct sim_program *program, struct iomap_at_rest map)
+{
+	program->safe = map.safe;
+	program->said = map.said;
+	program->said_count = map.said_count;
+}
+
 static struct sim_program *read_program(struct ladder *reader, const char *file, const char *text,
 					gsize len, bool listed, GError **error)
 {
@@ -113,8 +120,7 @@ static struct sim_program *read_program(struct ladder *reader, const char *file,
 		return NULL;
 	}
 	program->program = ladder_program(program->ladder);
-	program->safe = iomap_safe_beside(g_str_equal(file, "-") ? NULL : file,
-					  &program->program->areas);
+	take_map(program, iomap_read_beside(g_str_equal(file, "-") ? NULL : file, &program->program->areas));
 	return program;
 }
 
@@ -178,8 +184,11 @@ static char *plain_text(const struct sim_program *program)
 }
 
 /* @a and @b have the same areas. */
-static bool is_safe_same(const struct sim_program *a, const struct sim_program *b)
+static bool is_map_same(const struct sim_program *a, const struct sim_program *b)
 {
+	if (a->said_count != b->said_count ||
+	    (a->said_count && memcmp(a->said, b->said, (gsize)a->said_count * sizeof(a->said[0])) != 0))
+		return false;
 	return a->safe && b->safe ?
 	       memcmp(a->safe, b->safe, 2 * a->program->areas.bytes[AREA_Q]) == 0 :
 	       a->safe == b->safe;
@@ -211,7 +220,7 @@ bool sim_program_is_same(const struct sim_program *a, const struct sim_program *
 	char *left, *right;
 	bool same;
 
-	if (!is_safe_same(a, b))
+	if (!is_map_same(a, b))
 		return false;
 	left = g_strchomp(plain_text(a));
 	right = g_strchomp(plain_text(b));
@@ -236,6 +245,7 @@ void sim_program_unref(struct sim_program *program)
 	g_free(program->text);
 	g_free(program->form);
 	g_free(program->safe);
+	g_free(program->said);
 	g_free(program->image);
 	g_free(program);
 }

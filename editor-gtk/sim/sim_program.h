@@ -17,6 +17,8 @@ struct sim_program {
 	guint8 *image;           /* of a board, which `program` reads; else NULL */
 	struct program opened;   /* of it                                      */
 	guint8 *safe;            /* for twin_set_safe(), from the I/O map beside it */
+	struct io_said *said;    /* what tells the quality of inputs, of that map */
+	int said_count;
 };
 /** sim_program_say_why - sets @error to the first error of @diags, with its place in @project;
  * NULL: in the text. */
@@ -43,7 +45,7 @@ struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
 /** sim_program_set_form - takes @form: the text in the form of the document. Of the window only. */
 void sim_program_set_form(struct sim_program *program, char *form);
-/** sim_program_is_same - same code, safe values and text, in the form of the document; the VIEW parts may
+/** sim_program_is_same - same code, values of the I/O map and text, in the form of the document; the VIEW parts may
  * differ. */
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 

@@ -25,6 +25,7 @@ struct sim_replay *sim_replay_new(void)
 void sim_replay_clear(struct sim_replay *replay)
 {
 	replay_free(&replay->replay);
+	g_free(replay->bad);
 	g_clear_pointer(&replay->program, sim_program_unref);
 	g_clear_pointer(&replay->plant, sim_program_unref);
 	memset(replay, 0, sizeof(*replay));

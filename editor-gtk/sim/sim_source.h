@@ -50,6 +50,9 @@ struct sim_replay {
 	guint64 era;             /* 0: of none                                 */
 	gint64 edited_us;        /* of that era, at the last step              */
 	guint64 at;              /* for sim_history_seek()                     */
+	bool recorded;           /* a board has recorded this scan: `bad` is of it */
+	guint8 *bad;             /* what was not good, as of struct playback; NULL: all was */
+	gsize bad_len;
 };
 /** sim_replay_clear - of no scan again. */
 void sim_replay_clear(struct sim_replay *replay);
@@ -76,8 +79,9 @@ struct sim_source {
 	void (*unlock)(struct sim_source *source);
 	/* As ladder_sim_knows(), ladder_sim_has_power(). */
 	bool (*knows)(struct sim_source *source, struct location at);
-	/* As ladder_sim_quality(), of the newest scan. */
-	enum sim_quality (*quality)(struct sim_source *source, struct location at);
+	/* As ladder_sim_replay_quality(); @replay: NULL: the newest scan, whose state is in @view. */
+	enum sim_quality (*quality)(struct sim_source *source, const struct sim_view *view,
+				    const struct sim_replay *replay, struct location at);
 	bool (*has_power)(struct sim_source *source, const char *unit);
 	/* A view needs whole scans, as ladder_sim_fetch(). */
 	void (*past)(struct sim_source *source);

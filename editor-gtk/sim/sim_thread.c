@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/sim/sim_thread.h"
 
+#include "hal/said.h"
+
 #include <string.h>
 
 #define FRAME_US G_GINT64_CONSTANT(16000)
@@ -556,10 +558,18 @@ static void span(struct sim_source *source, guint64 *first, guint64 *last)
 	unlock(source);
 }
 
-static enum sim_quality quality(struct sim_source *source, struct location at)
+G_STATIC_ASSERT((int)QUALITY_STALE == (int)SIM_STALE && (int)QUALITY_FAULT == (int)SIM_VALUE_FAULT);
+
+/* There is no device: the inputs that tell quality say what a person or a plant has set. */
+static enum sim_quality quality(struct sim_source *source, const struct sim_view *view,
+				const struct sim_replay *replay, struct location at)
 {
-	(void)source, (void)at;
-	return SIM_GOOD;
+	const struct sim_program *program = replay ? replay->program : view->program;
+	const struct twin *twin = replay ? &replay->replay.twin : &view->twin;
+
+	(void)source;
+	return program ? (enum sim_quality)io_said_quality(program->said, program->said_count,
+							   &twin->resource.image, at) : SIM_GOOD;
 }
 
 static bool knows(struct sim_source *source, struct location at)

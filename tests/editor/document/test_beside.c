@@ -81,14 +81,17 @@ static int safe_of(const char *text)
 	struct areas areas;
 	char *map = g_build_filename(folder, "pump.io", NULL);
 	char *program = g_build_filename(folder, "pump.rung", NULL);
+	struct iomap_at_rest rest;
 	guint8 *safe;
 	int got;
 
 	areas_init(&areas);
 	CHECK(g_file_set_contents(map, text, -1, NULL));
-	safe = iomap_safe_beside(program, &areas);
+	rest = iomap_read_beside(program, &areas);
+	safe = rest.safe;
 	got = safe ? safe[0] | safe[1] << 8 | safe[areas.bytes[AREA_Q]] << 16 : -1;
-	g_free(safe);
+	g_free(rest.safe);
+	g_free(rest.said);
 	g_free(map);
 	g_free(program);
 	return got;
@@ -104,6 +107,10 @@ static void test_safe(void)
 		      "%QX1.1 sim safe=1 active-low\n") == 0x0240);
 	CHECK_AS(safe_of("BOARD \"Desk\"\n%QX0.0 sim safe=hold\n%QX0.6 sim safe=1\n") == 0x010040,
 		 "an output that holds is in the second half");
+	CHECK_AS(safe_of("BOARD \"Desk\"\n%QW0 sim safe=513\n") == 0x0201, "a word has its safe number");
+	CHECK_AS(safe_of("BOARD \"Desk\"\n%AQW0 sim safe=1\n%AQW30 sim safe=hold\n") == -1,
+		 "a value of another area is no bit of Q");
+	CHECK(safe_of("BOARD \"Desk\"\n%QB0 sim safe=hold\n") == 0xff0000);
 	/* one bad line: ladderd refuses the map */
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX0.7 nothing\n") == -1);
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX600.7 sim safe=1\n") == -1);

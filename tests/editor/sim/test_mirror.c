@@ -408,6 +408,56 @@ static void shows_the_past(void)
 	timing_free(timing);
 }
 
+/* A quality that a value has at a moment, and at later ones until it has another. */
+static void say_quality(const char *name, enum sim_quality quality)
+{
+	scan(2);
+	publish(4096);
+	sim_mirror_value(mirror, place(name), false, quality, image_get(&board.resource.image, place(name)));
+	moment();
+	turn(0);
+}
+
+static enum sim_quality quality_then(guint64 at)
+{
+	CHECK(ladder_sim_show(sim, at));
+	return ladder_sim_quality(sim, place("Go"));
+}
+
+static void knows_how_good_the_past_was(void)
+{
+	struct timing *timing;
+	guint64 stale, fault, good, forgot;
+
+	ladder_sim_end(sim);
+	connect_to();
+	show();
+	say_quality("Go", SIM_STALE);
+	stale = board.scan;
+	say_quality("Go", SIM_VALUE_FAULT);
+	fault = board.scan;
+	CHECK(ladder_sim_quality(sim, place("Go")) == SIM_VALUE_FAULT);
+	sim_mirror_forget(mirror); /* other values are published from now on */
+	say_quality("Go", SIM_GOOD);
+	good = board.scan;
+	say_quality("Go", SIM_STALE);
+	forgot = board.scan;
+	CHECK(ladder_sim_quality(sim, place("Go")) == SIM_STALE);
+	CHECK_AS(quality_then(stale) == SIM_STALE && quality_then(stale + 1) == SIM_STALE, "a scan of the past is as it was");
+	CHECK(quality_then(stale - 1) == SIM_GOOD && quality_then(fault) == SIM_VALUE_FAULT);
+	CHECK_AS(quality_then(good) == SIM_GOOD && quality_then(forgot) == SIM_STALE, "also when it was good again");
+	CHECK_AS(ladder_sim_quality(sim, place("Lamp")) == SIM_GOOD, "of that value alone");
+	ladder_sim_show_now(sim);
+	timing = timing_new(sim);
+	CHECK(timing_add(timing, "Go") && timing_add(timing, "Lamp"));
+	while (timing_feed(timing, 1000000))
+		;
+	CHECK(timing_quality(timing, 0, stale) == SIM_STALE && timing_quality(timing, 0, stale - 1) == SIM_GOOD);
+	CHECK(timing_quality(timing, 0, fault) == SIM_VALUE_FAULT && timing_quality(timing, 0, good) == SIM_GOOD);
+	CHECK(timing_quality(timing, 1, fault) == SIM_GOOD);
+	timing_free(timing);
+}
+
 /* ---- the board's own record ---- */
 
 #define RING (1u << 20)
@@ -508,6 +558,7 @@ int main(void)
 	asks_for_what_is_seen();
 	marks_edits();
 	shows_the_past();
+	knows_how_good_the_past_was();
 	waits_for_what_is_published();
 	shows_another_program();
 	ends();
