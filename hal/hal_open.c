@@ -97,17 +97,13 @@ static bool no_memory(const struct iomap *map, struct diag_list *diags)
 static struct line_at *find_all(const struct iomap *map, struct arena *arena,
 			      struct diag_list *diags)
 {
-	struct line_at *place;
-	bool good;
+	bool good = hal_supported(map, diags);
+	struct line_at *place = arena_alloc(arena, sizeof(*place) * (size_t)map->count);
 
-	if (!hal_supported(map, diags))
-		return NULL;
-	place = arena_alloc(arena, sizeof(*place) * (size_t)map->count);
 	if (!place) {
 		no_memory(map, diags);
 		return NULL;
 	}
-	good = true;
 	for (int i = 0; i < map->count; i++)
 		if (!find_line(map, &map->point[i], &place[i], diags))
 			good = false;

@@ -465,13 +465,15 @@ static bool check_bytes(struct reader *reader, const char *text, size_t len)
 	return diag_add(reader->diags, place, "%s", "");
 }
 
-bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
-		const char *text, size_t len, struct diag_list *diags)
+static struct iomap empty_map(const char *file)
 {
-	struct reader reader = {
-		.map = { .file = file, .board = "", .dev = "/dev" },
-		.arena = arena, .diags = diags,
-	};
+	return (struct iomap){ .file = file, .board = "", .dev = "/dev" };
+}
+
+bool iomap_read_lines(struct iomap *map, struct arena *arena, const char *file,
+		      const char *text, size_t len, struct diag_list *diags)
+{
+	struct reader reader = { .map = empty_map(file), .arena = arena, .diags = diags };
 
 	*map = reader.map;
 	if (!check_bytes(&reader, text, len))
@@ -484,13 +486,22 @@ bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 	if (arena->failed)
 		return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
 						      .file = file }, "%s", "");
+	*map = reader.map;
 	if (reader.errors)
 		return false;
 	if (!reader.map.board || !reader.map.board[0])
 		return diag_add(diags, (struct diag){ .id = DIAG_IO_NO_BOARD,
 				.file = file, .line = 1 }, "%s", "");
-	*map = reader.map;
 	return true;
+}
+
+bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
+		const char *text, size_t len, struct diag_list *diags)
+{
+	if (iomap_read_lines(map, arena, file, text, len, diags))
+		return true;
+	*map = empty_map(file);
+	return false;
 }
 
 bool iomap_fits(const struct iomap *map, const struct areas *areas,

@@ -69,6 +69,11 @@ struct iomap {
 bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 		const char *text, size_t len, struct diag_list *diags);
 
+/** iomap_read_lines - as iomap_read(), but @map has the lines without an error also after a failure: to check
+ * them further, never to drive anything. */
+bool iomap_read_lines(struct iomap *map, struct arena *arena, const char *file,
+		      const char *text, size_t len, struct diag_list *diags);
+
 /**
  * iomap_fits - checks that the areas of a program contain every point
  *

@@ -158,6 +158,45 @@ for my $kind (qw(v1 v2 uapi)) {
 		is(decode_json($out)->{points}[0]{value}, "21.437 \x{b0}C", "$kind: the value in JSON");
 	}
 
+	# ---- a map with errors: what reads well is checked on this machine in the same run ----
+	{
+		local $ENV{FAKE_SYS} = "$dir/sys";
+		unlink 'taken';
+		put('wrong.io', <<'END');
+BOARD "b"
+BUS m modbus-tcp host=127.0.0.1
+%IX0.0 gpio line=IN0
+%IX0.0 sim
+%IX0.1 gpio line=NOWHERE
+%AIW0 w1 sensor=28-9
+%AIX2.0 w1 sensor=28-1
+%XIB0..2 module bus=m unit=1 type=DIO9999
+%AIW4 modbus bus=missing unit=1 input-register=0
+%AIW6 hwmon device=cpu_thermal channel=temp1 range=9..0 at 0C..100C limits=50C..20C
+%AIW8 w1 sensor=28-1
+%QX0.0 gpio line=OUT0 safe=0
+END
+		($status, $out, $err) = io('wrong.io');
+		is($status, 1, "$kind: a map with errors is wrong");
+		my %said;
+		push @{$said{$1}}, $2 while $err =~ /^wrong\.io:(\d+):\d+: (.*)$/mg;
+		is(join(' ', sort { $a <=> $b } keys %said), '4 5 6 7 8 9 10', "$kind: each wrong line is told in one run") or diag $err;
+		like("@{$said{4}}", qr/^error LD506: "%IX0\.0" is in the map twice/, "$kind: two owners of an address");
+		like("@{$said{5}}", qr/NOWHERE/, "$kind: a line that this machine does not have");
+		like("@{$said{6}}", qr/28-9/, "$kind: a sensor that it does not have");
+		like("@{$said{8}}", qr/DIO9999/, "$kind: an unknown module");
+		like("@{$said{9}}", qr/missing/, "$kind: a bus that is not there");
+		like("@{$said{10}}", qr/^error LD533: "%AIW6"/, "$kind: a range upside down");
+		like($out, qr/^%IX0\.0 +gpio +IN0 +input +good\n%IX0\.1 +gpio +NOWHERE +input +wrong\n/, "$kind: lines that read well are listed");
+		like($out, qr/^%AIW8 +w1 .* good +21\.437 /m, "$kind: with their values");
+		($status, $out) = io('--json', 'wrong.io');
+		my $read = decode_json($out);
+		is("$status " . join(' ', map { $_->{address} . ($_->{good} ? '' : '!') } @{$read->{points}}),
+		   '1 %IX0.0 %IX0.1! %AIW0! %AIW8 %QX0.0', "$kind: also as JSON");
+		($status, $out) = io('wrong.io', '--program', 'lamp.rung');
+		is("$status$out", '1', "$kind: a picture needs the whole map");
+	}
+
 	# ---- live ----
 	SKIP: {
 		skip 'no script(1) to make a terminal', 4 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
