@@ -129,11 +129,19 @@ void canvas_tell(LadderCanvas *canvas, const char *text)
 	g_signal_emit(canvas, signals[TOLD], 0, text);
 }
 
+static bool is_older(LadderCanvas *canvas)
+{
+	LadderSim *sim = state_of(canvas)->sim;
+
+	return sim && ladder_sim_older(sim, NULL) == state_of(canvas)->document;
+}
+
 bool canvas_is_fixed(LadderCanvas *canvas)
 {
 	if (!ladder_document_is_fixed(state_of(canvas)->document))
 		return false;
-	canvas_tell(canvas, _("This is the program before an edit. It cannot be changed."));
+	canvas_tell(canvas, is_older(canvas) ?
+		    _("This is the program before an edit. It cannot be changed.") : _("This page is read-only"));
 	return true;
 }
 
@@ -1212,6 +1220,11 @@ int ladder_canvas_pou(LadderCanvas *canvas)
 LadderDocument *ladder_canvas_document(LadderCanvas *canvas)
 {
 	return state_of(canvas)->document;
+}
+
+LadderSim *ladder_canvas_sim(LadderCanvas *canvas)
+{
+	return state_of(canvas)->sim;
 }
 
 void ladder_canvas_set_pou(LadderCanvas *canvas, int pou)

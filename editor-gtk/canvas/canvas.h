@@ -138,6 +138,8 @@ LadderDocument *ladder_canvas_document(LadderCanvas *canvas);
 void ladder_canvas_set_pou(LadderCanvas *canvas, int pou);
 /** ladder_canvas_set_sim - shows the program of @sim; NULL: none. Keeps a reference. */
 void ladder_canvas_set_sim(LadderCanvas *canvas, LadderSim *sim);
+/** ladder_canvas_sim - borrowed; NULL: none. */
+LadderSim *ladder_canvas_sim(LadderCanvas *canvas);
 /** ladder_canvas_do - does a verb of the sheet. */
 void ladder_canvas_do(LadderCanvas *canvas, enum verb verb);
 /** ladder_canvas_place - the place of the cursor; ladder_canvas_next_keys - keys for it; for

@@ -545,7 +545,7 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 
 	if (wants_statements(view, verb))
 		return;
-	if ((changes(verb) && canvas_is_fixed(canvas)) || act_do(view, verb) ||
+	if (act_do(view, verb) || (changes(verb) && canvas_is_fixed(canvas)) ||
 	    edit_do(view, verb))
 		return;
 	switch ((int)verb) {

@@ -33,7 +33,7 @@ static const struct live_cell *cell_here(LadderGridView *view)
 	const struct live_cell *cell;
 	int row, col;
 
-	if (!live || ladder_document_is_fixed(view->canvas->document) ||
+	if (!live || ladder_sim_older(view->canvas->sim, NULL) == view->canvas->document ||
 	    !cursor_cell(view, &row, &col))
 		return NULL;
 	cell = cell_of(live, row, col);

@@ -6,6 +6,7 @@
  * from ladder_sim_begin() to ladder_sim_end().
  */
 #include "editor-gtk/sim/sim_mirror.h"
+#include "editor-gtk/sim/sim_shadow.h"
 #include "editor-gtk/sim/stops_follow.h"
 #include "editor-gtk/sim/sim_thread.h"
 
@@ -881,6 +882,29 @@ struct sim_mirror *ladder_sim_mirror_begin(LadderSim *sim, const struct sim_boar
 	sim->source = sim_mirror_source(sim->mirror);
 	sim->life++;
 	return sim->mirror;
+}
+
+struct sim_program *ladder_sim_program(LadderSim *sim)
+{
+	return shown_program(sim);
+}
+
+bool ladder_sim_follow(LadderSim *sim, LadderSim *of, int pou)
+{
+	struct sim_program *program = !ladder_sim_is_on(of) || ladder_sim_older(of, NULL) ? NULL :
+				      build(sim, sim_program_read_listed, NULL);
+	struct sim_shadow *shadow;
+
+	if (!program)
+		return false;
+	ladder_sim_end(sim);
+	shadow = sim_shadow_new(sim, of, program, pou, notified);
+	sim->source = sim_shadow_source(shadow);
+	sim->life++;
+	number_rungs(sim);
+	sim_shadow_begin(shadow);
+	sim_program_unref(program);
+	return true;
 }
 
 bool ladder_sim_is_recording(LadderSim *sim)

@@ -109,11 +109,12 @@ static void mark(struct blockers *blockers, const struct why *why)
 
 static bool ask(struct blockers *blockers, struct why *why)
 {
-	const struct twin *twin = ladder_sim_twin(blockers->core->sim);
+	LadderSim *sim = ladder_canvas_sim(LADDER_CANVAS(blockers->sheet));
+	const struct twin *twin = ladder_sim_twin(sim);
 	LadderDocument *document = ladder_canvas_document(LADDER_CANVAS(blockers->sheet));
 	const int shown = ladder_canvas_pou(LADDER_CANVAS(blockers->sheet));
-	const int pou = ladder_sim_pou(blockers->core->sim, document, shown);
-	const int rung = ladder_sim_rung(blockers->core->sim, document, shown,
+	const int pou = ladder_sim_pou(sim, document, shown);
+	const int rung = ladder_sim_rung(sim, document, shown,
 		blockers->rung + ladder_grid_view_first(blockers->sheet));
 	struct arena arena;
 	bool good;
@@ -122,7 +123,7 @@ static bool ask(struct blockers *blockers, struct why *why)
 		return false;
 	arena_init(&arena);
 	good = why_ask(&(struct why_place){
-		.project = ladder_project(ladder_sim_ladder(blockers->core->sim)),
+		.project = ladder_project(ladder_sim_ladder(sim)),
 		.resource = &twin->resource, .pou = pou,
 		.instance = ladder_grid_view_instance(blockers->sheet),
 		.rung = rung + 1, .row = blockers->row + 1, .col = blockers->col + 1,
@@ -316,8 +317,9 @@ static void moved(struct blockers *blockers)
 void blockers_init(struct blockers *blockers, struct core *core)
 {
 	blockers->core = core;
+	/* Sheets that follow the simulation have followed it then. */
 	core_connect(core, core->sim, "shown", G_CALLBACK(look), blockers,
-		     G_CONNECT_SWAPPED);
+		     G_CONNECT_SWAPPED | G_CONNECT_AFTER);
 	core_connect(core, core->sim, "program-changed", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);
 	core_connect(core, core->window, "cursor-moved", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);
 	core_connect(core, core->window, "place-changed", G_CALLBACK(moved), blockers, G_CONNECT_SWAPPED);

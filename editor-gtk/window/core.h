@@ -41,7 +41,7 @@ static inline void core_connect(struct core *core, gpointer instance, const char
 		g_cclosure_new_swap(handler, part, NULL) : g_cclosure_new(handler, part, NULL);
 
 	g_object_watch_closure(G_OBJECT(core->window), closure);
-	g_signal_connect_closure(instance, signal, closure, FALSE);
+	g_signal_connect_closure(instance, signal, closure, (flags & G_CONNECT_AFTER) != 0);
 }
 
 /** core_on_press - calls @handler(@part) when a button is pressed on @widget, before its

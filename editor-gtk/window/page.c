@@ -163,47 +163,52 @@ static GtkWidget *with_interface(LadderDocument *document, GtkWidget *sheet, Gtk
 	return box;
 }
 
-static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou)
+static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou, LadderSim *sim)
 {
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
 
-	ladder_canvas_set_sim(LADDER_CANVAS(sheet), core->sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(sheet), sim);
 	listen(core, sheet);
-	return with_interface(document, sheet, ladder_rung_page_new(document, sheet, core->sim));
+	return with_interface(document, sheet, ladder_rung_page_new(document, sheet, sim));
 }
 
-static GtkWidget *new_chart(struct core *core, LadderDocument *document, int pou)
+static GtkWidget *new_chart(struct core *core, LadderDocument *document, int pou, LadderSim *sim)
 {
-	GtkWidget *page = ladder_sfc_page_new(document, pou, core->sim);
+	GtkWidget *page = ladder_sfc_page_new(document, pou, sim);
 	GtkWidget *chart = GTK_WIDGET(ladder_sfc_page_chart(LADDER_SFC_PAGE(page)));
 
 	listen(core, chart);
 	return with_interface(document, chart, page);
 }
 
-static GtkWidget *new_networks(struct core *core, LadderDocument *document, int pou)
+static GtkWidget *new_networks(struct core *core, LadderDocument *document, int pou, LadderSim *sim)
 {
 	GtkWidget *networks = ladder_fbd_view_new(document, pou), *scroller = gtk_scrolled_window_new();
 
-	ladder_canvas_set_sim(LADDER_CANVAS(networks), core->sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(networks), sim);
 	listen(core, networks);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), networks);
 	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
 	return with_interface(document, networks, scroller);
 }
 
-GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
+GtkWidget *page_new_live(struct core *core, LadderDocument *document, int pou, LadderSim *sim)
 {
 	const struct project *project = ladder_document_project(document);
 	GtkWidget *page;
 
 	if (project->pou[pou].language == LANGUAGE_LD)
-		return new_sheet(core, document, pou);
+		return new_sheet(core, document, pou, sim);
 	if (project->pou[pou].fbd)
-		return new_networks(core, document, pou);
+		return new_networks(core, document, pou, sim);
 	if (project->pou[pou].sfc)
-		return new_chart(core, document, pou);
+		return new_chart(core, document, pou, sim);
 	page = ladder_text_view_new(document, pou);
-	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page), core->sim);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page), sim);
 	return with_interface(document, page, page);
+}
+
+GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
+{
+	return page_new_live(core, document, pou, core->sim);
 }

@@ -19,6 +19,8 @@
 /** page_new - a sheet, a chart or a list for POU @pou of @document, in a scrolled window if
  * it needs one. Its messages and cursor moves go to the window. */
 GtkWidget *page_new(struct core *core, LadderDocument *document, int pou);
+/** page_new_live - the same with the values of @sim instead of those of the window. */
+GtkWidget *page_new_live(struct core *core, LadderDocument *document, int pou, LadderSim *sim);
 /** page_inside - the sheet, chart … in @child, without the scrolled window around it and the
  * interface above it. */
 GtkWidget *page_inside(GtkWidget *child);

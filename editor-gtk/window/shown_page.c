@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
+#include "editor-gtk/sim/sim_shadow.h"
 #include "editor-gtk/text/text_view.h"
 
 #include <stdlib.h>
@@ -19,7 +20,8 @@ struct _LadderShownPage {
 	struct core *core;
 	LadderDocument *document;    /* of the window                              */
 	LadderDocument *made;        /* in the other language; NULL: refused       */
-	GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou);
+	LadderSim *sim;              /* shows @made with what the window's one shows; NULL: as that */
+	GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou, LadderSim *sim);
 	char *name;                  /* of the POU                                 */
 	int pou;                     /* its number, to notice another name         */
 	enum pou_language from, to;
@@ -28,6 +30,7 @@ struct _LadderShownPage {
 	GtkDropDown *parts;          /* of @pous, if there are several             */
 	GtkButton *convert;
 	GtkWidget *child;            /* the page of one of them, or the reasons    */
+	LadderSim *followed;         /* of the window                              */
 	bool filling;
 	bool shown;                  /* @version is the one that is shown          */
 	guint64 version;             /* of @document                               */
@@ -127,12 +130,35 @@ static void put_child(LadderShownPage *page, GtkWidget *child)
 	g_signal_emit_by_name(page->core->window, "place-changed");
 }
 
+/* The program that runs must be the one that was converted. */
+static bool may_follow(LadderShownPage *page)
+{
+	LadderSim *sim = page->followed;
+
+	return gtk_widget_get_mapped(GTK_WIDGET(page)) && ladder_sim_is_on(sim) && !ladder_sim_older(sim, NULL) &&
+	       !ladder_sim_is_missing(sim, page->document, ladder_shown_page_pou(page), -1);
+}
+
+static void follow(LadderShownPage *page)
+{
+	const guint part = gtk_drop_down_get_selected(page->parts);
+	const bool may = page->made && part < page->pous->len && may_follow(page);
+
+	if (may && !ladder_sim_is_on(page->sim))
+		ladder_sim_follow(page->sim, page->followed, g_array_index(page->pous, int, part));
+	else if (!may && page->sim)
+		ladder_sim_end(page->sim);
+}
+
 static void show_part(LadderShownPage *page)
 {
 	const guint part = gtk_drop_down_get_selected(page->parts);
 
-	if (!page->filling && page->made && part < page->pous->len)
-		put_child(page, page->make(page->core, page->made, g_array_index(page->pous, int, part)));
+	if (page->filling || !page->made || part >= page->pous->len)
+		return;
+	put_child(page, page->make(page->core, page->made, g_array_index(page->pous, int, part), page->sim));
+	ladder_sim_end(page->sim);
+	follow(page);
 }
 
 static void fill_parts(LadderShownPage *page)
@@ -204,6 +230,14 @@ static LadderDocument *made_of(LadderShownPage *page, const char *text, struct d
 	return NULL;
 }
 
+static void drop_made(LadderShownPage *page)
+{
+	if (page->sim)
+		ladder_sim_end(page->sim);
+	g_clear_object(&page->sim);
+	g_clear_object(&page->made);
+}
+
 static void show_now(LadderShownPage *page)
 {
 	const int pou = ladder_shown_page_pou(page);
@@ -216,9 +250,11 @@ static void show_now(LadderShownPage *page)
 	page->version = ladder_document_version(page->document);
 	why = g_new0(struct diag_list, 1);
 	text = pou_converted(page->document, pou, page->to, why);
-	g_clear_object(&page->made);
+	drop_made(page);
 	if (text)
 		page->made = made_of(page, text, why);
+	if (page->made)
+		page->sim = ladder_sim_new(page->made);
 	say(page);
 	if (page->made)
 		fill_parts(page);
@@ -242,6 +278,7 @@ static void seen(LadderShownPage *page)
 {
 	if (!page->shown)
 		show_now(page);
+	follow(page);
 }
 
 void ladder_shown_page_set(LadderShownPage *page, int pou, enum pou_language to)
@@ -261,8 +298,11 @@ static void ladder_shown_page_dispose(GObject *object)
 
 	if (page->document)
 		g_signal_handlers_disconnect_by_data(page->document, page);
+	if (page->followed)
+		g_signal_handlers_disconnect_by_data(page->followed, page);
+	g_clear_object(&page->followed);
 	g_clear_object(&page->document);
-	g_clear_object(&page->made);
+	drop_made(page);
 	g_clear_pointer(&page->name, g_free);
 	g_clear_pointer(&page->pous, g_array_unref);
 	G_OBJECT_CLASS(ladder_shown_page_parent_class)->dispose(object);
@@ -296,16 +336,21 @@ static void ladder_shown_page_init(LadderShownPage *page)
 	gtk_box_append(GTK_BOX(page), bar);
 	g_signal_connect_swapped(page->parts, "notify::selected", G_CALLBACK(show_part), page);
 	g_signal_connect(page, "map", G_CALLBACK(seen), NULL);
+	g_signal_connect_after(page, "unmap", G_CALLBACK(follow), NULL); /* then it is not mapped */
 }
 
 GtkWidget *ladder_shown_page_new(struct core *core,
-				 GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou))
+				 GtkWidget *(*make)(struct core *core, LadderDocument *document, int pou,
+						    LadderSim *sim))
 {
 	LadderShownPage *page = g_object_new(LADDER_TYPE_SHOWN_PAGE, NULL);
 
 	page->core = core;
 	page->make = make;
 	page->document = g_object_ref(core->document);
+	page->followed = g_object_ref(core->sim);
 	g_signal_connect_swapped(core->document, "checked", G_CALLBACK(changed), page);
+	g_signal_connect_swapped(core->sim, "state-changed", G_CALLBACK(follow), page);
+	g_signal_connect_swapped(core->sim, "program-changed", G_CALLBACK(follow), page);
 	return GTK_WIDGET(page);
 }

@@ -221,7 +221,7 @@ void tabs_show_as(struct tabs *tabs, int pou, enum pou_language to)
 	AdwTabPage *page = find_page(tabs, " as");
 
 	if (!page)
-		page = add_page(tabs, ladder_shown_page_new(tabs->core, page_new), " as", "");
+		page = add_page(tabs, ladder_shown_page_new(tabs->core, page_new_live), " as", "");
 	ladder_shown_page_set(LADDER_SHOWN_PAGE(page_content(page)), pou, to);
 	title_shown(page);
 	select_page(tabs, page);

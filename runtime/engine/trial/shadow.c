@@ -40,10 +40,12 @@ struct shadow {
 	struct pair *own;        /* bits and values at addresses that only the shadow has */
 	uint32_t owns;
 	union iec_value *aside;  /* of each                                     */
+	struct pair *step;       /* of a chart that has become a ladder         */
+	uint32_t steps;
 	struct room *room;       /* what elements remember                      */
 	uint32_t rooms;
 	uint8_t *remembered;     /* all of them, one after the other            */
-	bool still;
+	const char *alone;       /* a POU; NULL: the whole program is run       */
 	bool begun;              /* it has run a scan                           */
 	void *memory;
 };
@@ -100,6 +102,29 @@ static bool has_address(const struct program *program, struct location at)
 	return at.area != AREA_NONE || at.where < program->areas.size;
 }
 
+static bool ends_with(const char *text, size_t len, const char *end)
+{
+	return len > strlen(end) && strncmp(text + len - strlen(end), end, strlen(end)) == 0;
+}
+
+/* A chart as a ladder: Run_X is the step Run.X, and Way_Runs is TRUE after the first scan. */
+static struct location step_of(const struct shadow *shadow, const struct named *bit, const struct named *its,
+			       uint32_t count)
+{
+	const struct location none = { .type = IEC_NONE };
+	const size_t len = strlen(bit->name);
+
+	if (bit->at.type != IEC_BOOL || *bit->pou)
+		return none;
+	if (ends_with(bit->name, len, "_Runs"))
+		return (struct location){ .type = IEC_BOOL, .constant = true, .where = CODE_TRUE_AT(&shadow->of->areas) };
+	for (uint32_t i = 0; ends_with(bit->name, len, "_X") && i < count; i++)
+		if (strlen(its[i].name) == len && strncmp(its[i].name, bit->name, len - 2) == 0 &&
+		    strcmp(its[i].name + len - 2, ".X") == 0)
+			return its[i].at;
+	return none;
+}
+
 static bool match(struct shadow *shadow, struct arena *scratch)
 {
 	uint32_t count, other, j = 0;
@@ -108,8 +133,9 @@ static bool match(struct shadow *shadow, struct arena *scratch)
 
 	shadow->pair = arena_alloc(&shadow->arena, (count + 1) * sizeof(*shadow->pair));
 	shadow->own = arena_alloc(&shadow->arena, (count + 1) * sizeof(*shadow->own));
+	shadow->step = arena_alloc(&shadow->arena, (count + 1) * sizeof(*shadow->step));
 	shadow->aside = arena_alloc(&shadow->arena, (count + 1) * sizeof(*shadow->aside));
-	if (!mine || !its || !shadow->pair || !shadow->own || !shadow->aside)
+	if (!mine || !its || !shadow->pair || !shadow->own || !shadow->step || !shadow->aside)
 		return false;
 	for (uint32_t i = 0; i < count; i++) {
 		struct pair pair = { .at = mine[i].at, .bytes = mine[i].bytes, .of.type = IEC_NONE };
@@ -125,6 +151,10 @@ static bool match(struct shadow *shadow, struct arena *scratch)
 		else if (has_address(&shadow->program, pair.at) && !both && pair.bytes <= sizeof(union iec_value) &&
 			 pair.at.type != IEC_NONE && pair.at.type != IEC_STRING)
 			shadow->own[shadow->owns++] = pair;
+		if (!both)
+			pair.of = step_of(shadow, &mine[i], its, other);
+		if (!both && pair.of.type == IEC_BOOL)
+			shadow->step[shadow->steps++] = pair;
 	}
 	qsort(shadow->pair, shadow->pairs, sizeof(*shadow->pair), by_place);
 	return true;
@@ -267,6 +297,9 @@ static void take(struct shadow *shadow, const struct twin *from)
 		image_set(&resource->image, shadow->own[i].at, shadow->aside[i]);
 	if (shadow->begun)
 		remember(shadow, true);
+	/* Where it begins in the middle, the steps of a chart are where they are. */
+	for (uint32_t i = 0; (!shadow->begun || shadow->alone) && from->resource.scans > 0 && i < shadow->steps; i++)
+		image_set(&resource->image, shadow->step[i].at, image_get(&from->resource.image, shadow->step[i].of));
 	/* A record has times of another clock. */
 	resource->timers_ns = from->resource.vm.now_ns - from->now_ns;
 }
@@ -297,17 +330,45 @@ static bool run(struct shadow *shadow, const struct twin *now)
 	return good;
 }
 
+/* The number of a program that a task calls; -1: @name is none. */
+static int entry_of(const struct program *program, const char *name)
+{
+	for (uint32_t i = 0; i < program->call_count; i++)
+		if (strcmp(program->string + program->entry[program->call[i]].name, name) == 0)
+			return (int)program->call[i];
+	return -1;
+}
+
+/* Other programs might read what is not known. A block is run by those that call it. */
+static bool run_alone(struct shadow *shadow, const struct twin *now)
+{
+	struct resource *resource = &shadow->resource;
+	const int entry = entry_of(&shadow->program, shadow->alone);
+	bool good;
+
+	if (entry < 0)
+		return run(shadow, now);
+	take_inputs(shadow, &now->resource.image);
+	image_begin(&resource->image);
+	resource->vm.resume = 0;
+	resource->vm.budget = shadow->program.header->budget;
+	good = vm_run(&resource->vm, (uint32_t)entry, true) == FAULT_NONE;
+	image_end(&resource->image);
+	shadow->begun = true;
+	return good;
+}
+
 bool shadow_scan(struct shadow *shadow, const struct twin *before, const struct twin *now)
 {
 	struct resource *resource = &shadow->resource;
 	bool good;
 
-	if (shadow->still) {
+	if (shadow->alone) {
 		/* Twice: the first time an edge is seen by what remembers it. */
 		take(shadow, now);
-		run(shadow, now);
+		run_alone(shadow, now);
 		take(shadow, now);
-		good = run(shadow, now);
+		good = run_alone(shadow, now);
 	} else if (before->resource.state != STATE_RUN || now->resource.scans <= 1) {
 		begin(shadow);
 		resource_start(resource);
@@ -339,7 +400,7 @@ static bool make(struct shadow *shadow, const struct program *shown)
 
 	arena_init(&scratch);
 	shadow->program = *shown;
-	good = (!shadow->still || open_still(shadow, shown, &scratch)) && match(shadow, &scratch) &&
+	good = (!shadow->alone || open_still(shadow, shown, &scratch)) && match(shadow, &scratch) &&
 	       find_memories(shadow);
 	arena_free(&scratch);
 	shadow->memory = good ? calloc(1, image_memory_size(&shadow->program) + 8) : NULL;
@@ -350,7 +411,7 @@ static bool make(struct shadow *shadow, const struct program *shown)
 	return shadow->plan != NULL;
 }
 
-struct shadow *shadow_new(const struct program *shown, const struct program *of, bool still)
+struct shadow *shadow_new(const struct program *shown, const struct program *of, const char *alone)
 {
 	struct shadow *shadow = calloc(1, sizeof(*shadow));
 
@@ -358,7 +419,7 @@ struct shadow *shadow_new(const struct program *shown, const struct program *of,
 		return NULL;
 	arena_init(&shadow->arena);
 	shadow->of = of;
-	shadow->still = still;
+	shadow->alone = alone;
 	if (make(shadow, shown))
 		return shadow;
 	shadow_free(shadow);

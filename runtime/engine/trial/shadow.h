@@ -16,18 +16,19 @@ struct shadow;
 /**
  * shadow_new - at no scan yet
  * @shown: the program in the other language, built with its map of power   @of: the one that runs
- * @still: nobody knows what the blocks of the other one remember, as of a board: those of the catalogue do
- *         not run, and what they have put out is taken over
+ * @alone: a POU of the program in the other language; NULL: all is known. Else only the values that it names
+ *         are, as of a board: it runs without the others, and blocks of the catalogue do not run: what
+ *         they have put out is taken over
  *
- * Both programs are borrowed. Owns: the caller, shadow_free(). Scan-safe: no. Fails: NULL: no memory.
+ * All are borrowed. Owns: the caller, shadow_free(). Scan-safe: no. Fails: NULL: no memory.
  */
-struct shadow *shadow_new(const struct program *shown, const struct program *of, bool still);
+struct shadow *shadow_new(const struct program *shown, const struct program *of, const char *alone);
 void shadow_free(struct shadow *shadow);
 
 /**
  * shadow_scan - the scan between two states
  * @before: after the scan before, with the acts of a person that came then
- * @now:    after the scan. With @still: the state that is known; @before is not used
+ * @now:    after the scan. With @alone: the state that is known; @before is not used
  *
  * What only the shadow has, such as bits for the steps of a chart, goes on from its last scan: begin at the
  * first scan, or some scans earlier. Scan-safe: no. Fails: false: the program was not in RUN, or ended in a FAULT.

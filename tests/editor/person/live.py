@@ -163,4 +163,5 @@ PROGRAM""", 1).replace('Level > 500', 'Level < Most')))
 
 dark_and_small.size = '1024x700x24'
 motor.quick = 'editor-gtk/sim'
-main([motor, force, numbers, constants, dark_and_small])
+if __name__ == '__main__':
+    main([motor, force, numbers, constants, dark_and_small])

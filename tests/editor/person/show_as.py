@@ -7,6 +7,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import A11Y, Chinese, Editor, check, main, new_file, until  # noqa: E402
+from live import POWER, pixels  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -206,6 +207,114 @@ def renamed(screen):
     editor.finish()
 
 
+RUNS = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Late  AT %QX0.1 : BOOL;
+  Level AT %IW2   : INT;
+  Out   AT %QW2   : INT;
+  Delay : TON;
+END_VAR
+
+PROGRAM Main LD
+RUNG "The motor seals itself in"
+  | NO Start  | NC Stop | COIL Motor |
+  | NO Motor ^|
+RUNG
+  | NO Motor | TON Delay PT:=T#20ms | COIL Late |
+RUNG
+  | NC Motor | [ Level > 5 ] | [ Out := Level * 2 ] |
+  | P Start ^|
+END_PROGRAM
+'''
+
+
+def cell(editor, text):
+    return until(lambda: [node for node in editor.all(role='table cell') if text in node.name], text)[0]
+
+
+def live(screen):
+    """networks of a ladder have power, values and why as the ladder has; a value is set there; also in a scan of the past"""
+    path = new_file(screen, RUNS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+t')
+    editor.says('SIMULATION')
+    editor.to_sheet()
+    editor.keys('ctrl+1')
+    says(editor, '“Main” as FBD, read-only')
+    cell(editor, 'OR, output 1: wire, FALSE')  # no variable has this value
+    cell(editor, '>, output 1: wire, FALSE')
+    start = until(lambda: [node for node in editor.all('Start', 'check box') if node.box()[2] > 0], 'the panel')[0]
+    editor.click(start)
+    cell(editor, 'OR, input 1: Start, TRUE')
+    editor.keys('ctrl+t')
+    cell(editor, 'OR, output 1: wire, TRUE')
+    cell(editor, 'AND, output 1: wire, TRUE')
+    cell(editor, 'Store in Motor, TRUE')
+    cell(editor, 'R_EDGE, output 1: wire Start_rises, TRUE')  # in this scan alone
+    editor.shot('live-networks')
+    editor.keys('ctrl+t')
+    cell(editor, 'R_EDGE, output 1: wire Start_rises, FALSE')
+    editor.click(cell(editor, 'Store in Motor, TRUE'))
+    editor.keys('ctrl+F12')
+    says(editor, 'TRUE: (Start OR Motor) is true; and NOT Stop is true')
+    editor.shot('live-why')
+    editor.keys('alt+Left')
+    cell(editor, 'R_EDGE, output 1: wire Start_rises, TRUE')
+    editor.keys('alt+Left')
+    cell(editor, 'OR, output 1: wire, FALSE')
+    editor.keys('alt+End')
+    cell(editor, 'OR, output 1: wire, TRUE')
+    editor.keys('ctrl+m')  # the simulation ends
+    until(lambda: not [node for node in editor.all(role='table cell') if node.name.endswith('TRUE')], 'no values')
+    editor.finish()
+
+
+def back(screen):
+    """a ladder of networks, and one of a chart, with power; values of a ladder as text"""
+    path = new_file(screen, RUNS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.command('Convert to networks')
+    says(editor, '“Main” is in FBD now')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.command('Show as ladder')
+    says(editor, '“Main” as LD, read-only')
+    coil = editor.element('Rung 1, COIL', 'Motor', 'off')
+    assert pixels(editor, coil, POWER['light']) < 150
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
+    coil = editor.element('Rung 1, COIL', 'Motor', ', on')
+    until(lambda: pixels(editor, coil, POWER['light']) > 150, 'power at the coil')
+    editor.element('Rung 2, TON', '20 ms / 20 ms')
+    editor.shot('live-ladder')
+    editor.keys('ctrl+shift+f')
+    editor.says('1 force')
+    editor.finish()
+
+
+def steps(screen):
+    """the ladder of a chart that runs already: its steps have power"""
+    editor = Editor(screen, new_file(screen, CHART))
+    until(lambda: editor.all('Start'), 'the chart')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    go = until(lambda: [node for node in editor.all('Go', 'check box') if node.box()[2] > 0], 'the panel')[0]
+    editor.click(go)
+    editor.command('Show as ladder')
+    says(editor, '“Way” as LD, read-only')
+    editor.element('NO', 'Run_X', 'closed')
+    editor.element('NO', 'Start_X', 'open')
+    editor.shot('live-steps')
+    editor.click(go)
+    editor.element('NO', 'Start_X', 'closed')
+    editor.finish()
+
+
 def tree(screen):
     """the menu of a row shows and converts the program of that row, in the languages that it can have"""
     path = new_file(screen, PROGRAM + '\nPROGRAM Belt ST\n  %QX0.3 := %IX0.3;\nEND_PROGRAM\n')
@@ -293,4 +402,4 @@ def networks(screen):
 
 
 if __name__ == '__main__':
-    main([shown, converted, refused, included, renamed, tree, networks, chinese, dark])
+    main([shown, live, back, steps, converted, refused, included, renamed, tree, networks, chinese, dark])

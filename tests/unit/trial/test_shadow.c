@@ -86,7 +86,7 @@ static bool say(const struct program *program, uint32_t number, uint64_t seed, i
 static bool follow(const struct program *runs, const struct program *shown, uint64_t seed, int first)
 {
 	struct twin twin, before, alone;
-	struct shadow *shadow = shadow_new(shown, runs, false);
+	struct shadow *shadow = shadow_new(shown, runs, NULL);
 	struct random_source source, same;
 	const struct act start = { .kind = ACT_START };
 	bool good = true;
@@ -166,11 +166,19 @@ static const char chart[] =
 	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n  END_STEP\n  STEP Run:\n    Lamp(N);\n    Horn(D, T#30ms);\n  END_STEP\n"
 	"  TRANSITION FROM Start TO Run := Go; END_TRANSITION\n"
 	"  TRANSITION FROM Run TO Start := NOT Go; END_TRANSITION\nEND_PROGRAM\n";
+/* Without times, which begin anew with the shadow. */
+static const char lamp[] =
+	"RUNGBOARD 1\n"
+	"VAR\n  Go AT %IX0.0 : BOOL;\n  Lamp AT %QX0.0 : BOOL;\nEND_VAR\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n  END_STEP\n  STEP Run:\n    Lamp(N);\n  END_STEP\n"
+	"  TRANSITION FROM Start TO Run := Go; END_TRANSITION\n"
+	"  TRANSITION FROM Run TO Start := NOT Go; END_TRANSITION\nEND_PROGRAM\n";
 
 static void test_samples(void)
 {
 	struct ladder *one = build(plain, strlen(plain)), *two = convert(one, LANGUAGE_FBD), *three = convert(two, LANGUAGE_LD);
 	struct ladder *steps = build(chart, strlen(chart)), *ladders = convert(steps, LANGUAGE_LD);
+	struct ladder *plain_steps = build(lamp, strlen(lamp)), *lamps = convert(plain_steps, LANGUAGE_LD);
 
 	CHECK(two && three && ladders);
 	for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -179,12 +187,15 @@ static void test_samples(void)
 		CHECK_AS(follow(ladder_program(one), ladder_program(two), seed, 10) &&
 			 follow(ladder_program(two), ladder_program(three), seed, 10), "from a later scan on");
 		CHECK_AS(follow(ladder_program(steps), ladder_program(ladders), seed, 1), "steps of a chart are bits");
+		CHECK_AS(follow(ladder_program(plain_steps), ladder_program(lamps), seed, 10), "also of one that runs already");
 	}
 	ladder_free(one);
 	ladder_free(two);
 	ladder_free(three);
 	ladder_free(steps);
 	ladder_free(ladders);
+	ladder_free(plain_steps);
+	ladder_free(lamps);
 }
 
 static struct location find(const struct resource *resource, const char *name)
@@ -212,7 +223,7 @@ static void test_still(void)
 	struct ladder *one = build(plain, strlen(plain)), *two = convert(one, LANGUAGE_FBD), *three = convert(two, LANGUAGE_LD);
 	const struct act start = { .kind = ACT_START };
 	struct twin twin;
-	struct shadow *shadow = shadow_new(ladder_program(three), ladder_program(two), true);
+	struct shadow *shadow = shadow_new(ladder_program(three), ladder_program(two), "Main");
 
 	CHECK(shadow && twin_init(&twin, ladder_program(two), NULL, PERIOD) && twin_act(&twin, &start));
 	image_set_bit(&twin.resource.image, AREA_I, 0, true);
@@ -249,7 +260,7 @@ static void test_places(void)
 		"RUNG\n  | [ Level > 5 ] | NO Inner | NOT | [ List[2] := Level ] |\n  | NO Go        ^|\nEND_PROGRAM\n";
 	static const char *const names[] = { "Go", "Level", "List[1]", "List[3]", "Delay.Q", "Delay.ET", "Main.Inner", "%MX3.1" };
 	struct ladder *one = build(text, strlen(text)), *two = convert(one, LANGUAGE_FBD);
-	struct shadow *shadow = shadow_new(ladder_program(two), ladder_program(one), false);
+	struct shadow *shadow = shadow_new(ladder_program(two), ladder_program(one), NULL);
 	struct twin twin;
 
 	CHECK(shadow && twin_init(&twin, ladder_program(one), NULL, PERIOD));
