@@ -50,6 +50,27 @@ def begin(screen, board, editor):
     editor.to_sheet()
 
 
+def cell(editor, text):
+    return until(lambda: [node for node in editor.all(role='table cell') if text in node.name], text)[0]
+
+
+def other_language(screen):
+    """the ladder as networks: also the results that no variable has, of values that the board sends for them"""
+    board = board_of(screen, 'shown')
+    editor = Editor(screen, new_file(screen, PUMP, 'pump.rung'))
+    begin(screen, board, editor)
+    editor.keys('ctrl+1')
+    cell(editor, '>, output 1: wire, TRUE')
+    cell(editor, 'TON Soft, output Q: open, TRUE')
+    cell(editor, 'Store in Motor, FALSE')
+    editor.shot('online-networks')
+    board.ask('set', 'Level=7')
+    cell(editor, '>, output 1: wire, FALSE')
+    board.ask('force', 'Start=1')
+    cell(editor, 'Store in Motor, input 1: Start, TRUE')
+    editor.finish()
+
+
 def watches(screen):
     """power flows as on the board; a force from the sheet is on the board; its end and another one's are shown"""
     board = board_of(screen, 'watched')
@@ -395,4 +416,4 @@ def networks(screen):
 chinese.size = '1024x700x24'
 
 if __name__ == '__main__':
-    main([watches, edits, edits_elsewhere, structured_text, only_looks, operates, late, recording, networks, chinese])
+    main([watches, other_language, edits, edits_elsewhere, structured_text, only_looks, operates, late, recording, networks, chinese])
