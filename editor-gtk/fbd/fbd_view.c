@@ -229,7 +229,7 @@ static void values_changed(LadderCanvas *canvas)
 
 static void program_gone(LadderCanvas *canvas)
 {
-	fbd_forget_places(LADDER_FBD_VIEW(canvas));
+	fbd_live_end(LADDER_FBD_VIEW(canvas), !canvas_is_live(canvas));
 }
 
 /* ---- names and tips ---- */
@@ -966,6 +966,7 @@ static void ladder_fbd_view_dispose(GObject *object)
 	LadderFbdView *view = LADDER_FBD_VIEW(object);
 
 	canvas_close_entry(LADDER_CANVAS(view));
+	fbd_live_end(view, true);
 	fbd_clear(view);
 	G_OBJECT_CLASS(ladder_fbd_view_parent_class)->dispose(object);
 }

@@ -49,6 +49,9 @@ struct _LadderFbdView {
 	struct fbd_pos link;      /* a pin that waits for another one            */
 	struct fbd_stroke stroke;
 	struct live_map *map;    /* of the running program; NULL: none           */
+	LadderSim *results;      /* of a board: has those that no variable has; NULL: none */
+	struct live_map *results_map; /* of it; NULL: none                      */
+	guint64 results_version; /* of the document                             */
 };
 
 struct fbd_problem {
@@ -101,6 +104,8 @@ void fbd_go_statement(LadderFbdView *view, int network, int statement);
 bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out);
 /** fbd_live_place - where the value at a place is; type IEC_NONE: not known. */
 struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at);
+/** fbd_live_end - forgets what @view knows of the running program, @all: also the results of a board. */
+void fbd_live_end(LadderFbdView *view, bool all);
 /** fbd_live_text - the value at a place, for a name. Caller frees; NULL: not known. */
 char *fbd_live_text(LadderFbdView *view, struct fbd_pos at);
 

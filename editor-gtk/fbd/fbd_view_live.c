@@ -4,10 +4,12 @@
  *
  * It shows what the scan has computed and evaluates nothing: the value of a name in place, of an output of an
  * instance, of a wire that has a name. The result of another box is what the line of the list left that computes it;
- * a board keeps no such results, so there it is known only if a variable or an instance gets it.
+ * a board keeps no such results, so there a simulation of the sheet computes them of the values that it sends
+ * (sim/sim_shadow.h).
  */
 #include "editor-gtk/fbd/fbd_view_inside.h"
 
+#include "editor-gtk/sim/sim_shadow.h"
 #include "editor-gtk/sim/st_why.h"
 
 #include <string.h>
@@ -18,6 +20,7 @@ struct fbd_places {
 	int network;
 	struct location *pin;      /* by pin                                    */
 	uint32_t *ran;             /* by pin: a BOOL, has what computes it run? 0: it needs not */
+	bool *computed;            /* by pin: both are places of view->results  */
 	struct location *now, *goal; /* by box: what it counts, and up to where   */
 	struct location at[];
 };
@@ -45,10 +48,60 @@ static bool is_wire(const struct fbd_graph *graph, const char *name)
 	return false;
 }
 
-/* The result of a box, which no variable need have. */
-static struct live_result find_made(LadderFbdView *view, const struct fbd_box *box)
+/* ---- results of a board ---- */
+
+void fbd_live_end(LadderFbdView *view, bool all)
+{
+	fbd_forget_places(view);
+	if (!all || !view->results)
+		return;
+	g_clear_pointer(&view->results_map, live_map_free);
+	g_signal_handlers_disconnect_by_data(view->results, view);
+	ladder_sim_end(view->results);
+	g_clear_object(&view->results);
+}
+
+/* Power became known, or is not known any more. */
+static void results_changed(LadderFbdView *view)
+{
+	fbd_forget_places(view);
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+/* NULL: the program that runs keeps them itself, or is another one. */
+static LadderSim *results_of(LadderFbdView *view)
 {
 	LadderSim *sim = view->canvas->sim;
+	LadderDocument *document = view->canvas->document;
+
+	if (!ladder_sim_board(sim) || document != ladder_sim_document(sim) || ladder_sim_older(sim, NULL) ||
+	    ladder_sim_is_missing(sim, document, view->canvas->pou, -1))
+		return NULL;
+	if (view->results && view->results_version == ladder_document_version(document))
+		return ladder_sim_is_on(view->results) ? view->results : NULL;
+	fbd_live_end(view, true);
+	view->results = ladder_sim_new(document);
+	view->results_version = ladder_document_version(document);
+	if (!ladder_sim_follow(view->results, sim, view->canvas->pou))
+		return NULL;
+	g_signal_connect_swapped(view->results, "program-changed", G_CALLBACK(results_changed), view);
+	return view->results;
+}
+
+static struct live_map *results_map(LadderFbdView *view, LadderSim *results)
+{
+	if (!view->results_map) {
+		view->results_map = live_map_new(&ladder_sim_twin(results)->resource,
+			project_text(ladder_document_project(view->canvas->document), fbd_pou(view)->name), NULL);
+		live_map_set_sim(view->results_map, results);
+	}
+	return view->results_map;
+}
+
+/* The result of a box, which no variable need have. */
+static struct live_result find_made(LadderFbdView *view, const struct fbd_box *box, bool *computed)
+{
+	LadderSim *results = results_of(view), *sim = results ? results : view->canvas->sim;
 	struct ladder *ladder = ladder_sim_ladder(sim);
 	const struct project *running = ladder ? ladder_project(ladder) : NULL;
 	const int pou = ladder_sim_pou(sim, view->canvas->document, view->canvas->pou);
@@ -60,8 +113,9 @@ static struct live_result find_made(LadderFbdView *view, const struct fbd_box *b
 	if (il && box->made && fbd_lines_place(running, &running->pou[pou], box->item, &first, &last) &&
 	    strcmp(fbd_lines_text(running, &running->pou[pou], box->item),
 		   fbd_lines_text(ladder_document_project(view->canvas->document), fbd_pou(view), box->item)) == 0 &&
-	    !live_map_made(view->map, il, first, last, box->made, &result))
+	    !live_map_made(results ? results_map(view, results) : view->map, il, first, last, box->made, &result))
 		result.at.type = IEC_NONE;
+	*computed = results != NULL;
 	return result;
 }
 
@@ -74,13 +128,14 @@ static bool is_result(const struct fbd_graph *graph, int pin)
 }
 
 static struct location find_output(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin,
-				   uint32_t *ran)
+				   uint32_t *ran, bool *computed)
 {
 	const struct fbd_pin *p = &graph->pin[pin];
 	const struct fbd_box *box = &graph->box[p->box];
-	const struct live_result made = is_result(graph, pin) ? find_made(view, box) :
+	const struct live_result made = is_result(graph, pin) ? find_made(view, box, computed) :
 					(struct live_result){ .at.type = IEC_NONE };
 
+	*computed = *computed && made.at.type != IEC_NONE;
 	if (made.at.type != IEC_NONE) {
 		*ran = made.ran;
 		return made.at;
@@ -110,7 +165,7 @@ static struct location find_output(LadderFbdView *view, int network, const struc
 }
 
 static struct location find_pin(LadderFbdView *view, int network, const struct fbd_graph *graph, int pin,
-				uint32_t *ran)
+				uint32_t *ran, bool *computed)
 {
 	const struct fbd_pin *p = &graph->pin[pin];
 	const int source = p->output ? pin : fbd_graph_source(graph, pin);
@@ -119,7 +174,7 @@ static struct location find_pin(LadderFbdView *view, int network, const struct f
 		return find_wire(view, network, p->operand, true);
 	if (!p->output && p->operand)
 		return find(view, p->operand);
-	return source >= 0 ? find_output(view, network, graph, source, ran) : (struct location){ .type = IEC_NONE };
+	return source >= 0 ? find_output(view, network, graph, source, ran, computed) : (struct location){ .type = IEC_NONE };
 }
 
 static void find_count(LadderFbdView *view, const struct fbd_box *box, struct location *now, struct location *goal)
@@ -147,24 +202,32 @@ static struct fbd_places *find_places(LadderFbdView *view, int network)
 	const struct fbd_graph *graph = fbd_graph_of(view, network);
 	const size_t pins = (size_t)graph->pin_count, boxes = (size_t)graph->box_count;
 	struct fbd_places *places = g_malloc0(sizeof(*places) +
-		(pins + 2 * boxes + 1) * sizeof(struct location) + pins * sizeof(uint32_t));
+		(pins + 2 * boxes + 1) * sizeof(struct location) + pins * (sizeof(uint32_t) + sizeof(bool)));
 
 	*places = (struct fbd_places){ .view = view, .network = network };
 	places->pin = places->at;
 	places->now = places->at + pins;
 	places->goal = places->now + boxes;
 	places->ran = (uint32_t *)(places->goal + boxes + 1);
+	places->computed = (bool *)(places->ran + pins);
 	for (int i = 0; i < graph->pin_count; i++)
-		places->pin[i] = find_pin(view, network, graph, i, &places->ran[i]);
+		places->pin[i] = find_pin(view, network, graph, i, &places->ran[i], &places->computed[i]);
 	for (int i = 0; i < graph->box_count; i++)
 		find_count(view, &graph->box[i], &places->now[i], &places->goal[i]);
 	return places;
 }
 
+static const struct image *image_of(const struct fbd_places *places, int pin)
+{
+	LadderFbdView *view = places->view;
+
+	return &ladder_sim_twin(places->computed[pin] ? view->results : view->canvas->sim)->resource.image;
+}
+
 static unsigned int pin_state(void *context, int pin, char *text, size_t size)
 {
 	const struct fbd_places *places = context;
-	const struct image *image = &ladder_sim_twin(places->view->canvas->sim)->resource.image;
+	const struct image *image = image_of(places, pin);
 	const struct location at = places->pin[pin];
 
 	text[0] = '\0';
@@ -194,13 +257,15 @@ static unsigned int box_state(void *context, int box, float *part)
 			*part = (float)CLAMP(live_value_number(places->now[box].type,
 				image_get(image, places->now[box])) / goal, 0, 1);
 	}
-	return LIVE_KNOWN | (enable.type == IEC_BOOL && !image_get(image, enable).i ? 0 : LIVE_OUT);
+	return LIVE_KNOWN |
+	       (enable.type == IEC_BOOL && !image_get(image_of(places, of->first_pin), enable).i ? 0 : LIVE_OUT);
 }
 
 bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out)
 {
 	if (!canvas_is_live(LADDER_CANVAS(view)) || !ladder_sim_twin(view->canvas->sim) || !fbd_pou(view))
 		return false;
+	results_of(view); /* before places are looked up: it forgets them */
 	make_map(view);
 	if (!view->map)
 		return false;
@@ -218,20 +283,26 @@ struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at)
 
 	if (!box || !fbd_live_look(view, at.network, &live))
 		return none;
-	if (at.pin >= 0)
-		return view->strip[at.network].places->pin[at.pin];
+	if (at.pin >= 0) /* a board has no place for what is computed here */
+		return view->strip[at.network].places->computed[at.pin] ? none :
+		       view->strip[at.network].places->pin[at.pin];
 	return box->target && box->kind != FBD_JUMP ? find(view, box->target) : none;
 }
 
 char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
 {
-	const struct location place = fbd_live_place(view, at);
+	struct location place = fbd_live_place(view, at);
+	const struct fbd_places *places = at.network >= 0 && at.network < view->count ? view->strip[at.network].places : NULL;
+	const struct image *image = &ladder_sim_twin(view->canvas->sim)->resource.image;
 	char text[IEC_VALUE_TEXT];
 
+	if (places && at.pin >= 0 && places->computed[at.pin]) {
+		place = places->pin[at.pin];
+		image = image_of(places, at.pin);
+	}
 	if (place.type == IEC_NONE)
 		return NULL;
-	live_value_print(place.type, image_get(&ladder_sim_twin(view->canvas->sim)->resource.image, place), text,
-			 sizeof(text));
+	live_value_print(place.type, image_get(image, place), text, sizeof(text));
 	return g_strdup(text);
 }
 

@@ -386,7 +386,7 @@ END_PROGRAM
 
 
 def networks(screen):
-    """values of pins and wires are those of the board; what a board keeps nowhere is not shown; why an output is FALSE"""
+    """values of pins and wires are those of the board; what a board keeps nowhere is computed of them; why an output is FALSE"""
     board = board_of(screen, 'tank', program=NETWORKS)
     editor = Editor(screen, new_file(screen, NETWORKS, 'tank.rung'))
     until(lambda: editor.all('Networks'), 'the sheet')
@@ -397,7 +397,8 @@ def networks(screen):
     part('<, input 1: Level, 30')
     part('<, output 1: wire Room, TRUE')
     part('Store in Valve, FALSE')
-    part('/, input 1: wire')
+    part('/, input 1: wire, 36')
+    part('+, output 1: wire, 36')
     part('Store in Limit, 18')
     editor.click(part('Store in Valve, FALSE'))
     editor.keys('ctrl+F12')
@@ -410,6 +411,7 @@ def networks(screen):
     part('<, output 1: wire Room, FALSE')
     part('Store in Valve, FALSE')
     part('Store in Limit, 33')
+    part('/, input 1: wire, 66')
     board.stop()
 
 
