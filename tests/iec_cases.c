@@ -146,7 +146,7 @@ static bool run_function(enum word fn, const char *at)
 	if (*at++ != '|' || args.type == IEC_NONE)
 		return false;
 	for (at = skip_blanks(at); *at && *at != '>' &&
-	     args.count < LIMIT_FN_INPUTS; at = skip_blanks(at))
+	     args.count < LIMIT_FN_ARGS; at = skip_blanks(at))
 		args.in[args.count++].i = read_number(&at);
 	if (*at++ != '>')
 		return false;

@@ -149,8 +149,8 @@ static void add_entry(struct task_text *t, const struct text_span *span)
 		entry->kind == CONFIG_PROGRAM ? LINE_PROGRAM : LINE_FIXED,
 		g_strndup(t->whole + span->at, span->len));
 
-	task_line_set(&line->name, project_text(project, entry->name));
-	task_line_set(&line->task, project_text(project, entry->task));
+	task_line_set(&line->name, project_text(project, entry->own_name ? entry->own_name : entry->name));
+	task_line_set(&line->task, project_text(project, entry->own_task ? entry->own_task : entry->task));
 	task_line_set(&line->pou, project_text(project, entry->pou));
 	g_free(line->values);
 	line->values = values_of(project, entry);

@@ -13,6 +13,7 @@
 #include "engine/check/expect.h"
 #include "engine/check/generic.h"
 #include "engine/check/settle.h"
+#include "engine/check/values.h"
 #include "engine/check/wires.h"
 #include "engine/model/caller.h"
 #include "engine/model/located.h"
@@ -524,6 +525,7 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	}
 	if (!generic_lines(t->scope, unit->pou, il, &ladder->scratch) || !located_calls(t, unit, il))
 		return no_memory(ladder, unit->pou->file);
+	values_in_list(t->scope, unit->pou, il);
 	*types = arena_alloc(&ladder->arena,
 			     ((size_t)il->count + 1) * sizeof(**types));
 	if (!*types)

@@ -261,7 +261,7 @@ struct value part_put(const struct tree *tree, struct value all, struct value pa
 {
 	const int shift = tree->number * tree->bits;
 	const unsigned spare = 64 - 8u * iec_type_row(all.type)->size;
-	const uint64_t mixed = ((uint64_t)all.i & ~(part_mask(tree) << shift)) | (uint64_t)part.i << shift;
+	const uint64_t mixed = ((uint64_t)all.i & ~(part_mask(tree) << shift)) | ((uint64_t)part.i & part_mask(tree)) << shift;
 
 	all.i = iec_type_row(all.type)->class == CLASS_SIGNED ? (int64_t)(mixed << spare) >> spare :
 		(int64_t)(mixed << spare >> spare);

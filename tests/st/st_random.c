@@ -408,8 +408,8 @@ static void own_call(struct maker *m, int depth)
 		say(m, "B := ");
 		leaf_or_constant(m, T_INT, depth);
 		if (chance(m, 60))
-			say(m, ", Rest => %s", one_of(m, (const char *const[]){ "i2", "aj[3]", "pt2.x", NULL }, 4));
-		say(m, "%s)", chance(m, 50) ? ", ENO => b3" : "");
+			say(m, ", Rest => %s", one_of(m, (const char *const[]){ "i2", "aj[3]", "pt2.x", "lw1.%W2", "dw1.%W1", NULL }, 6));
+		say(m, "%s)", chance(m, 50) ? ", ENO => b3" : chance(m, 30) ? ", ENO => w1.7" : "");
 	} else if (chance(m, 50)) {
 		say(m, "Reckon(");
 		leaf_or_constant(m, T_INT, depth);
@@ -824,7 +824,8 @@ static void call_of(struct maker *m)
 		expr(m, T_BOOL, 2);
 		say(m, ", PT := ");
 		leaf_or_constant(m, T_TIME, 1);
-		say(m, "%s);\n", chance(m, 50) ? ", Q => b1, ET => t1" : chance(m, 50) ? ", Q => ab[k1]" : "");
+		say(m, "%s);\n", chance(m, 50) ? ", Q => b1, ET => t1" : chance(m, 50) ? ", Q => ab[k1]" :
+		    chance(m, 50) ? ", Q => w1.3" : "");
 		break;
 	case 1:
 		if (m->room == ROOM_BLOCK) {
@@ -851,7 +852,7 @@ static void call_of(struct maker *m)
 		index_of(m, 1, 2, 2);
 		say(m, "](IN := ");
 		expr(m, T_BOOL, 1);
-		say(m, ", PT := T#3ms, Q => %s);\n", chance(m, 50) ? "b3" : "ab[k1]");
+		say(m, ", PT := T#3ms, Q => %s);\n", chance(m, 50) ? "b3" : chance(m, 60) ? "ab[k1]" : "aj[k1].%X5");
 		break;
 	case 4:
 		if (m->room == ROOM_MAIN) {

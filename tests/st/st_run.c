@@ -206,7 +206,9 @@ static void take_results(struct frame_of *f, struct slot *callee, const struct g
 		if (!(from->flags & VAR_IN_OUT) && !given->arg[i]->out)
 			continue;
 		to = tree_slot(f, given->arg[i], &chain); /* its indices are read again */
-		if (to && to->kind == SLOT_VALUE)
+		if (to && given->arg[i]->bits)
+			slot_put(f->world, to, part_put(given->arg[i], *to->value, *from->value));
+		else if (to && to->kind == SLOT_VALUE)
 			slot_put(f->world, to, *from->value);
 		else if (to)
 			slot_copy(to, from);
@@ -226,7 +228,9 @@ static void tell_result(struct frame_of *f, const struct tree *call, bool good)
 		const bool eno = arg->out && is_pin(arg, "ENO");
 		struct slot *to = eno ? tree_slot(f, arg, &chain) : NULL;
 
-		if (to)
+		if (to && arg->bits)
+			slot_put(f->world, to, part_put(arg, *to->value, value_bool(good)));
+		else if (to)
 			slot_put(f->world, to, value_bool(good));
 	}
 }

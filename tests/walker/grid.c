@@ -141,7 +141,7 @@ static bool make_box(struct walker *walker, const struct frame *frame,
 		     struct walked_rung *walked, struct walked *at,
 		     const struct cell *cell)
 {
-	enum iec_type type[LIMIT_FN_INPUTS] = { IEC_NONE };
+	enum iec_type type[LIMIT_FN_ARGS] = { IEC_NONE };
 
 	walker->why = "a box";
 	at->parameter = arena_alloc(&walker->arena, (size_t)(LIMIT_ARGS +
@@ -156,12 +156,12 @@ static bool make_box(struct walker *walker, const struct frame *frame,
 	for (int i = 0; i < at->parameter_count; i++) {
 		const struct parameter *pin = &at->parameter[i];
 
-		if (!pin->output && pin->pin < LIMIT_FN_INPUTS &&
+		if (!pin->output && pin->pin < LIMIT_FN_ARGS &&
 		    !word_input(word_row(at->word), (uint32_t)pin->pin)->own)
 			type[pin->pin] = pin->net >= 0 ? IEC_BOOL :
 					 pin->placed.type;
 	}
-	at->inputs = wide_type(type, LIMIT_FN_INPUTS);
+	at->inputs = wide_type(type, LIMIT_FN_ARGS);
 	for (int i = 0; i < at->parameter_count && at->inputs == IEC_NONE; i++)
 		if (at->parameter[i].output)
 			at->inputs = at->parameter[i].placed.type;

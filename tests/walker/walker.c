@@ -189,7 +189,7 @@ static bool has_room(const struct placed *to, struct value value)
 static bool call_function(struct walker *walker, struct walked_rung *walked,
 			  struct walked *at, bool power)
 {
-	struct value in[LIMIT_FN_INPUTS] = { { 0 } }, out = { 0 };
+	struct value in[LIMIT_FN_ARGS] = { { 0 } }, out = { 0 };
 	bool test = word_is_test(word_row(at->word)) ||
 		    (value_is_logic(at->word) && at->inputs == IEC_BOOL);
 	bool stored = true;

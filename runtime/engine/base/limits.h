@@ -37,6 +37,7 @@
 #define LIMIT_MEMBERS     60000     /* of one structure or block              */
 #define LIMIT_OWN_WORDS   8192      /* functions, blocks, types of a project */
 #define LIMIT_FN_INPUTS   16        /* inputs of an extensible function       */
+#define LIMIT_FN_ARGS     17        /* of any: K of MUX and those it chooses from */
 #define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */
 #define LIMIT_EXPR_NODES  512       /* operands and operators of one          */
 #define LIMIT_ST_LABELS   256       /* labels of a body of Structured Text */

@@ -8,6 +8,8 @@
 
 #include "engine/check/reserved.h"
 
+#include "engine/model/located.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -52,24 +54,33 @@ static const struct pou *find_program(struct project *project, const char *text,
 	return NULL;
 }
 
+/* Has the program of a RESOURCE another name here, because an earlier RESOURCE has the name, too? */
+static bool is_renamed(struct project *project, int from, int end, const char *text, size_t len)
+{
+	for (int i = from; i < end; i++)
+		if (project->config->entry[i].own_name && is_name(project, project->config->entry[i].own_name, text, len))
+			return true;
+	return false;
+}
+
 struct access_path access_split(struct project *project, const struct access *access)
 {
 	const struct access_block *block = access_block_of(project, (int)(access - project->access));
-	const struct config *config = project->config;
 	const char *text = project_text(project, access->path);
 	struct access_path out = { 0 };
 	size_t len = head_len(text);
+	int from, end;
 
 	if (block->pou) {
 		out.pou = &project->pou[block->pou - 1];
 		return out;
 	}
 	out.pou = text[len] == '.' ? find_program(project, text, len, &out.instance) : NULL;
-	if (!out.pou && text[len] == '.' && config && config->has_resource &&
-	    is_name(project, config->resource, text, len)) {
+	from = out.pou || text[len] != '.' ? -1 : located_resource(project, text, len, &end);
+	if (from >= 0) {
 		out.at = (uint32_t)len + 1;
 		len = head_len(text + out.at);
-		if (text[out.at + len] == '.')
+		if (text[out.at + len] == '.' && !is_renamed(project, from, end, text + out.at, len))
 			out.pou = find_program(project, text + out.at, len, &out.instance);
 	}
 	if (!out.pou)

@@ -34,14 +34,13 @@ static bool same_name(struct config_check *c, uint32_t a, uint32_t b)
 	return a && names_fold(names, a) == names_fold(names, b);
 }
 
-/* Tasks and instances of programs share one space of names. */
+/* A task may have the name of a program: only WITH names it. */
 static bool is_repeated(struct config_check *c, const struct config_entry *entry,
 			const struct config_entry *before)
 {
 	if (entry->kind == CONFIG_AREA)
 		return before->kind == CONFIG_AREA && before->area == entry->area;
-	return before->kind != CONFIG_AREA &&
-	       same_name(c, before->name, entry->name);
+	return before->kind == entry->kind && same_name(c, before->name, entry->name);
 }
 
 static bool check_repeated(struct config_check *c,
@@ -51,7 +50,7 @@ static bool check_repeated(struct config_check *c,
 
 	while (before < entry && !is_repeated(c, entry, before))
 		before++;
-	if (before == entry)
+	if (before == entry && !(entry->kind == CONFIG_RESOURCE && same_name(c, entry->name, c->config->resource)))
 		return true;
 	report(c, DIAG_DUPLICATE_NAME, entry, entry->kind == CONFIG_AREA ?
 	       iec_area_row(entry->area)->letters :

@@ -31,7 +31,7 @@ struct il_check {
 	struct il_result now;
 	uint32_t ended_at;   /* label that ended a result; 0: no label did  */
 	bool jumps;          /* a conditional jump was seen                 */
-	struct il_result in[LIMIT_FN_INPUTS]; /* inputs of the function of this line */
+	struct il_result in[LIMIT_FN_ARGS]; /* inputs of the function of this line */
 	struct folded folded[FOLDED_MOST]; /* var NULL: free                */
 	int depth;           /* of open parentheses                         */
 	struct il_opened {
@@ -102,8 +102,10 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 					     &why);
 	char array[LIMIT_ARG];
 
-	if (m)
+	if (m && !m->several)
 		return m;
+	if (m)
+		why = DIAG_AMBIGUOUS_VALUE;
 	/* The index may be a temporary that is never written. */
 	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDICES_MANY) && c->fn.pou->language == LANGUAGE_LD) {
 		const char *text = il_operand_text(c, line);
@@ -391,7 +393,7 @@ static int read_inputs(struct il_check *c, int at, struct il_result *in)
 
 		if (!m)
 			return -1;
-		if (count == LIMIT_FN_INPUTS) {
+		if (count == LIMIT_FN_ARGS) {
 			il_report(&c->fn, &c->fn.il->line[i], DIAG_TOO_MANY_OPERANDS,
 				  il_operand_text(c, &c->fn.il->line[i]));
 			return -1;
@@ -499,7 +501,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	int count = 0, last = 0;
 	bool good = true;
 
-	for (int i = 0; i < LIMIT_FN_INPUTS; i++)
+	for (int i = 0; i < LIMIT_FN_ARGS; i++)
 		in[i].there = false;
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->fn.il->line[i];
@@ -515,7 +517,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		} else if (strcasecmp(pin, "EN") == 0) {
 			good &= il_need_bool(c, arg, il_result_of(c, arg, m),
 					  il_operand_text(c, arg));
-		} else if (index < 0 || index >= LIMIT_FN_INPUTS) {
+		} else if (index < 0 || index >= LIMIT_FN_ARGS) {
 			good = il_report(&c->fn, arg, DIAG_NO_PIN, pin);
 		} else {
 			count += !in[index].there;

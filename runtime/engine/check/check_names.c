@@ -473,6 +473,15 @@ static bool leads_well(const struct var *like)
 	return !like->target || like->target->word != REFERENCE_TO;
 }
 
+/* Is what has the name of a global a program, a subroutine or an action? The place of a name tells a variable from a
+ * type, a block or a function. */
+static bool is_run_by_name(const struct names_check *c, int marked)
+{
+	const enum pou_kind kind = marked <= c->project->pou_count ? c->project->pou[marked - 1].kind : POU_BLOCK;
+
+	return kind != POU_BLOCK && kind != POU_FUNCTION;
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint16_t flags)
 {
@@ -485,7 +494,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 
 	if (twice >= 0)
 		report_twice(c, pou, var, table->var[twice].line);
-	else if (!pou && mark && mark->pou)
+	else if (!pou && mark && mark->pou && is_run_by_name(c, mark->pou))
 		report_var(c, DIAG_DUPLICATE_NAME, pou, var, name);
 	if (vars_is_eno(table, index))
 		return;

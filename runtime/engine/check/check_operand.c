@@ -718,28 +718,35 @@ static void note_place(struct operand_check *c, struct operand_spot at,
 		operand_write_array(c, at, operand_intern(c, value->text, value->len));
 }
 
+/* A variable or element that a => of a call writes. */
+static void use_stored(struct operand_check *c, struct operand_spot at, struct expr *expr, struct expr_node *to)
+{
+	uint32_t id;
+
+	if (to->op == EXPR_INDEX) {
+		use_element(c, at, use_indices(c, at, expr, (int)(to - expr->node)), true, true);
+		return;
+	}
+	id = operand_intern(c, to->text, to->len);
+	if (to->op != EXPR_NAME)
+		operand_report(c, DIAG_WRITE_CONSTANT, at, project_text(c->project, id));
+	else if (operand_is_array(c, id))
+		operand_write_array(c, at, id);
+	else
+		operand_write(c, at, id, false);
+}
+
 /* EN and outputs of a call. */
 static void note_others(struct operand_check *c, struct operand_spot at, struct expr *expr,
 			const struct expr_args *args)
 {
 	for (int i = 0; i < args->more; i++) {
 		struct expr_node *value = &expr->node[args->other[i].at];
-		uint32_t id;
 
 		if (args->other[i].pin == EXPR_EN)
 			continue;
-		value->written = true;
-		if (value->op == EXPR_INDEX) {
-			use_element(c, at, use_indices(c, at, expr, args->other[i].at), true, true);
-			continue;
-		}
-		id = operand_intern(c, value->text, value->len);
-		if (value->op != EXPR_NAME)
-			operand_report(c, DIAG_WRITE_CONSTANT, at, project_text(c->project, id));
-		else if (operand_is_array(c, id))
-			operand_write_array(c, at, id);
-		else
-			operand_write(c, at, id, false);
+		value->written = value->op != EXPR_BIT; /* a part is read, too */
+		use_stored(c, at, expr, value->op == EXPR_BIT ? &expr->node[value->left] : value);
 	}
 }
 
@@ -1062,6 +1069,11 @@ static void use_place(struct operand_check *c, struct expr *expr, enum operand_u
 			use_element(c, at, id, true, true);
 		return;
 	}
+	if (root->op == EXPR_BIT && use == OPERAND_STORED) {
+		use_expression(c, at, expr);
+		use_stored(c, at, expr, &expr->node[root->left]);
+		return;
+	}
 	if (root->op != EXPR_NAME) {
 		const bool named = root->op == EXPR_BIT || root->op == EXPR_LITERAL;
 		char text[LIMIT_ARG];
@@ -1103,7 +1115,7 @@ bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use
 	c->spot = expr->node[0].text;
 	if (use == OPERAND_CALLED) {
 		use_called(c, expr);
-	} else if (use == OPERAND_WRITTEN || use == OPERAND_CHANGED) {
+	} else if (use == OPERAND_WRITTEN || use == OPERAND_STORED || use == OPERAND_CHANGED) {
 		use_place(c, expr, use);
 	} else {
 		root->whole |= use == OPERAND_WHOLE;

@@ -39,6 +39,7 @@ enum operand_use {
 	OPERAND_READ,      /* a value                                         */
 	OPERAND_WHOLE,     /* a value, or a structure or array                */
 	OPERAND_WRITTEN,   /* gets a value                                    */
+	OPERAND_STORED,    /* gets a value behind =>, as one or as a part of it, Word.3 */
 	OPERAND_CHANGED,   /* VAR_IN_OUT: is read and written                 */
 	OPERAND_CALLED,    /* an instance                                     */
 };

@@ -140,7 +140,7 @@ static void check_program_argument(struct operand_check *c, struct callee *calle
 	m = scope_find(c->scope, c->pou, names_intern(names, text, (size_t)len), &why);
 	if (m)
 		uses_add(c->uses, m, output ? USE_READ : USE_WRITTEN);
-	check_part(c, expr, output ? OPERAND_WRITTEN :
+	check_part(c, expr, output ? OPERAND_STORED :
 		   vars_flags(table, at) & VAR_IN_OUT ? OPERAND_CHANGED : table->var[at].array.count ||
 		   table->var[at].type == IEC_NONE ? OPERAND_WHOLE : OPERAND_READ);
 }
@@ -189,7 +189,7 @@ static void check_argument(struct operand_check *c, struct callee *callee, const
 		callee->given[at / 64] |= UINT64_C(1) << at % 64;
 	}
 	if (part->role == ST_OUTPUT || (pin && pin->dir == PIN_OUT && !part->pin.len))
-		check_part(c, expr, OPERAND_WRITTEN);
+		check_part(c, expr, OPERAND_STORED);
 	else if (pin && pin->dir == PIN_IN_OUT)
 		check_part(c, expr, OPERAND_CHANGED);
 	else

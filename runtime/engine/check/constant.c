@@ -476,7 +476,7 @@ static bool fold(struct fn_check *c, const struct il_line *line, const struct il
 	const enum word word = row->runs ? row->runs : (enum word)line->word;
 	const int deciding = deciding_input(word);
 	struct fn_args *args = &c->args;
-	bool known[LIMIT_FN_INPUTS], all = true;
+	bool known[LIMIT_FN_ARGS], all = true;
 	enum fn_status status;
 
 	c->has_constant = false;

@@ -226,7 +226,7 @@ bool bound_value(struct scope *scope, const struct pou *pou, struct expr *expr, 
 	if (bound->number->op == EXPR_NAME) {
 		m = scope_find(scope, pou, names_intern(&scope_project(scope)->names, bound->number->text,
 							bound->number->len), &why);
-		if (!m || m->kind != MEANING_LITERAL)
+		if (!m || m->kind != MEANING_LITERAL || m->several)
 			return false;
 		number = m->literal;
 	} else if (bound->number->op != EXPR_LITERAL) {

@@ -46,6 +46,7 @@ struct scope {
 	uint32_t answers;       /* texts there is room for                   */
 	uint32_t *owner;        /* by table: that of the POU whose action it is; 0: none */
 	bool actions;           /* there are some                            */
+	bool several;           /* a value of several enumerations, with other numbers */
 	uint32_t wired;         /* the table whose wires are seen; 0: none   */
 	uint32_t network;       /* those of this network, from 1             */
 #define WIRED 64
@@ -130,9 +131,19 @@ static void declare_pous(struct scope *scope)
 
 static void declare_values(struct scope *scope)
 {
-	for (int i = 0; i < scope->project->enum_value_count; i++)
-		declare(scope, (struct declared){ .table = VALUES, .index = i,
-						  .fold = scope->project->enum_value[i].fold });
+	const struct enum_value *value = scope->project->enum_value;
+
+	for (int i = 0; i < scope->project->enum_value_count; i++) {
+		const struct declared *first = find_in(scope, VALUES, value[i].fold);
+
+		scope->several |= first && value[first->index].number != value[i].number;
+		declare(scope, (struct declared){ .table = VALUES, .index = i, .fold = value[i].fold });
+	}
+}
+
+bool scope_has_several(const struct scope *scope)
+{
+	return scope->several;
 }
 
 struct scope *scope_new(struct project *project, struct arena *arena)
@@ -349,24 +360,33 @@ static void mean_value(const struct scope *scope, const struct enum_value *value
 					 .text = text, .len = strlen(text) };
 }
 
-/* `Red`, if one enumeration alone has it. */
+/* `Red`. If several enumerations have it, they are of one type of number: the place says which is meant. */
 static bool mean_plain_value(const struct scope *scope, uint32_t fold, struct meaning *out,
 			     enum diag_id *why)
 {
 	const struct declared *declared = find_in(scope, VALUES, fold);
 	const struct project *project = scope->project;
 	const struct enum_value *value;
+	enum iec_type type;
+	bool several = false;
 
 	if (!declared)
 		return false;
 	value = &project->enum_value[declared->index];
-	for (int i = declared->index + 1; i < project->enum_value_count; i++)
-		if (project->enum_value[i].fold == fold &&
-		    project->enum_value[i].number != value->number) {
+	type = project->enumeration[value->enumeration].type;
+	for (int i = declared->index + 1; i < project->enum_value_count; i++) {
+		const struct enum_value *other = &project->enum_value[i];
+
+		if (other->fold != fold || other->number == value->number)
+			continue;
+		several = true;
+		if (project->enumeration[other->enumeration].type != type) {
 			*why = DIAG_AMBIGUOUS_VALUE;
 			return false;
 		}
-	mean_value(scope, value, project->enumeration[value->enumeration].type, out);
+	}
+	mean_value(scope, value, type, out);
+	out->several = several;
 	return true;
 }
 
@@ -418,7 +438,7 @@ int scope_value(const struct scope *scope, const char *text, size_t len, size_t 
 		value = list < 0 ? NULL : named_value(scope->project, list, fold);
 		return value ? (int)(value - scope->project->enum_value) : -1;
 	}
-	return mean_plain_value(scope, fold, &m, &why) ? find_in(scope, VALUES, fold)->index : -1;
+	return mean_plain_value(scope, fold, &m, &why) && !m.several ? find_in(scope, VALUES, fold)->index : -1;
 }
 
 static bool mean_literal(const char *text, size_t len, struct meaning *out,
@@ -827,6 +847,8 @@ static bool step_index(struct path *path, const char *text, size_t len)
 
 	if (!m)
 		return false;
+	if (m->several)
+		return refuse(path, DIAG_AMBIGUOUS_VALUE);
 	if (literal && m->literal.high)
 		return refuse(path, DIAG_INDEX_RANGE);
 	if (literal && (m->literal.real ||

@@ -60,6 +60,8 @@ struct meaning {
 	uint8_t opens;            /* indices computed in the scan; addr and offset are those
 	                             of the first elements */
 	bool through;             /* a pointer leads to it: meaning_pointer()  */
+	bool several;             /* of a LITERAL: a value of several enumerations with other numbers;
+				     values_in_list() finds which is meant */
 	bool part;                /* a bit, byte or word of a number that has no address of its own */
 	uint8_t first;            /* of a part: its lowest bit                 */
 	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
@@ -181,6 +183,8 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 /** scope_span - bytes from its offset to the end of the last element that an index may reach.
  * Scan-safe: no. */
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning);
+/** scope_has_several - is there a name that is a value of several enumerations, with other numbers? Scan-safe: yes. */
+bool scope_has_several(const struct scope *scope);
 struct project *scope_project(const struct scope *scope);
 /** scope_areas - the areas of the project when the scope was made. Lives as long as the
  * scope. */

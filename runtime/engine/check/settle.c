@@ -38,7 +38,7 @@ struct settle {
 	struct literal literal[LIMIT_EXPR_NODES];
 	enum iec_type type[LIMIT_EXPR_NODES]; /* IEC_NONE: of constants without a type */
 	enum iec_type hint[LIMIT_EXPR_NODES]; /* the type that is wanted      */
-	struct il_result in[LIMIT_FN_INPUTS];
+	struct il_result in[LIMIT_FN_ARGS];
 };
 
 static struct settle *settle_new(struct project *project, struct arena *scratch,
@@ -201,6 +201,10 @@ static struct il_result take_name(struct settle *s, int i)
 
 	if (value)
 		return take_value(s, value, literal);
+	if (m && m->several) {
+		m = NULL;
+		why = DIAG_AMBIGUOUS_VALUE;
+	}
 	if (!m) {
 		snprintf(name, sizeof(name), "%.*s", node->len, node->text);
 		/* What another tool calls so is no constant. */

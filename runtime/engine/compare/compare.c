@@ -1230,7 +1230,7 @@ static const char *kind_of(const struct config_entry *entry)
 {
 	static const char *const kind[] = {
 		[CONFIG_VARS] = "", [CONFIG_ACCESS] = "", [CONFIG_LOCATED] = "", [CONFIG_AREA] = "area",
-		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance",
+		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance", [CONFIG_RESOURCE] = "resource",
 	};
 
 	return kind[entry->kind];

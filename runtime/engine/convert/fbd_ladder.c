@@ -808,9 +808,9 @@ static const struct path *call_path(struct ladders *l, const struct expr_node *n
 {
 	const enum path_kind kind = (op == EXPR_AND) != inverse ? PATH_SERIES : PATH_PARALLEL;
 	const struct path *path = NULL;
-	int arg[LIMIT_FN_INPUTS], count = 0;
+	int arg[LIMIT_FN_ARGS], count = 0;
 
-	for (int i = node->left; i >= 0 && count < LIMIT_FN_INPUTS; i = node_of(l, i)->right)
+	for (int i = node->left; i >= 0 && count < LIMIT_FN_ARGS; i = node_of(l, i)->right)
 		arg[count++] = node_of(l, i)->left;
 	if (op == EXPR_NOT)
 		return path_of(l, arg[0], !inverse);

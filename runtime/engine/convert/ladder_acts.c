@@ -20,7 +20,7 @@
 #include <strings.h>
 
 struct call {
-	struct act_arg arg[LIMIT_ARGS + LIMIT_FN_INPUTS];
+	struct act_arg arg[LIMIT_ARGS + LIMIT_FN_ARGS];
 	int count, inputs;
 	bool fails;           /* an input may not exist                       */
 	uint32_t out, eno;    /* of a function: OUT, ENO; 0: none             */

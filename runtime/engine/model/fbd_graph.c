@@ -477,7 +477,8 @@ static int input_named(const struct word_row *row, const struct argument *arg)
 /* The input for the argument behind that of pin @last; a block has outputs behind its inputs. */
 static int next_place(const struct word_row *row, int last)
 {
-	const int most = is_function(row) && row->most_inputs ? LIMIT_FN_INPUTS : row->pin_count;
+	const int most = !is_function(row) || !row->most_inputs ? row->pin_count :
+			 row->most_inputs > LIMIT_FN_INPUTS ? row->most_inputs : LIMIT_FN_INPUTS;
 
 	for (int i = last + 1; i < most; i++)
 		if (i >= row->pin_count || takes(row, i))

@@ -28,18 +28,21 @@ static bool is_called(const struct project *project, uint32_t id, const char *te
 	return id && name_is(project_text(project, id), text, len);
 }
 
-/* The instance or program of this name. */
-static bool find_program(const struct project *project, const char *text, size_t len,
+/* The instance of this name among the entries @from to before @to, or the program. */
+static bool find_program(const struct project *project, int from, int to, const char *text, size_t len,
 			 struct located *out)
 {
 	const struct config *config = project->config;
 	const char *name;
 
 	*out = (struct located){ .pou = project_find_pou(project, text, len) };
-	for (int i = 0; config && i < config->count && !out->instance; i++)
-		if (config->entry[i].kind == CONFIG_PROGRAM &&
-		    is_called(project, config->entry[i].name, text, len))
-			out->instance = &config->entry[i];
+	for (int i = from; i < to && !out->instance; i++) {
+		const struct config_entry *entry = &config->entry[i];
+
+		if (entry->kind == CONFIG_PROGRAM &&
+		    is_called(project, from && entry->own_name ? entry->own_name : entry->name, text, len))
+			out->instance = entry;
+	}
 	if (out->instance) {
 		name = project_text(project, out->instance->pou);
 		out->pou = project_find_pou(project, name, strlen(name));
@@ -47,21 +50,45 @@ static bool find_program(const struct project *project, const char *text, size_t
 	return out->pou >= 0 && project->pou[out->pou].kind == POU_PROGRAM;
 }
 
+int located_resource(const struct project *project, const char *text, size_t len, int *end)
+{
+	const struct config *config = project->config;
+	int from = 0;
+
+	*end = config ? config->count : 0;
+	if (!config)
+		return -1;
+	while (from < config->count && !(config->entry[from].kind == CONFIG_RESOURCE &&
+					 is_called(project, config->entry[from].name, text, len)))
+		from++;
+	if (from == config->count)
+		return is_called(project, config->resource, text, len) ? 0 : -1;
+	for (*end = from + 1; *end < config->count && config->entry[*end].inside &&
+			      config->entry[*end].kind != CONFIG_RESOURCE;)
+		++*end;
+	return from;
+}
+
 bool located_find(struct project *project, const char *path, struct located *out)
 {
 	const struct config *config = project->config;
 	const char *rest = NULL;
 	size_t len = step(path, &rest);
+	int from, end;
 
 	if (rest && config && is_called(project, config->name, path, len)) {
 		path = rest;
 		len = step(path, &rest);
 	}
-	if (rest && config && is_called(project, config->resource, path, len)) {
+	from = located_resource(project, path, len, &end);
+	if (rest && from >= 0) {
 		path = rest;
 		len = step(path, &rest);
+	} else {
+		from = 0;
+		end = config ? config->count : 0;
 	}
-	if (!rest || !find_program(project, path, len, out))
+	if (!rest || !find_program(project, from, end, path, len, out))
 		return false;
 	len = strcspn(rest, ".[");
 	out->text = rest;

@@ -150,9 +150,18 @@ static void print_types(const struct project *project, const char *name, char *o
 void named_tell(const struct project *project, enum diag_id why, const char *name, char *out,
 		size_t size)
 {
-	const size_t head = strcspn(name, "#.");
-	const int used = snprintf(out, size, "%.60s", name);
-	int type;
+	const char *index = strrchr(name, '[');
+	char inner[LIMIT_NAME + 1];
+	size_t head;
+	int type, used;
+
+	if (why == DIAG_AMBIGUOUS_VALUE && index) { /* List[Red]: the index */
+		index += 1 + strspn(index + 1, " ");
+		snprintf(inner, sizeof(inner), "%.*s", (int)strcspn(index, " ,]"), index);
+		name = inner;
+	}
+	head = strcspn(name, "#.");
+	used = snprintf(out, size, "%.60s", name);
 
 	if (used < 0 || (size_t)used + 2 >= size)
 		return;

@@ -20,16 +20,19 @@
 /* A CONFIGURATION as it was written, line by line (IEC 61131-3, 2.7 and tables 49 and
  * 50). check/ resolves the names, scan/ decides when a task runs. */
 enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM, CONFIG_ACCESS,
-		   CONFIG_LOCATED };
+		   CONFIG_LOCATED, CONFIG_RESOURCE };
 
 struct st_item;
 
 /* One line; members of other kinds are 0. */
 struct config_entry {
 	enum config_kind kind;
-	bool inside;          /* of the RESOURCE                              */
-	uint32_t name;        /* TASK, PROGRAM: string id                     */
-	uint32_t pou, task;   /* PROGRAM: string ids; task 0: none            */
+	bool inside;          /* of a RESOURCE                                */
+	uint32_t name;        /* TASK, PROGRAM, RESOURCE: string id           */
+	uint32_t pou, task;   /* PROGRAM: string ids; task 0: none. RESOURCE, each behind the first one, whose
+				 entries follow: its kind behind ON, comments behind END_RESOURCE */
+	uint32_t own_name, own_task; /* as written, if another RESOURCE has the name, too: then name and task
+				 are Resource_Name; 0: name and task are as written */
 	struct st_item *value; /* PROGRAM: Input := value; or, `behind`, place := Output */
 	int values;
 	uint32_t single;      /* TASK: string id of an operand; 0: none       */
@@ -47,7 +50,7 @@ struct config_entry {
 struct config {
 	uint32_t name;
 	uint32_t comment;     /* the comment of its first line                */
-	bool has_resource;
+	bool has_resource;        /* the first one                            */
 	uint32_t resource, on; /* string ids; on 0: not written               */
 	uint32_t resource_comment;
 	uint32_t resource_inside; /* comments in a RESOURCE without entries   */

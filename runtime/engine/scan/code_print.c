@@ -25,10 +25,10 @@ static struct operand_text typed(uint32_t operand)
 
 static int print_fn(const uint32_t *at, uint32_t n, char *out, size_t size)
 {
-	char inputs[LIMIT_FN_INPUTS * 26] = "";
+	char inputs[LIMIT_FN_ARGS * 26] = "";
 	size_t used = 0;
 
-	for (uint32_t i = 0; i < (n >> 8 & 0xff) && i < LIMIT_FN_INPUTS; i++)
+	for (uint32_t i = 0; i < (n >> 8 & 0xff) && i < LIMIT_FN_ARGS; i++)
 		used += (size_t)snprintf(inputs + used, sizeof(inputs) - used,
 					 " %s", typed(at[4 + i] & ~CODE_OWN).text);
 	return snprintf(out, size, "fn      %s.%s en b%u%s -> %s eno b%u",

@@ -138,7 +138,7 @@ enum fn_status fn_MID(struct fn_args *args)
 
 enum fn_status fn_CONCAT(struct fn_args *args)
 {
-	struct piece piece[LIMIT_FN_INPUTS];
+	struct piece piece[LIMIT_FN_ARGS];
 
 	for (uint32_t i = 0; i < args->count; i++)
 		piece[i] = whole(args->in[i].s);

@@ -99,8 +99,8 @@ struct fn_args {
 	enum iec_type type;    /* the type that its FN_IN pins share          */
 	enum iec_type result;  /* of out                                      */
 	uint32_t count;
-	enum iec_type in_type[LIMIT_FN_INPUTS]; /* of FN_OWN pins its own     */
-	union iec_value in[LIMIT_FN_INPUTS];
+	enum iec_type in_type[LIMIT_FN_ARGS]; /* of FN_OWN pins its own     */
+	union iec_value in[LIMIT_FN_ARGS];
 	union iec_value out;   /* a STRING: any text that lives until the
 				  function is called again; it is copied, and
 				  cut (ENO FALSE) where there is no room      */

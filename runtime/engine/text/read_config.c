@@ -12,6 +12,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -409,23 +410,109 @@ static void keep_inside(struct reader *r, struct config *config)
 	*id = comment_join(r, *id, &r->note, COMMENT_NOTE);
 }
 
-static void read_resource(struct reader *r, struct config *config)
+/* `RESOURCE Name ON Kind`; the comment is in r->note. False: it has no name. */
+static bool read_resource_head(struct reader *r, uint32_t *name, uint32_t *on)
 {
-	const struct token head = r->lex.token;
+	bool good = false;
 
-	if (config->has_resource)
-		reader_fail_many(r, DIAG_TOO_MANY, "resources", 1);
+	*on = 0;
 	reader_next(r);
-	if (reader_name(r, "name of the resource", &config->resource)) {
-		config->has_resource = true;
+	if (reader_name(r, "name of the resource", name)) {
+		good = true;
 		reader_next(r);
 		if (lex_is(&r->lex, "ON")) {
 			reader_next(r);
-			if (reader_name(r, "kind of the resource", &config->on))
+			if (reader_name(r, "kind of the resource", on))
 				reader_next(r);
 		}
 	}
 	reader_end_head(r);
+	return good;
+}
+
+static bool same_text(const struct reader *r, uint32_t a, uint32_t b)
+{
+	return a && b && name_equal(project_text(r->project, a), project_text(r->project, b));
+}
+
+/* `Name` of a later RESOURCE is Resource_Name. */
+static uint32_t in_resource(struct reader *r, uint32_t resource, uint32_t name)
+{
+	char text[2 * LIMIT_NAME + 2];
+	const int len = snprintf(text, sizeof(text), "%s_%s", project_text(r->project, resource),
+				 project_text(r->project, name));
+
+	return len > 0 && (size_t)len < sizeof(text) ? reader_intern(r, text, (size_t)len) : name;
+}
+
+/* Tasks and programs from entry @from on get names that no earlier RESOURCE has: all run on one processor. */
+static void part_names(struct reader *r, struct config *config, int from, uint32_t resource)
+{
+	for (int i = from; i < config->count; i++) {
+		struct config_entry *entry = &config->entry[i];
+		bool taken = false;
+
+		for (int k = 0; k < from && !taken; k++)
+			taken = config->entry[k].kind == entry->kind && same_text(r, config->entry[k].name, entry->name);
+		if (!taken || (entry->kind != CONFIG_TASK && entry->kind != CONFIG_PROGRAM))
+			continue;
+		entry->own_name = entry->name;
+		entry->name = in_resource(r, resource, entry->name);
+	}
+	for (int i = from; i < config->count; i++)
+		for (int k = from; k < config->count; k++) {
+			struct config_entry *entry = &config->entry[i];
+			const struct config_entry *task = &config->entry[k];
+
+			if (entry->kind != CONFIG_PROGRAM || entry->own_task || task->kind != CONFIG_TASK ||
+			    !task->own_name || !same_text(r, task->own_name, entry->task))
+				continue;
+			entry->own_task = entry->task;
+			entry->task = task->name;
+		}
+}
+
+/* Another RESOURCE behind the first one: an entry, and those in it behind it. */
+static void read_further_resource(struct reader *r, struct config *config)
+{
+	const struct token head = r->lex.token;
+	struct config_entry entry = { .kind = CONFIG_RESOURCE, .inside = true, .line = head.line };
+	struct config_entry *at;
+	int from;
+
+	read_resource_head(r, &entry.name, &entry.pou);
+	entry.comment = buffer_take(r, &r->note);
+	if (!add_entry(r, config, entry))
+		return;
+	from = config->count;
+	read_entries(r, config, true);
+	if (!lex_is(&r->lex, "END_RESOURCE")) {
+		reader_fail_open(r, &head);
+		return;
+	}
+	at = &config->entry[config->count - 1];
+	if (config->count > from) {
+		uint32_t *id = comment_of(r->project, at);
+
+		*id = comment_join(r, *id, &r->note, COMMENT_NOTE);
+	} else {
+		at->comment = comment_join(r, at->comment, &r->note, COMMENT_NOTE);
+	}
+	part_names(r, config, from, entry.name);
+	reader_next(r);
+	reader_end_head(r);
+	config->entry[from - 1].task = buffer_take(r, &r->note);
+}
+
+static void read_resource(struct reader *r, struct config *config)
+{
+	const struct token head = r->lex.token;
+
+	if (config->has_resource) {
+		read_further_resource(r, config);
+		return;
+	}
+	config->has_resource = read_resource_head(r, &config->resource, &config->on);
 	config->resource_comment = buffer_take(r, &r->note);
 	config->resource_at = config->count;
 	read_entries(r, config, true);
@@ -439,7 +526,7 @@ static void read_resource(struct reader *r, struct config *config)
 	config->resource_behind = buffer_take(r, &r->note);
 }
 
-/* A second level only for lines in the RESOURCE. */
+/* A second level only for lines in a RESOURCE. */
 static void read_entries(struct reader *r, struct config *config, bool inside)
 {
 	for (;;) {
@@ -470,9 +557,13 @@ static void keep_last_comments(struct reader *r, struct config *config)
 {
 	const int count = config->count;
 	uint32_t *id = &config->comment;
+	int last = count - 1;
+
+	while (last >= 0 && config->entry[last].kind != CONFIG_RESOURCE)
+		last--;
 
 	if (config->has_resource && (count == config->resource_at || config->entry[count - 1].inside))
-		id = &config->resource_behind;
+		id = last >= 0 ? &config->entry[last].task : &config->resource_behind;
 	else if (count)
 		id = comment_of(r->project, &config->entry[count - 1]);
 	*id = comment_join(r, *id, &r->note, COMMENT_NOTE);

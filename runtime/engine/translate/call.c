@@ -91,7 +91,7 @@ static enum iec_type type_of(const struct il_result *result)
 /* One or more operands, the first of them what an error leaves. */
 struct applied {
 	enum word word;
-	uint32_t count, operand[LIMIT_FN_INPUTS];
+	uint32_t count, operand[LIMIT_FN_ARGS];
 };
 
 static void apply(struct list *list, const struct applied *applied)
@@ -246,7 +246,7 @@ static void finish_target(struct list *list, const struct target *target)
 }
 
 struct call {
-	uint32_t en, input[LIMIT_FN_INPUTS];
+	uint32_t en, input[LIMIT_FN_ARGS];
 	int count;
 	const struct meaning *eno, *out;
 	int eno_line, out_line;
@@ -290,7 +290,7 @@ static void read_args(struct list *list, const struct word_row *row,
 		} else if (strcasecmp(pin, "OUT") == 0) {
 			call->out = m;
 			call->out_line = i;
-		} else if (index >= 0 && index < LIMIT_FN_INPUTS) {
+		} else if (index >= 0 && index < LIMIT_FN_ARGS) {
 			call->input[index] = read_input(list, m,
 				input_type(row, (uint32_t)index, type,
 					   m->kind == MEANING_LITERAL ?

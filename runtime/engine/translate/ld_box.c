@@ -260,7 +260,7 @@ static void store_eno(struct ld *ld, const char *args, uint32_t eno)
 
 /* All inputs in the order of the row: pin rows and parameters. */
 struct operands {
-	uint32_t id[LIMIT_FN_INPUTS];
+	uint32_t id[LIMIT_FN_ARGS];
 	bool bits;             /* one of them is a BOOL, and none is more     */
 };
 
@@ -281,7 +281,7 @@ static void take_operand(struct ld *ld, const struct word_row *row, const char *
 	int index = word_pin_find(row, pin, len);
 	bool seen = false;
 
-	if (index < 0 || index >= LIMIT_FN_INPUTS)
+	if (index < 0 || index >= LIMIT_FN_ARGS)
 		return;
 	out->id[index] = id;
 	if (!is_bit(ld, id, &seen))
@@ -310,7 +310,7 @@ static bool take_operands(struct ld *ld, int element, const struct inputs *input
 		if (!arg.output)
 			take_operand(ld, row, arg.pin, arg.pin_len,
 				     inputs->operand[n], out);
-	for (int i = 0; i < LIMIT_FN_INPUTS; i++)
+	for (int i = 0; i < LIMIT_FN_ARGS; i++)
 		if (out->id[i])
 			is_bit(ld, out->id[i], &seen);
 	out->bits &= seen;
@@ -324,7 +324,7 @@ static void emit_logic(struct ld *ld, enum op op, const struct operands *operand
 	ld_emit(ld, OP_LD, 0, operands->id[0]);
 	if (op_row(op)->operand == OPND_NONE)
 		ld_emit(ld, op, 0, 0);
-	for (int i = 1; i < LIMIT_FN_INPUTS && operands->id[i]; i++)
+	for (int i = 1; i < LIMIT_FN_ARGS && operands->id[i]; i++)
 		ld_emit(ld, op, 0, operands->id[i]);
 	ld_emit(ld, OP_ST, 0, result);
 }

@@ -510,7 +510,7 @@ static void fold_index(struct chain *c, const struct expr_node *node, int from, 
 	}
 	if (of && by && of->kind == MEANING_VARIABLE && !meaning_is_indexed(of) &&
 	    (of->type == IEC_INT || of->type == IEC_DINT) && m->open[m->opens - 1].of->type == of->type &&
-	    holds_all(&m->open[m->opens - 1].array, of->type, by->literal.value.i))
+	    holds_all(&m->open[m->opens - 1].array, of->type, by->literal.value.i) && !by->several)
 		call->mark |= IL_INDEX;
 }
 
@@ -698,6 +698,28 @@ static struct value keep_value(struct chain *c, struct value value)
 
 /* ---- calls ---- */
 
+static bool is_part(const struct chain *c, int index)
+{
+	return c->expr->node[index].op == EXPR_BIT;
+}
+
+/* `Left => Word.%B1`: what the call left in @from goes to a part of a number. */
+static void store_part(struct chain *c, int index, uint32_t from, bool inverted)
+{
+	const struct expr_node *node = &c->expr->node[index];
+	const struct value none = { .type = IEC_NONE };
+	struct value place = chain_place(c, node->left), value = { .operand = from, .type = infer_operand(&c->in, from) };
+	unsigned int bits = 1, number;
+
+	expr_part(node->tail, &bits, &number);
+	if (inverted) {
+		ld_emit(c->ld, OP_LD, MOD_N, from);
+		value.operand = ld_store_new(c->ld);
+	}
+	value = put_bit(c, place.operand, node->tail, chain_fit(c, value, infer_bits(bits)));
+	operate(c, FN_MOVE, value, none, value.type, place.operand);
+}
+
 /* @in by argument. Into a temporary, if there is no @target. */
 static struct value emit_call(struct chain *c, enum word word, const struct expr_args *args,
 			      const struct value in[LIMIT_ARGS], const uint32_t other[LIMIT_ARGS],
@@ -721,13 +743,17 @@ static struct value emit_call(struct chain *c, enum word word, const struct expr
 		ld_arg(ld, false, pin, in[i].operand);
 	}
 	for (int i = 0; i < args->more; i++)
-		if (args->other[i].pin >= 0)
+		if (args->other[i].pin >= 0 && other[i])
 			ld_arg(ld, true, chain_intern(c, row->pin[args->other[i].pin].name,
 				strlen(row->pin[args->other[i].pin].name)), other[i]);
 	ld_arg(ld, true, ld->eno_id, eno);
 	ld_arg(ld, true, chain_intern(c, words_result(row), strlen(words_result(row))), out.operand);
 	for (int i = 0; i < args->more; i++)
-		if (args->other[i].pin == EXPR_ENO || args->other[i].pin == EXPR_OUT) {
+		if (is_part(c, args->other[i].at)) {
+			c->en = args->other[i].pin == EXPR_ENO ? 0 : eno; /* ENO is stored in any case */
+			store_part(c, args->other[i].at, args->other[i].pin == EXPR_ENO ? eno :
+				   args->other[i].pin == EXPR_OUT ? out.operand : other[i], args->other[i].inverted);
+		} else if (args->other[i].pin == EXPR_ENO || args->other[i].pin == EXPR_OUT) {
 			ld_emit(ld, OP_LD, 0, args->other[i].pin == EXPR_ENO ? eno : out.operand);
 			ld_emit(ld, OP_ST, args->other[i].inverted ? MOD_N : 0, other[i]);
 		} else if (args->other[i].inverted) {
@@ -751,13 +777,26 @@ static void chain_enable(struct chain *c, int index)
 	c->en = ld_store_new(c->ld);
 }
 
+/* A temporary for an output that goes to a part of a number; ENO and the result are there anyway. */
+static uint32_t part_value(struct chain *c, const struct word_row *row, int pin)
+{
+	if (pin < 0 || pin >= row->pin_count || row->pin[pin].type == IEC_NONE)
+		return 0;
+	return row->pin[pin].type == IEC_BOOL ? temps_bool(c->ld->temps) : temps_number(c->ld->temps, row->pin[pin].type);
+}
+
 /* EN and the places behind =>. */
-static void take_others(struct chain *c, const struct expr_args *args, uint32_t other[LIMIT_ARGS])
+static void take_others(struct chain *c, const struct word_row *row, const struct expr_args *args,
+			uint32_t other[LIMIT_ARGS])
 {
 	for (int i = 0; i < args->more; i++) {
 		other[i] = 0;
 		if (args->other[i].pin == EXPR_EN) {
 			chain_enable(c, args->other[i].at);
+			continue;
+		}
+		if (is_part(c, args->other[i].at)) {
+			other[i] = part_value(c, row, args->other[i].pin);
 			continue;
 		}
 		other[i] = chain_place(c, args->other[i].at).operand;
@@ -783,7 +822,7 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 		.operand = target, .type = result && !array ? result->type : IEC_NONE };
 	uint32_t more[LIMIT_ARGS];
 
-	take_others(c, args, more);
+	take_others(c, row, args, more);
 	for (int i = 0; i < args->count; i++) {
 		const struct word_pin *pin = &row->pin[args->arg[i].pin];
 		bool place = is_whole(pin) || pin->dir == PIN_IN_OUT;
@@ -832,7 +871,7 @@ __attribute__((noinline))
 static struct value call_tests(struct chain *c, enum word word, const struct expr_args *args)
 {
 	const enum iec_type type = infer_shared(&c->in, ld_row(c->ld, word), args);
-	struct value in[LIMIT_FN_INPUTS], out = { .type = IEC_BOOL };
+	struct value in[LIMIT_FN_ARGS], out = { .type = IEC_BOOL };
 
 	for (int i = 0; i < args->count; i++)
 		in[args->arg[i].pin] = settle(c, chain_side(c, args->arg[i].at, type));
@@ -862,7 +901,7 @@ static enum op logic_of(enum word word)
 __attribute__((noinline))
 static struct value call_logic(struct chain *c, enum op op, const struct expr_args *args)
 {
-	struct value in[LIMIT_FN_INPUTS], out = { .type = IEC_BOOL };
+	struct value in[LIMIT_FN_ARGS], out = { .type = IEC_BOOL };
 
 	for (int i = 0; i < args->count; i++)
 		in[args->arg[i].pin] = settle(c, chain_side(c, args->arg[i].at, IEC_BOOL));
@@ -899,7 +938,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	struct value in[LIMIT_ARGS], out = { .operand = other ? 0 : target };
 	uint32_t more[LIMIT_ARGS];
 
-	take_others(c, args, more);
+	take_others(c, row, args, more);
 	if (type == IEC_REAL && word_shares(row))
 		type = infer_wanted(&c->in, index, hint);
 

@@ -200,7 +200,7 @@ void list_compare(struct list *list, enum word word, uint32_t left, uint32_t rig
 struct fn_code {
 	uint32_t fn;
 	enum iec_type type, result;
-	uint32_t en, eno, to, count, input[LIMIT_FN_INPUTS];
+	uint32_t en, eno, to, count, input[LIMIT_FN_ARGS];
 	bool left; /* without a result `to` gets the first input, if list_stores_left() */
 };
 /** list_emit_fn - the instruction that runs it. */

@@ -9,6 +9,7 @@
 #include "engine/base/name.h"
 #include "engine/check/mixed.h"
 #include "engine/check/split.h"
+#include "engine/check/values.h"
 #include "engine/model/expr_args.h"
 #include "engine/model/fbd.h"
 #include "engine/translate/ladder_unit.h"
@@ -39,6 +40,7 @@ struct st_open {
 struct st_call {
 	struct il_line line[LIMIT_ARGS]; /* its arguments                     */
 	uint32_t inverse[LIMIT_ARGS];    /* of NOT Q => place: place; 0: of another argument */
+	uint32_t part[LIMIT_ARGS];       /* of Q => Word.3: the assignment behind the call; 0: likewise */
 	int count;
 	uint32_t skip;       /* label behind the call; 0: none                */
 };
@@ -360,7 +362,7 @@ static bool literal_value(struct st_il *s, uint32_t operand, enum iec_type type,
 	const struct meaning *m = ld_meaning(&s->ld, operand);
 	union iec_value value;
 
-	if (!m || m->kind != MEANING_LITERAL || !literal_fit(&m->literal, type, &value))
+	if (!m || m->kind != MEANING_LITERAL || m->several || !literal_fit(&m->literal, type, &value))
 		return false;
 	*out = value.i;
 	return true;
@@ -735,7 +737,8 @@ static void test_choice(struct st_il *s, struct st_walk *walk, uint32_t selector
 	while (next_part(s, walk, &part) &&
 	       part.role != ST_NO_PART) {
 		enum iec_type is = type;
-		const uint32_t value = ld_value(&s->ld, &is, &good);
+		const uint32_t value = values_choose(s->translation->scope, s->pou, ld_value(&s->ld, &is, &good),
+						     selector);
 		struct lex ahead = walk->lex;
 		const bool range = part.role == ST_LOW && lex_is(&ahead, ".");
 
@@ -860,6 +863,90 @@ static const struct word_pin *pin_at(const struct word_row *row, const struct st
 	return index >= 0 && index < row->pin_count ? &row->pin[index] : NULL;
 }
 
+/* The text of `place := value`; 0: no memory. */
+static uint32_t assignment(struct st_il *s, const char *place, size_t len, const char *value)
+{
+	const size_t size = len + strlen(value) + 5;
+	char *text = arena_alloc(s->ld.scratch, size);
+
+	if (!text) {
+		s->ld.failed = true;
+		return 0;
+	}
+	return st_intern(s, text, (size_t)snprintf(text, size, "%.*s := %s", (int)len, place, value));
+}
+
+/* Does what assignment() says. */
+static void store_text(struct st_il *s, uint32_t id)
+{
+	struct lex lex;
+
+	if (!id)
+		return;
+	lex_init(&lex, names_text(&s->translation->project->names, id),
+		 names_len(&s->translation->project->names, id));
+	lex_next(&lex);
+	if (expr_parse_cell(&lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
+		ld_store(&s->ld);
+	else
+		s->ld.failed = true;
+}
+
+/* An output that goes to Word.3: into a temporary, which is put there behind the call. */
+static uint32_t begin_part(struct st_il *s, const struct st_part *part, const struct word_pin *pin)
+{
+	const struct expr_tail tail = s->ld.expr->node[s->ld.expr->root].tail;
+	const enum iec_type type = pin ? (enum iec_type)pin->type : IEC_BOOL;
+	char value[LIMIT_NAME + 8];
+	uint32_t temp;
+
+	if (pin && (pin->elements || type == IEC_NONE || type == IEC_STRING)) {
+		st_report(s, DIAG_PART_ALONE, part->text, "");
+		return 0;
+	}
+	temp = type == IEC_BOOL ? temps_bool(s->ld.temps) : temps_number(s->ld.temps, type);
+	snprintf(value, sizeof(value), "%s%.*s", part->inverted ? "NOT " : "", LIMIT_NAME,
+		 project_text(s->translation->project, temp));
+	s->call.part[s->call.count] = assignment(s, part->text, (size_t)(tail.text + tail.len - part->text), value);
+	return temp;
+}
+
+/* An instance that an index leads to, perhaps to none: what the call leaves goes to a part only if there is one. */
+static void check_instance(struct st_il *s, uint32_t instance, const struct meaning *m)
+{
+	const struct project *project = s->translation->project;
+
+	for (int i = 0; m && (m->opens || m->through) && i < s->call.count; i++) {
+		const struct il_line *line = &s->call.line[i];
+		const uint32_t found = temps_bool(s->ld.temps);
+
+		if (!s->call.part[i])
+			continue;
+		const char *path = project_text(project, instance), *pin = project_text(project, line->pin);
+		const size_t size = strlen(path) + strlen(pin) + 2;
+		char *text = arena_alloc(s->ld.scratch, size);
+
+		if (!text) {
+			s->ld.failed = true;
+			return;
+		}
+		ld_call(&s->ld, FN_MOVE);
+		ld_arg(&s->ld, false, s->ld.in_id,
+		       st_intern(s, text, (size_t)snprintf(text, size, "%s.%s", path, pin)));
+		ld_arg(&s->ld, true, s->ld.eno_id, found);
+		ld_arg(&s->ld, true, s->ld.out_id, line->operand);
+		skip_unless(s, found);
+		return;
+	}
+}
+
+static void end_parts(struct st_il *s)
+{
+	for (int i = 0; i < s->call.count; i++)
+		if (s->call.part[i])
+			store_text(s, s->call.part[i]);
+}
+
 /* The value of an argument, in a temporary if it is more than an operand. */
 static uint32_t argument(struct st_il *s, const struct word_pin *pin)
 {
@@ -909,10 +996,16 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 	}
 	if (!pin && !part->pin.len)
 		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
-	line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
+	call->part[call->count] = 0;
+	if (part->role == ST_OUTPUT && s->ld.expr->node[s->ld.expr->root].op == EXPR_BIT)
+		line.operand = begin_part(s, part, pin);
+	else
+		line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
 	skip_unless(s, good);
 	call->inverse[call->count] = 0;
-	if (part->inverted && st_type_of(s, line.operand) != IEC_BOOL) {
+	if (call->part[call->count])
+		; /* the assignment says NOT */
+	else if (part->inverted && st_type_of(s, line.operand) != IEC_BOOL) {
 		want_bool(s, st_type_of(s, line.operand));
 	} else if (part->inverted) {
 		call->inverse[call->count] = line.operand;
@@ -961,6 +1054,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 		}
 	}
 	at_item(s);
+	check_instance(s, instance, m);
 	ld_emit(&s->ld, OP_CAL, 0, instance);
 	for (int i = 0; i < call->count; i++) {
 		s->ld.line = (int)call->line[i].line;
@@ -968,6 +1062,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 		ld_emit_line(&s->ld, call->line[i]);
 	}
 	end_inverses(s);
+	end_parts(s);
 	if (call->skip)
 		here(s, call->skip);
 }
@@ -997,10 +1092,19 @@ static void store_input(struct st_il *s, const char *name, size_t len)
 }
 
 /* The place that was read := Other.Level */
-static void take_output(struct st_il *s, const char *name, size_t len, bool inverted)
+static void take_output(struct st_il *s, const struct st_part *part, const char *name, size_t len)
 {
 	struct expr *expr = s->ld.expr;
 	const struct expr_node place = expr->node[expr->root];
+	const bool inverted = part->inverted;
+
+	if (place.op == EXPR_BIT) {
+		char value[2 * LIMIT_NAME + 8];
+
+		snprintf(value, sizeof(value), "%s%.*s", inverted ? "NOT " : "", (int)len, name);
+		store_text(s, assignment(s, part->text, (size_t)(place.tail.text + place.tail.len - part->text), value));
+		return;
+	}
 
 	if (expr->count == LIMIT_EXPR_NODES)
 		return;
@@ -1043,7 +1147,7 @@ static void program_arguments(struct st_il *s, const struct pou *program, struct
 			continue;
 		name = variable_of(s, program, at, &len);
 		if (output)
-			take_output(s, name, len, part.inverted);
+			take_output(s, &part, name, len);
 		else
 			store_input(s, name, len);
 	}
@@ -1282,24 +1386,9 @@ static void leave_if(struct st_il *s, struct st_walk *walk)
 static void store_latch(struct st_il *s, const char *place, size_t len, bool set)
 {
 	const uint32_t skip = new_label(s);
-	char *text = arena_alloc(s->ld.scratch, len + 16);
-	uint32_t id;
-	struct lex lex;
 
 	jump(s, MOD_C | MOD_N, skip);
-	if (!text) {
-		s->ld.failed = true;
-		return;
-	}
-	memcpy(text, place, len);
-	id = st_intern(s, text, len + (size_t)snprintf(text + len, 16, " := %s", set ? "TRUE" : "FALSE"));
-	lex_init(&lex, names_text(&s->translation->project->names, id),
-		 names_len(&s->translation->project->names, id));
-	lex_next(&lex);
-	if (expr_parse_cell(&lex, s->ld.expr, s->ld.ignored, (struct diag){ .id = DIAG_COUNT }))
-		ld_store(&s->ld);
-	else
-		s->ld.failed = true;
+	store_text(s, assignment(s, place, len, set ? "TRUE" : "FALSE"));
 	here(s, skip);
 }
 

@@ -280,6 +280,22 @@ static void add_address(struct scan *scan, const struct token *token,
 	add(scan, (struct xref_target){ XREF_ADDRESS, 0, 0, addr }, token->text, len);
 }
 
+/* A value of several enumerations, without its type: a use of each. False: it is none. */
+static bool scan_several(struct scan *scan, const char *text, size_t len)
+{
+	struct project *project = scan->walk->project;
+	const uint32_t fold = names_fold(&project->names, names_intern(&project->names, text, len));
+	bool found = false;
+
+	for (int i = 0; i < project->enum_value_count; i++) {
+		if (project->enum_value[i].fold != fold)
+			continue;
+		add(scan, (struct xref_target){ .what = XREF_VALUE, .index = i }, text, len);
+		found = true;
+	}
+	return found;
+}
+
 /* A value of an enumeration, with its type or without. False: it is none. */
 static bool scan_value(struct scan *scan, const char *text, size_t len)
 {
@@ -300,7 +316,7 @@ static bool scan_value(struct scan *scan, const char *text, size_t len)
 		add(scan, (struct xref_target){ .what = XREF_VALUE, .index = value }, text + head,
 		    len - head);
 	scan->level[scan->depth].used = false;
-	return value >= 0;
+	return value >= 0 || (!head && scan_several(scan, text, len));
 }
 
 /* A name without declaration: a constant, a system name, an address, or unknown. */
