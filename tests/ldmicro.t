@@ -156,6 +156,9 @@ def names(folder):
     ok('Yif_2 ' in text, 'a bit and a number of one name are two', text)
     for name in ('XA', 'IF', 'Yif'):
         ok(any(f'"{name}" is called' in line for line in told), f'{name} has another name, which is told', told)
+    _, text, _ = report(folder, ['RUNG', 'GOSUB 2nd', 'END', 'RUNG', 'GOTO 9', 'END', 'RUNG', 'SUBPROG 2nd', 'END',
+                                 'RUNG', 'CONTACTS Xa 0', 'COIL Yb 0 0 0', 'END', 'RUNG', 'ENDSUB 2nd', 'END'])
+    ok('CALL N2nd |' in text and 'SUBROUTINE N2nd LD' in text, 'a name that begins with a digit gets a letter', text)
 
 
 def order(folder):

@@ -44,11 +44,14 @@ sub with_fault {
 	return $text;
 }
 
-# What a test needs to be made: a program of its own, the programs of a window, or all that scripts start.
+# What a test needs to be made: a program of its own, or the programs that people start and those whose path the script names.
 sub needs {
 	my ($test) = @_;
-	return $test if $test =~ m{^build/(?:unit|tests/editor)/};
-	return $test =~ m{^tests/editor/} ? 'build/ladder-editor build/ladder build/ladderd' : 'all tests';
+	my ($file) = split / /, $test;
+	return $file if $file =~ m{^build/};
+	my @named = map { glob "$COPY/build/$_*" } slurp($file) =~ m{(tests/(?:bin|hal|online)/[\w-]+)}g;
+	my %named = map { s{^\Q$COPY/\E}{}r => 1 } grep { -f && -x && !m{\.[^/]*$} } @named;
+	return join ' ', 'all', sort keys %named;
 }
 
 sub run_test {
@@ -60,7 +63,7 @@ sub run_test {
 	return $? != 0 || $output !~ /^ok/m || $output =~ /^not ok/m;
 }
 
-sub build { my ($what) = @_; return system("cd $COPY && make -s -j2 CC='$CC' $what >mutant.log 2>&1") == 0; }
+sub build { my ($what) = @_; return system("cd $COPY && make -s -j2 BUILD=build CC='$CC' $what >mutant.log 2>&1") == 0; }
 
 my @wanted = @ARGV;
 my @list = grep { my $one = $_; !@wanted || grep { index($one->{path}, $_) >= 0 } @wanted } mutants();
