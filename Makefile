@@ -145,7 +145,7 @@ override IIO := $(or $(IIO),none)
 CHANNELS_C := $(addprefix hal/,channel_rows.c channel_scale.c channels.c channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c said.c)
 IIO_C_none   := hal/iio_none.c
 IIO_C_libiio := hal/iio_libiio.c hal/iio_calls.c
-HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,$(CHANNELS_C) hal/iomap_channel.c hal/iomap_net.c)
+HAL_CORE := hal/hal.c hal/drivers.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,$(CHANNELS_C) hal/iomap_channel.c hal/iomap_net.c)
 DRIVERS  := $(call obj,$(patsubst hal/iio_none.c,$(IIO_C_$(IIO)),$(HAL_CORE)) $(GPIO_C))
 # The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.

@@ -5,7 +5,6 @@
 #define _GNU_SOURCE /* eventfd, PTHREAD_STACK_MIN */
 #include "hal/channel_cell.h"
 #include "hal/clock.h"
-#include "hal/group.h"
 #include "hal/sysfs.h"
 
 #include <errno.h>
@@ -16,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/eventfd.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -34,34 +32,6 @@ static void nap(void)
 }
 
 /* ---- for drivers ---- */
-
-bool device_denied(struct trouble *why, const char *name, const char *path)
-{
-	struct stat about;
-	char group[40] = "";
-	const char *end = path + strlen(path);
-
-	/* A message has no room for more than file and folder. */
-	for (int slashes = 0; end > path; end--) {
-		slashes += end[-1] == '/';
-		if (slashes == 2)
-			break;
-	}
-	if (stat(path, &about) == 0)
-		group_print(about.st_gid, group, sizeof(group));
-	return trouble_set(why, DIAG_IO_DEVICE_DENIED, "%.20s" DIAG_AND "%.28s" DIAG_AND "%s", name, end,
-			   group);
-}
-
-void device_known(char *out, size_t size, const char *name)
-{
-	const size_t used = strlen(out);
-
-	if (used + strlen(name) + 8 < size)
-		snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
-	else if (used + 6 < size && (used < 3 || strcmp(out + used - 3, "...") != 0))
-		snprintf(out + used, size - used, ", ...");
-}
 
 bool channels_supported(enum driver_id id)
 {

@@ -10,28 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct driver *driver_row(enum driver_id id)
-{
-	static const struct driver *const rows[DRIVER_COUNT] = {
-#define DRIVER(id) &driver_##id,
-#include "hal/drivers.def"
-	};
-
-	return rows[id];
-}
-
-bool trouble_set(struct trouble *why, enum diag_id id, const char *format, ...)
-{
-	va_list args;
-
-	why->id = id;
-	why->line = 0;
-	va_start(args, format);
-	vsnprintf(why->text, sizeof(why->text), format, args);
-	va_end(args);
-	return false;
-}
-
 bool hal_supported(const struct iomap *map, struct diag_list *diags)
 {
 	bool good = true;

@@ -65,6 +65,16 @@ bool complain(struct reader *reader, enum diag_id id, const struct map_word *wor
 			word->text);
 }
 
+const struct driver *driver_row(enum driver_id id)
+{
+	static const struct driver *const rows[DRIVER_COUNT] = {
+#define DRIVER(id) &driver_##id,
+#include "hal/drivers.def"
+	};
+
+	return rows[id];
+}
+
 enum driver_id driver_find(const char *word, size_t len)
 {
 	int id = 0;

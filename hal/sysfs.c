@@ -5,12 +5,16 @@
 #define _GNU_SOURCE /* scandir */
 #include "hal/sysfs.h"
 
+#include "hal/device.h"
+#include "hal/group.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 int sysfs_read(const char *path, char *out, size_t size)
@@ -136,4 +140,32 @@ int sysfs_each(const char *folder, bool (*visit)(void *context, const char *name
 	}
 	free(entry);
 	return 0;
+}
+
+bool device_denied(struct trouble *why, const char *name, const char *path)
+{
+	struct stat about;
+	char group[40] = "";
+	const char *end = path + strlen(path);
+
+	/* A message has no room for more than file and folder. */
+	for (int slashes = 0; end > path; end--) {
+		slashes += end[-1] == '/';
+		if (slashes == 2)
+			break;
+	}
+	if (stat(path, &about) == 0)
+		group_print(about.st_gid, group, sizeof(group));
+	return trouble_set(why, DIAG_IO_DEVICE_DENIED, "%.20s" DIAG_AND "%.28s" DIAG_AND "%s", name, end,
+			   group);
+}
+
+void device_known(char *out, size_t size, const char *name)
+{
+	const size_t used = strlen(out);
+
+	if (used + strlen(name) + 8 < size)
+		snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
+	else if (used + 6 < size && (used < 3 || strcmp(out + used - 3, "...") != 0))
+		snprintf(out + used, size - used, ", ...");
 }

@@ -461,7 +461,7 @@ static enum status restore_all(struct remote *remote, const struct backup *backu
 		status = put_values(remote, 1, &restored);
 	if (status == STATUS_GOOD && next_line(backup, "mode ", &at, mode, sizeof(mode)) &&
 	    strcmp(mode, mode_word(STATE_RUN)) == 0)
-		status = remote_run(remote);
+		status = remote_mode(remote, MODE_WARM);
 	return status;
 }
 

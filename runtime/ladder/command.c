@@ -12,27 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct command_row rows[] = {
-#define COMMAND(name, arguments, purpose, text, example, least, most, ...) \
-	{ #name, arguments, purpose, text, example, least, most, cmd_##name, { __VA_ARGS__ } },
-#include "ladder/commands.def"
-	{ .name = NULL },
-};
-
-const struct command_row *command_table(void)
-{
-	return rows;
-}
-
-const struct command_row *command_find(const char *name)
-{
-	const struct command_row *row = command_table();
-
-	while (row->name && strcmp(row->name, name) != 0)
-		row++;
-	return row->name ? row : NULL;
-}
-
 static const struct option_row *find_option(const struct command_row *row,
 					    const char *text, size_t len)
 {

@@ -54,8 +54,6 @@ struct call {
 	bool out_failed;       /* a write to it failed                        */
 };
 
-/** command_table - all rows; the last one has no name. */
-const struct command_row *command_table(void);
 /** command_find - NULL: there is no such command. */
 const struct command_row *command_find(const char *name);
 

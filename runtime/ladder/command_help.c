@@ -1,12 +1,28 @@
 /* SPDX-License-Identifier: MIT
  *
- * command_help - prints --help and man pages from the rows of commands.def.
+ * command_help - the table of commands, and --help and man pages from its rows.
  */
 #include "ladder/command.h"
 #include "ladder/report.h"
 
 #include <stdio.h>
 #include <string.h>
+
+static const struct command_row rows[] = {
+#define COMMAND(name, arguments, purpose, text, example, least, most, ...) \
+	{ #name, arguments, purpose, text, example, least, most, cmd_##name, { __VA_ARGS__ } },
+#include "ladder/commands.def"
+	{ .name = NULL },
+};
+
+const struct command_row *command_find(const char *name)
+{
+	const struct command_row *row = rows;
+
+	while (row->name && strcmp(row->name, name) != 0)
+		row++;
+	return row->name ? row : NULL;
+}
 
 static const char exit_status[] =
 	"0 good, also with warnings; 1 the answer is no (errors in a text, a "
@@ -79,7 +95,7 @@ static void help_all(const struct sink *out)
 	sink_text(out, "Usage: ladder COMMAND [OPTION]... [ARGUMENT]...\n\n");
 	print_wrapped(about, "", out);
 	sink_text(out, "\nCommands:\n");
-	for (const struct command_row *row = command_table(); row->name; row++)
+	for (const struct command_row *row = rows; row->name; row++)
 		sink_printf(out, "  %-8s %s\n", row->name, row->purpose);
 	sink_text(out, "\nOptions:\n"
 		  "  --help      this text; behind a command: how to use it\n"
@@ -170,11 +186,11 @@ static void man_all(const struct sink *out)
 		  ".SH DESCRIPTION\n");
 	roff(about, out);
 	sink_text(out, "\n.SH COMMANDS\n");
-	for (const struct command_row *row = command_table(); row->name; row++)
+	for (const struct command_row *row = rows; row->name; row++)
 		man_option(row->name, NULL, row->purpose, out);
 	man_status(out);
 	sink_text(out, ".SH SEE ALSO\n");
-	for (const struct command_row *row = command_table(); row->name; row++)
+	for (const struct command_row *row = rows; row->name; row++)
 		sink_printf(out, ".BR ladder\\-%s (1)%s\n", row->name,
 			    row[1].name ? "," : "");
 }
@@ -209,7 +225,7 @@ enum status cmd_help(struct call *call)
 	const struct command_row *row = NULL;
 
 	if (call_flag(call, "--names")) {
-		for (row = command_table(); row->name; row++)
+		for (row = rows; row->name; row++)
 			sink_printf(&call->out, "%s\n", row->name);
 		return STATUS_GOOD;
 	}

@@ -100,8 +100,12 @@ bool remote_peek(struct remote *remote, struct board_status *status);
 /** remote_stop - stops the program if it runs; outputs get their safe values. Fails: after a
  * message. */
 enum status remote_stop(struct remote *remote);
-/** remote_run - starts the program, with retained values. Fails: after a message. */
-enum status remote_run(struct remote *remote);
+/** remote_begin, remote_finish - a request that changes something, and its answer. The program must still be
+ * the one that was asked for its types; its mode may change. Fail: after a message. */
+enum status remote_begin(struct remote *remote, enum service service, struct wire_writer *out);
+enum status remote_finish(struct remote *remote, struct wire_writer *out);
+/** remote_mode - starts or stops the program. Fails: after a message. */
+enum status remote_mode(struct remote *remote, enum mode_wish wish);
 /** remote_is_wanted - asks on the terminal, unless --yes; without a terminal the answer is no. */
 bool remote_is_wanted(struct remote *remote, const char *question);
 /** remote_send - sends a program and has it verified; @verified: the answer. */

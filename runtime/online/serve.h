@@ -2,7 +2,7 @@
  *
  * serve - what the files of the server share: its state, and what a service does with a request.
  *
- * server.c has sessions and requests. The services are in serve_board.c (who is there, mode,
+ * serve.c has what all services use, server.c sessions and requests. The services are in serve_board.c (who is there, mode,
  * settings, password), serve_values.c (reading, watching, writing, forcing), serve_download.c
  * (programs), serve_files.c (retained values, log, record), serve_alarms.c, serve_io.c (gateways) and serve_machine.c. Only these
  * files include this one.
@@ -118,7 +118,7 @@ struct asked {
 	char detail[DETAIL_MOST];
 };
 
-/* ---- server.c; all by the link thread ---- */
+/* ---- serve.c; all by the link thread ---- */
 
 /** server_give - gives server->order to the scan thread and waits. Fails: REFUSAL_BUSY: it is not
  * done yet; or as the scan thread says. */
@@ -131,8 +131,6 @@ bool server_hangs(const struct server *server);
 bool server_can_order(const struct server *server);
 /** server_learn_forces - server->mirror gets the forces of the board. */
 enum refusal server_learn_forces(struct server *server);
-/** server_join_ranges - sorts, and makes one of those that are near. Returns how many are left. */
-uint32_t server_join_ranges(struct range *range, uint32_t count);
 /** server_watch_again - tells the scan thread what all sessions watch. */
 enum refusal server_watch_again(struct server *server);
 /** server_renew - another program runs: nothing is watched any more. */
@@ -152,11 +150,15 @@ enum refusal asked_refuse_role(struct asked *asked, enum role needed);
 bool asked_is_locked(const struct asked *asked);
 /** asked_tell_mode - the detail of REFUSAL_NOT_NOW of server->order. */
 void asked_tell_mode(struct asked *asked);
-/** server_with_quality - a copy of @view whose values have the quality that @session is told. */
+/** server_with_quality - serve_io.c: a copy of @view whose values have the quality that @session is told. */
 struct view server_with_quality(struct server *server, const struct session *session, const struct view *view);
-/** serve_look - serve_values.c: server->mirror gets the values of @count of server->place. */
+/** server_name_place - the first name of a place, in server->name; its address if it has none. */
+void server_name_place(struct server *server, struct location at);
+/** session_begin_symbols - the next request for symbols begins at the first one. */
+void session_begin_symbols(struct session *session);
+/** serve_look - server->mirror gets the values of @count of server->place. */
 enum refusal serve_look(struct server *server, uint32_t count);
-/** asked_finish - serve_values.c: gives a change to the scan thread, and answers. */
+/** asked_finish - gives a change to the scan thread, and answers. */
 enum refusal asked_finish(struct asked *asked);
 
 /* ---- services: they answer, or say why not ---- */
@@ -202,11 +204,6 @@ enum refusal serve_devices(struct asked *asked);
 enum refusal io_check_publish(struct asked *asked, struct wire_reader in);
 /** io_give - the next frame of outputs for a session. Returns its bytes; 0: nothing has changed. */
 size_t io_give(struct server *server, struct session *session);
-/** io_quality - of a struct view: a variable that is an input or output is as good as that point; all others
- * are good. */
-uint8_t io_quality(const struct view *view, const struct program *program, struct location at);
-/** io_quality_of_input - the same for a gateway: an output is good, whatever its device says. */
-uint8_t io_quality_of_input(const struct view *view, const struct program *program, struct location at);
 /** io_end - a session serves no points any more. */
 void io_end(struct server *server, struct session *session);
 /** io_status - what the status tells of gateways. */

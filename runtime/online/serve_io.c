@@ -418,7 +418,8 @@ enum refusal io_check_publish(struct asked *asked, struct wire_reader in)
 	return REFUSAL_NONE;
 }
 
-uint8_t io_quality(const struct view *view, const struct program *program, struct location at)
+/* A variable that is an input or output is as good as that point; all others are good. */
+static uint8_t quality_of(const struct view *view, const struct program *program, struct location at)
 {
 	const struct server_io *io = ((const struct server *)view->context)->setup.io;
 	const struct areas *areas = &program->areas;
@@ -435,14 +436,15 @@ uint8_t io_quality(const struct view *view, const struct program *program, struc
 			   8 * iec_type_row(at.type)->size, view->io_bad);
 }
 
-uint8_t io_quality_of_input(const struct view *view, const struct program *program, struct location at)
+/* For a gateway an output is good, whatever its device says. */
+static uint8_t quality_of_input(const struct view *view, const struct program *program, struct location at)
 {
 	const struct location whole = location_whole(at);
 	const enum iec_area area = whole.area != AREA_NONE || whole.where >= program->areas.size ?
 				   whole.area : areas_find(&program->areas, whole.where);
 
 	return area != AREA_NONE && iec_area_row(area)->access == ACCESS_WRITE ? 0 :
-	       io_quality(view, program, at);
+	       quality_of(view, program, at);
 }
 
 const struct values_status *io_values(struct server *server)
@@ -488,4 +490,13 @@ const struct gateways_status *io_status(struct server *server)
 		all->count += session || gateway->points;
 	}
 	return all;
+}
+
+struct view server_with_quality(struct server *server, const struct session *session, const struct view *view)
+{
+	struct view with = *view;
+
+	with.quality = session->role == ROLE_IO ? quality_of_input : quality_of;
+	with.context = server;
+	return with;
 }

@@ -85,31 +85,6 @@ static enum refusal take_items(struct asked *asked, uint32_t count)
 	return wire_done(in) ? REFUSAL_NONE : REFUSAL_BAD_FRAME;
 }
 
-enum refusal serve_look(struct server *server, uint32_t count)
-{
-	const struct program *program = server->setup.program;
-	enum refusal refusal;
-
-	if (server->no_memory)
-		return REFUSAL_MEMORY;
-	if (!server_can_order(server))
-		return REFUSAL_BUSY;
-	for (uint32_t i = 0; i < count; i++)
-		server->look_range[i] = (struct range){
-			place_byte(program, server->place[i]),
-			place_size(program, server->place[i]) };
-	server->look_watch = (struct watch){
-		.range = server->look_range,
-		.count = server_join_ranges(server->look_range, count),
-	};
-	server->order = (struct order){ .kind = ORDER_LOOK, .watch = &server->look_watch,
-					.view = &server->look };
-	refusal = server_give(server);
-	if (refusal == REFUSAL_NONE)
-		server->mirror.memory = server->look.memory;
-	return refusal;
-}
-
 enum refusal serve_read(struct asked *asked)
 {
 	struct server *server = asked->server;
@@ -211,49 +186,6 @@ enum refusal serve_unpublish(struct asked *asked)
 	return refusal;
 }
 
-static bool same_place(struct location a, struct location b)
-{
-	return a.type == b.type && a.area == b.area && a.where == b.where;
-}
-
-/* The first name of a place, in server->name; its address if it has none. */
-static void name_place(struct server *server, struct location at)
-{
-	struct symbol symbol;
-
-	server->cursor = (struct symbol_cursor){ .whole = false };
-	while (image_next_symbol(&server->mirror, &server->cursor, &symbol))
-		if (same_place(symbol.at, at)) {
-			snprintf(server->name, sizeof(server->name), "%s", symbol.name);
-			return;
-		}
-	place_address(server->setup.program, at, server->name, sizeof(server->name));
-}
-
-enum refusal asked_finish(struct asked *asked)
-{
-	struct server *server = asked->server;
-	enum refusal refusal = server_give(server);
-
-	const uint64_t scan = server->order.scan;
-
-	asked->detail[0] = '\0';
-	if (refusal == REFUSAL_NOT_NOW)
-		asked_tell_mode(asked);
-
-	if (refusal != REFUSAL_NONE && server->order.wrong < server->order.count) {
-		name_place(server, server->item[server->order.wrong].at);
-		asked_detail(asked, server->name, strlen(server->name));
-	}
-	if (refusal != REFUSAL_NONE)
-		return refusal;
-	if (server->order.kind != ORDER_WRITE)
-		server_learn_forces(server); /* if the board is busy, the next view says that they differ */
-	asked_begin(asked, 0);
-	wire_put_u64(&asked->out, scan);
-	return REFUSAL_NONE;
-}
-
 /* "Start=1", "Start=1 and 3 more". */
 static void tell_items(struct asked *asked, enum order_kind kind, uint32_t count)
 {
@@ -266,7 +198,7 @@ static void tell_items(struct asked *asked, enum order_kind kind, uint32_t count
 	}
 	if (!count)
 		return;
-	name_place(server, server->item[0].at);
+	server_name_place(server, server->item[0].at);
 	if (kind != ORDER_UNFORCE)
 		iec_value_print(server->item[0].at.type, server->item[0].value, value,
 				sizeof(value));
@@ -301,7 +233,7 @@ static enum refusal check_exported(struct asked *asked, uint32_t count)
 	for (uint32_t i = 0; i < count; i++) {
 		if (server->allowed[i])
 			continue;
-		name_place(server, server->item[i].at);
+		server_name_place(server, server->item[i].at);
 		asked_detail(asked, server->name, strlen(server->name));
 		return REFUSAL_EXPORTED;
 	}
@@ -351,7 +283,7 @@ enum refusal serve_forces(struct asked *asked)
 	for (int i = 0; i < server->mirror.force_count; i++) {
 		const struct force *force = &server->mirror.force[i];
 
-		name_place(server, force->at);
+		server_name_place(server, force->at);
 		wire_put_u32(&asked->out, place_word(server->setup.program, force->at));
 		wire_put_string(&asked->out, server->name);
 		wire_put_u8(&asked->out, (uint8_t)force->at.type);

@@ -11,239 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- orders ---- */
-
-static bool post(struct server *server)
-{
-	if (!exchange_is_done(server->setup.exchange))
-		return false;
-	if (server->order.kind < ORDER_MODE)
-		server->order.program = server->setup.program;
-	server->order.refusal = REFUSAL_BUSY; /* until it is done */
-	exchange_post(server->setup.exchange, &server->order);
-	return true;
-}
-
-static enum refusal await(struct server *server, bool (*wait)(void *context))
-{
-	return wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
-}
-
-enum refusal server_give(struct server *server)
-{
-	return post(server) ? await(server, server->setup.wait) : REFUSAL_BUSY;
-}
-
-bool server_hangs(const struct server *server)
-{
-	return server->setup.hangs && server->setup.hangs(server->setup.context);
-}
-
-enum refusal server_give_unless_hung(struct server *server)
-{
-	enum refusal refusal;
-
-	if (!server->setup.hangs)
-		return server_give(server);
-	if (!post(server))
-		return REFUSAL_BUSY;
-	refusal = await(server, server->setup.wait_unless_hung);
-	/* It may have ended meanwhile. */
-	return refusal == REFUSAL_BUSY && !server_hangs(server) ? await(server, server->setup.wait) : refusal;
-}
-
-/* An order may be given only if the one before is done: it is the same memory. */
-bool server_can_order(const struct server *server)
-{
-	return exchange_is_done(server->setup.exchange) && server->given == GIVEN_NOTHING;
-}
-
-/* Learns the forces of the board anew. */
-enum refusal server_learn_forces(struct server *server)
-{
-	enum refusal refusal;
-
-	if (!server_can_order(server))
-		return REFUSAL_BUSY;
-	server->order = (struct order){ .kind = ORDER_FORCES, .forces = &server->held };
-	refusal = server_give(server);
-	if (refusal != REFUSAL_NONE)
-		return refusal;
-	server->mirror.force_count = server->held.force_count;
-	memcpy(server->mirror.force, server->held.force, sizeof(server->held.force));
-	return REFUSAL_NONE;
-}
-
-/* ---- what is watched ---- */
-
-static void sort_ranges(struct range *range, uint32_t count)
-{
-	for (uint32_t gap = count / 2; gap; gap /= 2)
-		for (uint32_t i = gap; i < count; i++) {
-			const struct range moved = range[i];
-			uint32_t k = i;
-
-			for (; k >= gap && range[k - gap].at > moved.at; k -= gap)
-				range[k] = range[k - gap];
-			range[k] = moved;
-		}
-}
-
-uint32_t server_join_ranges(struct range *range, uint32_t count)
-{
-	uint32_t last = 0;
-
-	sort_ranges(range, count);
-	for (uint32_t i = 1; i < count; i++) {
-		const uint32_t end = range[last].at + range[last].size;
-		const uint32_t new_end = range[i].at + range[i].size;
-
-		if (range[i].at <= end + NEAR) {
-			if (new_end > end)
-				range[last].size = new_end - range[last].at;
-		} else {
-			range[++last] = range[i];
-		}
-	}
-	return count ? last + 1 : 0;
-}
-
-static void add_range(void *context, struct range range)
-{
-	struct server *server = context;
-	struct range *ranges = server->ranges[!server->ranges_in_use];
-
-	if (server->range_count == RANGES_MOST)
-		server->range_count = server_join_ranges(ranges, server->range_count);
-	if (server->range_count < RANGES_MOST)
-		ranges[server->range_count++] = range;
-	else
-		server->ranges_full = true;
-}
-
-/* Tells the scan thread what to copy after each scan from now on. */
-enum refusal server_watch_again(struct server *server)
-{
-	const int other = !server->ranges_in_use;
-	enum refusal refusal;
-	bool power = false;
-
-	if (!server_can_order(server))
-		return REFUSAL_BUSY;
-	server->range_count = 0;
-	server->ranges_full = false;
-	for (int i = 0; i < SERVER_SESSIONS; i++) {
-		const struct session *session = &server->session[i];
-
-		if (!session->used)
-			continue;
-		publish_ranges(&session->publications, server->setup.program, add_range, server);
-		power |= publish_has_cells(&session->publications);
-	}
-	if (server->ranges_full)
-		return REFUSAL_TOO_MANY;
-	server->watch = (struct watch){
-		.serial = server->watch.serial + 1, .power = power,
-		.count = server_join_ranges(server->ranges[other], server->range_count),
-		.range = server->ranges[other],
-	};
-	server->order = (struct order){ .kind = ORDER_WATCH, .watch = &server->watch };
-	refusal = server_give(server);
-	server->ranges_in_use = other;
-	return refusal;
-}
-
-/* ---- answers ---- */
-
-void asked_detail(struct asked *asked, const char *text, size_t len)
-{
-	if (len >= sizeof(asked->detail))
-		len = sizeof(asked->detail) - 1;
-	memcpy(asked->detail, text, len);
-	asked->detail[len] = '\0';
-}
-
-void asked_begin(struct asked *asked, uint8_t flags)
-{
-	asked->out = wire_write(asked->session->out, sizeof(asked->session->out));
-	frame_begin(&asked->out, asked->frame.service, (uint8_t)(WIRE_ANSWER | flags),
-		    asked->frame.request);
-}
-
 static void refuse(struct asked *asked, enum refusal refusal)
 {
 	asked_begin(asked, WIRE_REFUSED);
 	wire_put_u16(&asked->out, (uint16_t)refusal);
 	wire_put_string(&asked->out, asked->detail);
-}
-
-/* ---- the log ---- */
-
-/* Who asked is known from the session. */
-void asked_tell(const struct asked *asked, enum event_id id, const char *one, const char *two)
-{
-	const struct server_setup *setup = &asked->server->setup;
-
-	setup->log->add(setup->context, id, (uint8_t)asked->session->role, asked->session->user,
-			one, two);
-}
-
-enum refusal asked_refuse_role(struct asked *asked, enum role needed)
-{
-	snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
-		 asked->row->word, role_word(needed), role_word(asked->session->role));
-	return REFUSAL_ROLE;
-}
-
-/* What is possible only in which mode, and the mode that the board is in. */
-void asked_tell_mode(struct asked *asked)
-{
-	const struct order *order = &asked->server->order;
-	const bool restores = order->kind == ORDER_RESTORE;
-
-	snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
-		 restores ? "restore" : mode_wish_word(order->mode),
-		 mode_word(restores ? STATE_STOP : mode_wish_needs(order->mode)),
-		 mode_word((uint8_t)order->state));
-}
-
-/* ---- another program ---- */
-
-/* The next request for symbols begins at the first one. */
-static void begin_symbols(struct session *session)
-{
-	session->symbol = 0;
-	session->symbols = (struct symbol_cursor){ .whole = false };
-}
-
-/* All that sessions have asked to be sent, and how far they read the symbols, is of the old program. */
-static void end_publications(struct server *server)
-{
-	for (int i = 0; i < SERVER_SESSIONS; i++) {
-		publish_init(&server->session[i].publications);
-		server->session[i].gateway = (struct gateway_session){ .begun = false };
-		begin_symbols(&server->session[i]);
-		server->session[i].changed = true;
-	}
-}
-
-/* The link's own copy of the image is as large as the program's. */
-void server_renew(struct server *server, const struct program *program)
-{
-	uint8_t *memory = calloc(1, image_memory_size(program));
-
-	end_publications(server);
-	server->map++;
-	server->retained.copy = NULL; /* its plan is of the old program */
-	server->setup.program = program;
-	server->mirror.program = program;
-	server->mirror.force_count = 0;
-	if (memory) {
-		free(server->look.memory);
-		server->look.memory = memory;
-	}
-	server->no_memory = !memory;
-	server->mirror.memory = server->look.memory;
 }
 
 void server_changed(struct server *server, const struct program *program, const char *why)
@@ -257,20 +29,6 @@ void server_changed(struct server *server, const struct program *program, const 
 const struct image *server_image(const struct server *server)
 {
 	return &server->mirror;
-}
-
-bool asked_is_locked(const struct asked *asked)
-{
-	const struct server_setup *setup = &asked->server->setup;
-
-	return setup->password && setup->password->is_set(setup->context) &&
-	       !asked->session->unlocked;
-}
-
-struct order server_restart(const struct expect *expect, bool stopped)
-{
-	return (struct order){ .kind = ORDER_RESTART, .expects = true,
-			       .mode = stopped ? MODE_STOP : MODE_WARM, .expect = *expect };
 }
 
 /* ---- requests ---- */
@@ -493,15 +251,6 @@ static void tell_changed(const struct server *server, struct session *session)
 	session->changed = false;
 }
 
-struct view server_with_quality(struct server *server, const struct session *session, const struct view *view)
-{
-	struct view with = *view;
-
-	with.quality = session->role == ROLE_IO ? io_quality_of_input : io_quality;
-	with.context = server;
-	return with;
-}
-
 static void publish_next(struct server *server, struct session *session, int64_t now_ns)
 {
 	const struct view *view;
@@ -621,7 +370,7 @@ int server_open(struct server *server, enum role role, bool may_io, const char *
 		session->who = who;
 		session->opened = ++server->opened;
 		session->requests = 0;
-		begin_symbols(session);
+		session_begin_symbols(session);
 		session->in_len = session->out_len = session->out_sent = 0;
 		memset(session->kept, 0, sizeof(session->kept));
 		publish_init(&session->publications);
@@ -642,15 +391,6 @@ void server_close(struct server *server, int session)
 		server->downloading = -1; /* what has come stays; it may go on */
 	if (publish_due(&server->session[session].publications) != INT64_MAX)
 		server_watch_again(server);
-}
-
-int server_sessions(const struct server *server)
-{
-	int count = 0;
-
-	for (int i = 0; i < SERVER_SESSIONS; i++)
-		count += server->session[i].used;
-	return count;
 }
 
 uint8_t *server_room(struct server *server, int number, size_t *len)

@@ -25,17 +25,6 @@ static const struct {
 	[POU_ACTION] = { "END_ACTION", "name of the action", "actions" },
 };
 
-/* Does an action begin here, of a POU that is no chart? */
-bool read_begins_action(const struct reader *r)
-{
-	struct lex lex = r->lex;
-
-	if (!lex_is(&lex, "ACTION"))
-		return false;
-	lex.newlines = lex.comments = false;
-	return lex_next(&lex) == TOKEN_NAME;
-}
-
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
 {
 	*kind = POU_ACTION;
@@ -86,34 +75,6 @@ static bool is_object_word(const struct reader *r)
 }
 
 /* ---- bodies ---- */
-
-static size_t rung_cells(const struct rung *rung)
-{
-	return (size_t)rung->rows * rung->cols;
-}
-
-void reader_add_rung(struct reader *r, struct pou *pou)
-{
-	bool full = pou->rung_count == LIMIT_RUNGS ||
-		    r->all_cells > LIMIT_TEXT / 4;
-
-	if (full && r->place.rung <= pou->rung_count + 1)
-		reader_fail_many(r, DIAG_TOO_MANY, "rungs", LIMIT_RUNGS);
-	const int boxed = pou->boxed_count;
-	struct rung *rung = read_rung(r, pou);
-
-	if (!rung)
-		return;
-	r->all_cells += full ? 0 : rung_cells(rung);
-	if (!full && project_add_rung(pou, pou->rung_count, rung)) {
-		for (int i = boxed; i < pou->boxed_count; i++)
-			pou->boxed[i].rung = pou->rung_count - 1;
-		return;
-	}
-	pou->boxed_count = boxed;
-	r->no_memory |= !full;
-	rung_free(rung);
-}
 
 /* Reads the body up to its END or to a word that cannot stand in a POU. */
 static void read_rungs(struct reader *r, struct pou *pou)
@@ -182,22 +143,6 @@ static void read_body(struct reader *r, struct pou *pou)
 }
 
 /* ---- first lines ---- */
-
-enum word reader_take_word(struct reader *r, uint32_t name, enum word_kind kind, int owner)
-{
-	const char *text = names_text(&r->project->names, name);
-	enum word word = kind == WORD_FN ? words_find(&r->project->words, text, strlen(text)) :
-					  words_find_type(&r->project->words, text, strlen(text));
-	struct word_row *row = words_own(&r->project->words, word);
-
-	if (!row || row->owner >= 0 || row->kind != kind) {
-		word = reader_own_word(r, name, kind);
-		row = words_own(&r->project->words, word);
-	}
-	if (row)
-		row->owner = owner;
-	return word;
-}
 
 /* ENO is TRUE when a body begins; the body may clear it. */
 static bool add_eno(struct reader *r, struct var_table *table, int line)

@@ -620,3 +620,31 @@ struct rung *read_rung(struct reader *r, struct pou *pou)
 		pou->boxed_count = boxed;
 	return rung;
 }
+
+static size_t rung_cells(const struct rung *rung)
+{
+	return (size_t)rung->rows * rung->cols;
+}
+
+void reader_add_rung(struct reader *r, struct pou *pou)
+{
+	bool full = pou->rung_count == LIMIT_RUNGS ||
+		    r->all_cells > LIMIT_TEXT / 4;
+
+	if (full && r->place.rung <= pou->rung_count + 1)
+		reader_fail_many(r, DIAG_TOO_MANY, "rungs", LIMIT_RUNGS);
+	const int boxed = pou->boxed_count;
+	struct rung *rung = read_rung(r, pou);
+
+	if (!rung)
+		return;
+	r->all_cells += full ? 0 : rung_cells(rung);
+	if (!full && project_add_rung(pou, pou->rung_count, rung)) {
+		for (int i = boxed; i < pou->boxed_count; i++)
+			pou->boxed[i].rung = pou->rung_count - 1;
+		return;
+	}
+	pou->boxed_count = boxed;
+	r->no_memory |= !full;
+	rung_free(rung);
+}

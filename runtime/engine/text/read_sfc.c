@@ -17,29 +17,6 @@ struct sfc_reader {
 	bool controlled;      /* a CONTROL was read                            */
 };
 
-/* The word of a chart in work; NULL: it is none. */
-static const struct sfc_word *chart_word(const struct lex *lex)
-{
-	const struct sfc_word *word;
-
-	for (int i = 0; (word = sfc_word(i)); i++)
-		if (lex_is(lex, word->word))
-			return word;
-	return NULL;
-}
-
-static bool is_chart_word(const struct lex *lex)
-{
-	const struct sfc_word *word = chart_word(lex);
-
-	return word && word->kind != SFC_WORD_SETTING;
-}
-
-bool reader_is_sfc_word(const struct reader *r)
-{
-	return is_chart_word(&r->lex);
-}
-
 /* ---- parts of pieces ---- */
 
 static bool is_end(const struct sfc_reader *in)
@@ -255,7 +232,7 @@ static bool is_st(struct lex lex)
 	lex.newlines = lex.comments = false;
 	lex_next(&lex);
 	end = lex;
-	while (end.token.kind != TOKEN_END && (!is_chart_word(&end) || is_operand(end)) &&
+	while (end.token.kind != TOKEN_END && (!reader_is_sfc_word(&end) || is_operand(end)) &&
 	       !lex_is(&end, "END_PROGRAM"))
 		lex_next(&end);
 	if (lex_is(&lex, "RUNG") || lex.token.text == end.token.text)
@@ -382,7 +359,7 @@ static void read_block(struct sfc_reader *in)
 
 static bool is_step(const struct reader *r)
 {
-	const struct sfc_word *word = chart_word(&r->lex);
+	const struct sfc_word *word = reader_chart_word(&r->lex);
 
 	return word && word->kind == SFC_WORD_STEP;
 }
@@ -392,7 +369,7 @@ static void skip_sfc(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
 
-	while (!is_end(in) || reader_is_sfc_word(r)) {
+	while (!is_end(in) || reader_is_sfc_word(&r->lex)) {
 		if (r->no_memory)
 			return;
 		reader_skip_line(r);
@@ -950,7 +927,7 @@ static bool read_piece(struct sfc_reader *in)
 		read_step_end(in);
 	else if (reader_is_vars(r))
 		read_block(in);
-	else if (is_end(in) && !reader_is_sfc_word(r))
+	else if (is_end(in) && !reader_is_sfc_word(&r->lex))
 		return false;
 	else
 		skip_odd(in);

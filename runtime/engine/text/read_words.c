@@ -239,3 +239,19 @@ void read_words(struct reader *r, const char *text, size_t len)
 		free(look->diags);
 	free(look);
 }
+
+enum word reader_take_word(struct reader *r, uint32_t name, enum word_kind kind, int owner)
+{
+	const char *text = names_text(&r->project->names, name);
+	enum word word = kind == WORD_FN ? words_find(&r->project->words, text, strlen(text)) :
+					  words_find_type(&r->project->words, text, strlen(text));
+	struct word_row *row = words_own(&r->project->words, word);
+
+	if (!row || row->owner >= 0 || row->kind != kind) {
+		word = reader_own_word(r, name, kind);
+		row = words_own(&r->project->words, word);
+	}
+	if (row)
+		row->owner = owner;
+	return word;
+}

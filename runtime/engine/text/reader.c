@@ -701,3 +701,253 @@ char *reader_open(struct reader *r, const char *text, size_t len)
 	reader_next(r);
 	return copy;
 }
+
+/* ---- parts of a project ---- */
+
+void reader_add_part(struct reader *r, struct part part)
+{
+	struct project *project = r->project;
+	struct part *slot = arena_push(&project->arena, &project->part,
+				       &project->part_count, sizeof(part));
+
+	part.included = r->outer != NULL;
+	part.source = r->number;
+	if (slot)
+		*slot = part;
+	else
+		r->no_memory = true;
+}
+
+/* The line after the one whose first word is END_VIEW; NULL: there is none. */
+const char *reader_view_end(struct lex *lex)
+{
+	static const char word[] = "END_VIEW";
+	const size_t len = sizeof(word) - 1;
+	const char *at = lex->at;
+
+	while ((at = memchr(at, '\n', (size_t)(lex->end - at)))) {
+		at++;
+		lex->line++;
+		lex->line_start = at;
+		while (at < lex->end && (*at == ' ' || *at == '\t'))
+			at++;
+		if ((size_t)(lex->end - at) >= len &&
+		    ascii_same(at, word, len)) {
+			at += len;
+			if (at == lex->end || *at == '\n' || *at == ' ' ||
+			    *at == '\t' || *at == '/' || *at == '(')
+				return at;
+		}
+	}
+	return NULL;
+}
+
+/* The name as seen from where this file stands. */
+const char *reader_path(struct reader *r, const char *from, const char *name)
+{
+	const char *slash = strrchr(from, '/');
+	size_t head = slash && name[0] != '/' ? (size_t)(slash - from) + 1 : 0;
+
+	buffer_clear(&r->text);
+	buffer_add(r, &r->text, from, head);
+	buffer_add(r, &r->text, name, strlen(name));
+	char *path = arena_copy(&r->project->arena, r->text.text, r->text.len);
+
+	buffer_clear(&r->text);
+	return path;
+}
+
+/* The name at the cursor, of which a NAMESPACE may be named before other names. */
+static bool add_space(struct reader *r)
+{
+	const struct token name = r->lex.token;
+	const char *at = name.text, *end = at + name.len;
+
+	if (name.kind != TOKEN_NAME || name.len > 2 * LIMIT_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "name of a namespace");
+	while (at < end) {
+		const char *dot = memchr(at, '.', (size_t)(end - at));
+		const size_t len = (size_t)((dot ? dot : end) - at);
+
+		if (!words_space(&r->project->words, names_text(&r->project->names, reader_intern(r, at, len)), len))
+			return r->no_memory = true, false;
+		at += len + 1;
+	}
+	return true;
+}
+
+/* Takes the token at the cursor into the text of the line; comments go above it. */
+static void take_token(struct reader *r, struct buffer *line)
+{
+	if (line->len && line->text[line->len - 1] != '\n' && !reader_is(r, ',') && !reader_is(r, ';'))
+		buffer_add(r, line, " ", 1);
+	buffer_add(r, line, r->lex.token.text, r->lex.token.len);
+	reader_step(r);
+}
+
+bool reader_take_space(struct reader *r, struct buffer *line)
+{
+	const bool begins = lex_is(&r->lex, "NAMESPACE"), uses = lex_is(&r->lex, "USING");
+
+	do {
+		take_token(r, line);
+		if (begins && lex_is(&r->lex, "INTERNAL"))
+			take_token(r, line);
+		if ((begins || uses) && !add_space(r))
+			return false;
+		if (begins || uses)
+			take_token(r, line);
+	} while (uses && reader_is(r, ','));
+	if (reader_is(r, ';'))
+		take_token(r, line);
+	return true;
+}
+
+/* ---- words that begin a part ---- */
+
+const struct sfc_word *reader_chart_word(const struct lex *lex)
+{
+	const struct sfc_word *word;
+
+	for (int i = 0; (word = sfc_word(i)); i++)
+		if (lex_is(lex, word->word))
+			return word;
+	return NULL;
+}
+
+bool reader_is_sfc_word(const struct lex *lex)
+{
+	const struct sfc_word *word = reader_chart_word(lex);
+
+	return word && word->kind != SFC_WORD_SETTING;
+}
+
+bool read_begins_action(const struct reader *r)
+{
+	struct lex lex = r->lex;
+
+	if (!lex_is(&lex, "ACTION"))
+		return false;
+	lex.newlines = lex.comments = false;
+	return lex_next(&lex) == TOKEN_NAME;
+}
+
+/* Does a part of a POU that is no chart begin or end here, as others have it: ACTION Name? */
+static bool begins_member(const struct reader *r)
+{
+	static const char *const words[] = { "ACTION", "END_ACTION", "ACTIONS", "END_ACTIONS", "METHOD",
+					     "PROPERTY" };
+	bool found = false;
+
+	if (r->pou && r->pou->sfc)
+		return false;
+	for (size_t i = 0; !found && i < (r->plain ? sizeof(words) / sizeof(*words) : 2); i++)
+		found = lex_is(&r->lex, words[i]);
+	if (!r->plain && found && lex_is(&r->lex, "ACTION"))
+		return read_begins_action(r);
+	return found && !reader_peek(r, "(") && !reader_peek(r, ";");
+}
+
+bool read_ends_block(const struct reader *r)
+{
+	static const char *const words[] = {
+		"PROGRAM", "END_PROGRAM", "RUNG", "VAR", "VAR_GLOBAL",
+		"INCLUDE", "VIEW", "PROJECT", "CONFIGURATION",
+		"END_CONFIGURATION", "FUNCTION", "END_FUNCTION",
+		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
+		"SUBROUTINE", "END_SUBROUTINE",
+		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL",
+		"VAR_ACCESS", "NAMESPACE", "END_NAMESPACE",
+	};
+	bool found = r->boxed && lex_is(&r->lex, "END_EXECUTE");
+
+	found |= r->pou && r->pou->language == LANGUAGE_SFC && reader_is_sfc_word(&r->lex);
+	if (r->lex.token.kind != TOKEN_NAME)
+		return false;
+	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
+		found = lex_is(&r->lex, words[i]);
+	found |= begins_member(r);
+	return found && !reader_peek(r, ":") && !reader_peek(r, ":=") && !reader_peek(r, ",") &&
+	       !reader_peek(r, "AT");
+}
+
+/* PROPERTY_COUNT: the line begins with no word of a property. */
+enum property reader_property(const struct reader *r)
+{
+	enum property at = 0;
+
+	while (at < PROPERTY_COUNT && !lex_is(&r->lex, property_row(at)->word))
+		at++;
+	return at;
+}
+
+/* Reports a word or sign that begins no part, rung or declaration. */
+void reader_skip_odd_line(struct reader *r)
+{
+	const bool row = reader_is(r, '|'), rung = lex_is(&r->lex, "RUNG");
+
+	const bool ladder = !r->pou || r->pou->language == LANGUAGE_LD;
+
+	if (r->lost && ladder && (row || rung || lex_is(&r->lex, "END_PROGRAM"))) {
+		r->lost = row || rung;
+		reader_skip_line(r);
+		return;
+	}
+	r->lost = ladder && (row || rung);
+	if (!r->pou && rung)
+		reader_fail_word(r, DIAG_MISSING_ABOVE, "PROGRAM Main LD");
+	else if (r->lex.token.kind == TOKEN_NAME)
+		reader_fail_token(r, read_ends_block(r) ||
+				  lex_is(&r->lex, "END_VAR") ||
+				  lex_is(&r->lex, "END_VIEW") ||
+				  (!r->pou && reader_property(r) < PROPERTY_COUNT) ?
+				  DIAG_MISPLACED : DIAG_UNKNOWN_WORD);
+	else if (row && ladder)
+		reader_fail_word(r, DIAG_MISSING_ABOVE, r->pou ? "RUNG" : "PROGRAM Main LD");
+	else
+		reader_fail_token(r, row ? DIAG_MISPLACED : DIAG_SYNTAX);
+	reader_skip_line(r);
+}
+
+/* VAR … END_VAR above a program, as some tools have it. A rung file without its first line names a language. */
+static bool is_plain_behind_vars(struct lex lex)
+{
+	static const char *const heads[] = { "PROGRAM", "FUNCTION", "FUNCTION_BLOCK" };
+	static const char *const languages[] = { "LD", "IL", "ST", "SFC", "FBD" };
+	bool head = false;
+
+	while (lex_is(&lex, "VAR")) {
+		while (lex.token.kind != TOKEN_END && !lex_is(&lex, "END_VAR"))
+			lex_next(&lex);
+		lex_next(&lex);
+		lex_accept(&lex, ";");
+	}
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+		head |= lex_is(&lex, heads[i]);
+	if (!head || lex_next(&lex) != TOKEN_NAME)
+		return false;
+	lex_next(&lex);
+	for (size_t i = 0; i < sizeof(languages) / sizeof(*languages); i++)
+		if (lex_is(&lex, languages[i]))
+			return false;
+	return true;
+}
+
+bool text_is_plain(const char *text, size_t len)
+{
+	static const char *const words[] = {
+		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "FUNCTIONBLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
+		"NAMESPACE", "USING", "CLASS", "INTERFACE", /* told as what they are */
+	};
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex.comments = true;
+	while (comment_next(&lex))
+		;
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&lex, words[i]))
+			return true;
+	lex.comments = lex.newlines = false;
+	return is_plain_behind_vars(lex);
+}

@@ -282,8 +282,12 @@ void read_fbd(struct reader *r, struct pou *pou);
 void read_st_behind(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);
+/** reader_chart_word - the word of a chart at the cursor; NULL: it is none. */
+const struct sfc_word *reader_chart_word(const struct lex *lex);
 /** reader_is_sfc_word - does this word begin or end an item of a chart? */
-bool reader_is_sfc_word(const struct reader *r);
+bool reader_is_sfc_word(const struct lex *lex);
+/** reader_property - the property of a project that the word at the cursor names; PROPERTY_COUNT: none. */
+enum property reader_property(const struct reader *r);
 void read_config(struct reader *r, struct config *config);
 /** read_ends_block - does a line begin here that cannot stand inside VAR or an instruction
  * list? A name or label of the same spelling can. */

@@ -4,7 +4,6 @@
  *
  * Parts that were read from included files are left out.
  */
-#include "engine/base/lex.h"
 #include "engine/base/literal.h"
 #include "engine/model/fbd.h"
 #include "engine/text/text.h"
@@ -12,105 +11,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-void write_id(const struct sink *sink, const struct project *project, uint32_t id)
-{
-	sink_write(sink, project_text(project, id), names_len(&project->names, id));
-}
-
-/* The end of a pragma whose `{` stands before @at; NULL: it has none. Beremiz writes C as `{{ … }}`, with braces inside. */
-static const char *pragma_end(const char *at, const char *end)
-{
-	if (at < end && *at == '{')
-		for (const char *close = at; end - close >= 2; close++)
-			if (close[0] == '}' && close[1] == '}')
-				return close + 2;
-	at = memchr(at, '}', (size_t)(end - at));
-	return at ? at + 1 : NULL;
-}
-
-bool comment_next(struct lex *lex)
-{
-	const char *close;
-
-	if (lex_next(lex) == TOKEN_COMMENT)
-		return true;
-	if (!lex_is(lex, "{"))
-		return false;
-	close = pragma_end(lex->at, lex->end);
-	if (!close)
-		return false;
-	for (; lex->at < close; lex->at++) {
-		if (*lex->at != '\n')
-			continue;
-		lex->line++;
-		lex->line_start = lex->at + 1;
-	}
-	lex->token.kind = TOKEN_COMMENT;
-	lex->token.len = (size_t)(lex->at - lex->token.text);
-	return true;
-}
-
-void write_comments(const struct sink *sink, const struct project *project,
-		    uint32_t comments)
-{
-	const char *from = project_text(project, comments);
-	const char *end = from + names_len(&project->names, comments);
-	struct lex lex;
-
-	lex_init(&lex, from, (size_t)(end - from));
-	lex.comments = true;
-	while (comment_next(&lex)) {
-		sink_write(sink, from, (size_t)(lex.token.text - from));
-		from = lex.token.text;
-	}
-	sink_write(sink, from, (size_t)(end - from));
-}
-
-void write_above(const struct sink *sink, const struct project *project,
-		 uint32_t comment)
-{
-	if (!comment)
-		return;
-	write_comments(sink, project, comment);
-	sink_text(sink, "\n");
-}
-
-static const char *escape(char c)
-{
-	switch (c) {
-	case '"':
-		return "$\"";
-	case '$':
-		return "$$";
-	case '\n':
-		return "$N";
-	case '\r':
-		return "$R";
-	case '\t':
-		return "$T";
-	default:
-		return NULL;
-	}
-}
-
-void write_string(const struct sink *sink, const char *text, size_t len)
-{
-	size_t plain = 0;
-
-	sink_text(sink, "\"");
-	for (size_t i = 0; i < len; i++) {
-		const char *with = escape(text[i]);
-
-		if (!with)
-			continue;
-		sink_write(sink, text + plain, i - plain);
-		sink_text(sink, with);
-		plain = i + 1;
-	}
-	sink_write(sink, text + plain, len - plain);
-	sink_text(sink, "\"");
-}
 
 /* Columns of the string of @id. */
 static int write_width(const struct project *project, uint32_t id)
@@ -658,7 +558,7 @@ static void put_comment(const struct config_writer *w, uint32_t comment)
 static void put_task(const struct config_writer *w,
 		     const struct config_entry *entry)
 {
-	put_id(w, "TASK ", entry->own_name ? entry->own_name : entry->name);
+	put_id(w, "TASK ", entry->name);
 	if (entry->interval)
 		put_id(w, " (INTERVAL := ", entry->interval);
 	else
@@ -672,9 +572,9 @@ static void put_task(const struct config_writer *w,
 static void put_program(const struct config_writer *w,
 			const struct config_entry *entry)
 {
-	put_id(w, "PROGRAM ", entry->own_name ? entry->own_name : entry->name);
+	put_id(w, "PROGRAM ", entry->name);
 	if (entry->task)
-		put_id(w, " WITH ", entry->own_task ? entry->own_task : entry->task);
+		put_id(w, " WITH ", entry->task);
 	put_id(w, " : ", entry->pou);
 	project_write_values(w->project, entry, w->sink);
 	sink_text(w->sink, ";");
@@ -726,56 +626,39 @@ static void put_entry(const struct config_writer *w,
 	sink_mark(w->sink, TEXT_ENTRY, number, false);
 }
 
-static void open_resource(const struct config_writer *w, uint32_t name, uint32_t on, uint32_t comment)
-{
-	sink_mark(w->sink, TEXT_RESOURCE, 0, true);
-	put_id(w, "  RESOURCE ", name);
-	if (on)
-		put_id(w, " ON ", on);
-	put_comment(w, comment);
-}
-
-static void close_resource(const struct config_writer *w, uint32_t behind)
-{
-	sink_text(w->sink, "  END_RESOURCE");
-	put_comment(w, behind);
-	sink_mark(w->sink, TEXT_RESOURCE, 0, false);
-}
-
-/* Lines outside a RESOURCE stay before or behind it. */
+/* Lines outside the RESOURCE stay before or after it. */
 static void write_config(const struct sink *sink, const struct project *project)
 {
 	const struct config_writer w = { sink, project };
 	const struct config *config = project->config;
-	bool open = false, first = config->has_resource;
-	uint32_t behind = 0;
+	bool open = false, done = !config->has_resource;
 
 	put_id(&w, "CONFIGURATION ", config->name);
 	put_comment(&w, config->comment);
 	for (int i = 0; i <= config->count; i++) {
-		const struct config_entry *entry = i < config->count ? &config->entry[i] : NULL;
+		const struct config_entry *entry = &config->entry[i];
+		bool inside = i < config->count && entry->inside;
 
-		if (first && i == config->resource_at) {
-			open_resource(&w, config->resource, config->on, config->resource_comment);
+		if (!done && !open && i == config->resource_at) {
+			sink_mark(sink, TEXT_RESOURCE, 0, true);
+			put_id(&w, "  RESOURCE ", config->resource);
+			if (config->on)
+				put_id(&w, " ON ", config->on);
+			put_comment(&w, config->resource_comment);
 			if (config->resource_inside) {
 				put_id(&w, "    ", config->resource_inside);
 				sink_text(sink, "\n");
 			}
-			behind = config->resource_behind;
 			open = true;
-			first = false;
 		}
-		if (open && (!entry || !entry->inside || entry->kind == CONFIG_RESOURCE)) {
-			close_resource(&w, behind);
-			open = false;
+		if (open && !done && !inside) {
+			sink_text(sink, "  END_RESOURCE");
+			put_comment(&w, config->resource_behind);
+			sink_mark(sink, TEXT_RESOURCE, 0, false);
+			done = true;
 		}
-		if (entry && entry->kind == CONFIG_RESOURCE) {
-			open_resource(&w, entry->name, entry->pou, entry->comment);
-			behind = entry->task;
-			open = true;
-		} else if (entry) {
+		if (i < config->count)
 			put_entry(&w, entry);
-		}
 	}
 	sink_text(sink, "END_CONFIGURATION\n");
 }

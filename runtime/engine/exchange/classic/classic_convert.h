@@ -70,7 +70,7 @@ struct conversion {
 	const char *flash;     /* its variable that counts the time                */
 };
 
-/* ---- text: classic_rung.c ---- */
+/* ---- text: classic_convert.c ---- */
 void put(struct conversion *c, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 /** text_of - formatted text in the arena; "" without memory. */

@@ -2,8 +2,8 @@
  *
  * to_classic_parts - types and functions that the files of the export to ClassicLadder share.
  *
- * Private to to_classic*.c: to_classic writes sections and programs, to_classic_names numbers
- * and symbols, to_classic_expression arithmetic, to_classic_rung a rung as it is drawn,
+ * Private to to_classic*.c: to_classic writes programs and settings, to_classic_out is what all of them write
+ * with, to_classic_names has numbers and symbols, to_classic_expression arithmetic, to_classic_rung a rung as it is drawn,
  * to_classic_split one that must be cut, to_classic_sfc pages.
  */
 #ifndef CLASSIC_TO_CLASSIC_PARTS_H
@@ -115,7 +115,7 @@ struct leaving {
 	bool good;
 };
 
-/* ---- to_classic.c ---- */
+/* ---- to_classic_out.c ---- */
 /** out_refuse - adds a diagnostic about the cell in work. Returns false. */
 bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
@@ -135,19 +135,23 @@ struct classic_rung *rung_begin(struct leaving *e);
 /** section_begin, section_end - adds a section. @drop: removes it if it has no rung. */
 void section_begin(struct leaving *e, const char *name, int subroutine, bool sequential);
 void section_end(struct leaving *e, bool drop);
-/** add_expression - adds an expression once; returns its number. */
-int add_expression(struct leaving *e, const char *text);
 /** blocks_end - the highest number + 1; 0: no block. Scan-safe: yes. */
 int blocks_end(const struct classic_blocks *blocks);
 /** routine_number - number of subroutine @name; -1: it is none. */
 int routine_number(struct leaving *e, uint32_t name);
 
+struct classic_variable variable_of(int type, int number);
+/** out_put - puts an element with its upper left cell at (y, x). */
+void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
+	      const struct out_part *item);
+/** note_jump - notes a jump; section_end() sets its target. */
+void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item);
+/** plain_title - the text of a title without its quotes and `$`. */
+const char *plain_title(struct leaving *e, const char *text);
+
 /* ---- to_classic_kept.c ---- */
 /** leave_kept - writes what an import kept in VIEW. */
 void leave_kept(struct leaving *e);
-
-/** is_shared - true if another variable or address overlaps the memory of @var. */
-bool is_shared(struct leaving *e, const struct var *var);
 
 /* ---- to_classic_names.c ---- */
 bool names_prepare(struct leaving *e);
@@ -164,7 +168,6 @@ int new_word(struct leaving *e);
 int spare_bit(struct leaving *e);
 int never_bit(struct leaving *e);
 void size_note(struct leaving *e, int type, int number);
-struct classic_variable variable_of(int type, int number);
 /** extra_bit - bit @index of an instance that ClassicLadder has no block for. */
 int extra_bit(struct leaving *e, struct out_slot *slot, int index);
 
@@ -187,14 +190,12 @@ bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item);
 
-/** runs_often - true if the rung in work can run more than once in a scan. */
-bool runs_often(struct leaving *e);
-/** may_rest - true if a scan can skip the rung in work. */
-bool may_rest(struct leaving *e);
 /** blocks_prepare - sets presets and modes of all blocks. */
 void blocks_prepare(struct leaving *e);
 /** box_is_plain - true if it needs no rungs before or behind it. Scan-safe: yes. */
 bool box_is_plain(const struct out_part *item);
+/** part_touches - true if @item reads what @box writes, or calls the same block. */
+bool part_touches(const struct out_part *item, const struct out_part *box);
 
 /* ---- to_classic_rung.c, to_classic_split.c ---- */
 struct out_rung {
@@ -213,13 +214,6 @@ static inline void out_mark(struct leaving *e, const struct out_part *item)
 	if (e->written)
 		e->written[item->id] = true;
 }
-/** out_put - puts an element with its upper left cell at (y, x). */
-void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
-	      const struct out_part *item);
-/** note_jump - notes a jump; section_end() sets its target. */
-void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item);
-/** part_touches - true if @item reads what @box writes, or calls the same block. */
-bool part_touches(const struct out_part *item, const struct out_part *box);
 /** is_block - true for a block that ClassicLadder has. */
 static inline bool is_block(const struct out_part *item)
 {

@@ -198,34 +198,6 @@ static void visit_net(struct out_rung *r, int net)
 
 /* ---- elements that read what others write ---- */
 
-static bool reads_pin(struct classic_variable variable, const struct out_part *box)
-{
-	return (int)classic_kind_of(variable.type) == box->slot->block &&
-	       variable.number == box->slot->number;
-}
-
-bool part_touches(const struct out_part *item, const struct out_part *box)
-{
-	if (!box->slot || box->slot->block < 0)
-		return true;
-	if (is_block(item))
-		return item->slot->block == box->slot->block &&
-		       item->slot->number == box->slot->number;
-	for (const char *at = item->text; at && (at = strpbrk(at, "@[")); at++) {
-		char *slash, *end;
-		const long type = strtol(at + 1, &slash, 10);
-		const long number = *slash == '/' ? strtol(slash + 1, &end, 10) : -1;
-
-		if (number >= 0 && reads_pin(variable_of((int)type, (int)number), box))
-			return true;
-	}
-	if (item->text)
-		return false;
-	return reads_pin(item->variable, box) ||
-	       reads_pin(variable_of(item->variable.index_type,
-				     item->variable.index_number), box);
-}
-
 /* ---- outputs behind a coil ---- */
 
 /* The net whose power an output behind coils has. */
@@ -352,22 +324,6 @@ static void put_wires(struct drawing *d, int y, int from, int to)
 {
 	for (int x = from; x < to; x++)
 		put_code(d, y, x, CL_WIRE);
-}
-
-void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
-	      const struct out_part *item)
-{
-	int alive = item->width - 1;
-	struct classic_cell *cell;
-
-	out_mark(e, item);
-	for (int i = 0; i < item->height; i++)
-		for (int k = 0; k < item->width; k++)
-			rung->cell[y + i][x + k].element = CL_PART;
-	cell = &rung->cell[y][x + alive];
-	cell->element = item->code;
-	cell->variable = item->text ? variable_of(0, add_expression(e, item->text)) :
-			 item->code == CL_WIRE ? variable_of(0, 0) : item->variable;
 }
 
 static void place_part(struct drawing *d, int index)
