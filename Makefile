@@ -527,7 +527,7 @@ screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, and docs/e
 # The editor with the fake chips of the HAL tests, for the lines of a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2
 $(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libonline.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64,--wrap=iomap_read,--wrap=iomap_read_lines -o $@ $(filter %.o,$^) \
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64,--wrap=iomap_read -o $@ $(filter %.o,$^) \
 	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 # The scripts that use the editor as a person does load it into the editor. With sanitizers they do without.
 EDITOR_WALK := $(BUILD)/tests/editor/person/walk.so
@@ -718,7 +718,7 @@ push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## test ladder push with a real ssh
 	BUILD=$(BUILD) prove tests/push.t
 # `ladder` with the fake chips of the HAL tests, for `ladder io`.
 $(HAL_TEST)/ladder_%: $(LADDER) $(HAL_TEST)/%/io_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64,--wrap=iomap_read,--wrap=iomap_read_lines -o $@ $(filter %.o,$^) $(filter %.a,$^) $(AVAHI_LIB) $(XML_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64,--wrap=iomap_read -o $@ $(filter %.o,$^) $(filter %.a,$^) $(AVAHI_LIB) $(XML_LIB) -lm
 $(HAL_TEST)/ladder_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladder_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladder_uapi: $(call HAL_FAKE,uapi,gpio_uapi)

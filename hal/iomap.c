@@ -475,15 +475,13 @@ static bool check_bytes(struct reader *reader, const char *text, size_t len)
 	return diag_add(reader->diags, place, "%s", "");
 }
 
-static struct iomap empty_map(const char *file)
+bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
+		const char *text, size_t len, struct diag_list *diags)
 {
-	return (struct iomap){ .file = file, .board = "", .dev = "/dev" };
-}
-
-bool iomap_read_lines(struct iomap *map, struct arena *arena, const char *file,
-		      const char *text, size_t len, struct diag_list *diags)
-{
-	struct reader reader = { .map = empty_map(file), .arena = arena, .diags = diags };
+	struct reader reader = {
+		.map = { .file = file, .board = "", .dev = "/dev" },
+		.arena = arena, .diags = diags,
+	};
 
 	*map = reader.map;
 	if (!check_bytes(&reader, text, len))
@@ -503,15 +501,6 @@ bool iomap_read_lines(struct iomap *map, struct arena *arena, const char *file,
 		return diag_add(diags, (struct diag){ .id = DIAG_IO_NO_BOARD,
 				.file = file, .line = 1 }, "%s", "");
 	return true;
-}
-
-bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
-		const char *text, size_t len, struct diag_list *diags)
-{
-	if (iomap_read_lines(map, arena, file, text, len, diags))
-		return true;
-	*map = empty_map(file);
-	return false;
 }
 
 bool iomap_fits(const struct iomap *map, const struct areas *areas,

@@ -64,15 +64,11 @@ struct iomap {
  * @file:  names the file in diagnostics; must outlive @diags and @map
  *
  * Owns: the arena.   Scan-safe: no.
- * Fails: false with at least one error in @diags; @map is then empty.
+ * Fails: false with at least one error in @diags. @map has then the lines without an error: to check them further,
+ * never to drive anything.
  */
 bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 		const char *text, size_t len, struct diag_list *diags);
-
-/** iomap_read_lines - as iomap_read(), but @map has the lines without an error also after a failure: to check
- * them further, never to drive anything. */
-bool iomap_read_lines(struct iomap *map, struct arena *arena, const char *file,
-		      const char *text, size_t len, struct diag_list *diags);
 
 /**
  * iomap_fits - checks that the areas of a program contain every point

@@ -58,6 +58,7 @@ measure 'ladderd' 552960 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
-measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 87040 /small-serial SMALL=1 LINK=serial WORDS=core
+# 128 bytes more than the limit before, for lines of a map that are checked further after an error.
+measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 87168 /small-serial SMALL=1 LINK=serial WORDS=core
 echo "1..$n"
 exit $failed

@@ -411,10 +411,14 @@ static bool knows(struct sim_source *source, struct location at)
 	       ladder_sim_knows(shadow->of, place);
 }
 
-static enum sim_quality quality(struct sim_source *source, struct location at)
+/* The past of both is at one scan: past(). */
+static enum sim_quality quality(struct sim_source *source, const struct sim_view *view,
+				const struct sim_replay *replay, struct location at)
 {
 	struct sim_shadow *shadow = shadow_of(source);
 
+	(void)view;
+	(void)replay;
 	return shadow->shadow ? ladder_sim_quality(shadow->of, shadow_place(shadow->shadow, at)) : SIM_GOOD;
 }
 

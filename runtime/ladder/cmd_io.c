@@ -214,7 +214,7 @@ static enum status with_map(struct call *call, struct diag_list *diags)
 	if (!text)
 		return STATUS_WRONG;
 	arena_init(&arena);
-	is_read = iomap_read_lines(&map, &arena, call->arg[0], text, len, diags);
+	is_read = iomap_read(&map, &arena, call->arg[0], text, len, diags);
 	if (!picture)
 		status = check_map(call, &map, is_read, diags);
 	else if (is_read)

@@ -51,20 +51,6 @@ bool __real_iomap_read(struct iomap *map, struct arena *arena, const char *file,
 bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
 		       size_t len, struct diag_list *diags);
 
-bool __real_iomap_read_lines(struct iomap *map, struct arena *arena, const char *file, const char *text,
-			     size_t len, struct diag_list *diags);
-bool __wrap_iomap_read_lines(struct iomap *map, struct arena *arena, const char *file, const char *text,
-			     size_t len, struct diag_list *diags);
-
-bool __wrap_iomap_read_lines(struct iomap *map, struct arena *arena, const char *file, const char *text,
-			     size_t len, struct diag_list *diags)
-{
-	const bool good = __real_iomap_read_lines(map, arena, file, text, len, diags);
-
-	map->sys = getenv("FAKE_SYS");
-	return good;
-}
-
 bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
 		       size_t len, struct diag_list *diags)
 {

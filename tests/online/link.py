@@ -3447,7 +3447,7 @@ def test_replay_says_what_is_wrong():
         assert board.command('record', '-o', 'a.record')[0] == 0
         with open(board.folder + '/a.record', 'rb') as file:
             good = file.read()
-        for data, code in ((b'', 'LD860'), (b'RUNGCODE' + good[8:], 'LD860'), (good[:8] + b'\2' + good[9:], 'LD861'),
+        for data, code in ((b'', 'LD860'), (b'RUNGCODE' + good[8:], 'LD860'), (good[:8] + b'\3' + good[9:], 'LD861'),
                            (good[:-1], 'LD862'), (good[:500] + b'x' + good[501:], 'LD862')):
             with open(board.folder + '/b.record', 'wb') as file:
                 file.write(data)
