@@ -192,6 +192,14 @@ bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
 	return sim->thread != NULL;
 }
 
+bool ladder_sim_cost(LadderSim *sim, struct sim_cost *out)
+{
+	if (!sim->thread)
+		return false;
+	sim_thread_cost(sim->thread, out);
+	return out->scans > 0;
+}
+
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
 {
 	if (!ladder_sim_is_on(sim))

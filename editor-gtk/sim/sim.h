@@ -190,6 +190,13 @@ bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out);
 guint64 sim_lateness_scans(const struct sim_lateness *late);
 /** sim_lateness_us - the lateness that @part of the scans, up to 1, do not exceed; 0: there are none. */
 double sim_lateness_us(const struct sim_lateness *late, double part);
+/* What a scan takes on this machine, of the same scans, to 6 %. */
+struct sim_cost {
+	guint64 scans;
+	gint64 usual_ns, most_ns; /* half of them take no longer; none does */
+};
+/** ladder_sim_cost - fails: false: the simulation is off, or no scan was in RUN. */
+bool ladder_sim_cost(LadderSim *sim, struct sim_cost *out);
 
 /* ---- the scan that is shown ---- */
 

@@ -10,7 +10,10 @@
 #include "hal/said.h"
 
 #include <string.h>
+#include <time.h>
 
+#define COST_NS 100.0 /* unit of struct sim_thread's cost                      */
+#define NS_PER_S G_GINT64_CONSTANT(1000000000)
 #define FRAME_US G_GINT64_CONSTANT(16000)
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* a longer delay is not caught up      */
 
@@ -69,6 +72,7 @@ struct sim_thread {
 	/* Atomic: */
 	int notified;
 	struct sim_lateness late; /* counted atomically, by late_step()        */
+	struct sim_lateness cost; /* the same, in COST_NS                       */
 };
 
 static gsize areas_size(const struct sim_thread *thread)
@@ -221,11 +225,23 @@ static void scan_or_fault(struct sim_thread *thread)
 	thread->fault = thread->events.faulted = true;
 }
 
+static gint64 now_ns(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (gint64)now.tv_sec * NS_PER_S + now.tv_nsec;
+}
+
 static void scan_in_time(struct sim_thread *thread)
 {
+	const gint64 began_ns = now_ns();
+
 	g_atomic_int_inc((gint *)&thread->late.count[late_step(
-		(double)g_get_monotonic_time() - thread->due_us)]);
+		(double)began_ns / 1000 - thread->due_us)]);
 	scan_or_fault(thread);
+	g_atomic_int_inc((gint *)&thread->cost.count[late_step(
+		(double)(now_ns() - began_ns) / COST_NS)]);
 	thread->due_us += wall_period_us(thread);
 	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
 		publish(thread, false);
@@ -711,10 +727,25 @@ void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
 
 /* ---- lateness ---- */
 
-void sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
+static void copy_counts(struct sim_lateness *from, struct sim_lateness *out)
 {
 	for (guint i = 0; i < SIM_LATE_STEPS; i++)
-		out->count[i] = (guint)g_atomic_int_get((gint *)&thread->late.count[i]);
+		out->count[i] = (guint)g_atomic_int_get((gint *)&from->count[i]);
+}
+
+void sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
+{
+	copy_counts(&thread->late, out);
+}
+
+void sim_thread_cost(struct sim_thread *thread, struct sim_cost *out)
+{
+	struct sim_lateness cost;
+
+	copy_counts(&thread->cost, &cost);
+	out->scans = sim_lateness_scans(&cost);
+	out->usual_ns = (gint64)(sim_lateness_us(&cost, 0.5) * COST_NS);
+	out->most_ns = (gint64)(sim_lateness_us(&cost, 1) * COST_NS);
 }
 
 guint64 sim_lateness_scans(const struct sim_lateness *late)

@@ -41,5 +41,7 @@ void sim_thread_change(struct sim_thread *thread, struct sim_program *program);
 
 /** sim_thread_lateness - as ladder_sim_lateness(). */
 void sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
+/** sim_thread_cost - as ladder_sim_cost(). */
+void sim_thread_cost(struct sim_thread *thread, struct sim_cost *out);
 
 #endif

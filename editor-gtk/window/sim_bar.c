@@ -96,12 +96,41 @@ static void show_when(struct sim_bar *bar)
 	g_free(text);
 }
 
+/* "0.1", "12": the part of the period. Only a small one has a digit behind the point. */
+static void print_share(gint64 part_ns, gint64 period_ns, char *out, size_t size)
+{
+	const double percent = 100 * (double)part_ns / (double)MAX(period_ns, 1);
+
+	snprintf(out, size, percent < 10 ? "%.1f" : "%.0f", percent);
+}
+
+/* What a scan takes, for somebody who chooses a period. Appends nothing before the first scan. */
+static void tell_cost(const struct sim_bar *bar, GString *text)
+{
+	const struct twin *twin = ladder_sim_twin(bar->core->sim);
+	char usual[32], most[32], period[32], share[64];
+	struct sim_cost cost;
+
+	if (!twin || !ladder_sim_cost(bar->core->sim, &cost))
+		return;
+	live_time_print(MAX(cost.usual_ns / 1000, 1) * 1000, usual, sizeof(usual));
+	live_time_print(MAX(cost.most_ns / 1000, 1) * 1000, most, sizeof(most));
+	live_time_print(twin->period_ns, period, sizeof(period));
+	print_share(cost.usual_ns, twin->period_ns, share, sizeof(share));
+	g_string_append_printf(text, _("On this machine a scan takes %s, %s %% of the period of %s. "
+				       "The longest took %s."), usual, share, period, most);
+	g_string_append_printf(text, "\n%s\n", cost.most_ns > twin->period_ns ?
+		_("A scan took longer than the period, so later ones were late.") :
+		_("The rest of the period is free. A board may be slower: its state shows its own time."));
+}
+
 /* A machine that is too slow, or busy, shows here. */
 static gboolean tell_lateness(GtkWidget *title, int x, int y, gboolean keys, GtkTooltip *tooltip,
 			      struct sim_bar *bar)
 {
 	struct sim_lateness late;
-	char most[32], worst[32], *text;
+	char most[32], worst[32];
+	GString *text;
 	gboolean told;
 
 	(void)title, (void)x, (void)y, (void)keys;
@@ -109,10 +138,12 @@ static gboolean tell_lateness(GtkWidget *title, int x, int y, gboolean keys, Gtk
 		return FALSE;
 	live_time_print((int64_t)(sim_lateness_us(&late, 0.99) * 1000), most, sizeof(most));
 	live_time_print((int64_t)(sim_lateness_us(&late, 1) * 1000), worst, sizeof(worst));
-	text = g_strdup_printf(_("99 of 100 scans began at most %s late, all of them at most %s late"),
+	text = g_string_new(NULL);
+	tell_cost(bar, text);
+	g_string_append_printf(text, _("99 of 100 scans began at most %s late, all of them at most %s late"),
 			       most, worst);
-	told = tip_show(tooltip, text);
-	g_free(text);
+	told = tip_show(tooltip, text->str);
+	g_string_free(text, TRUE);
 	return told;
 }
 

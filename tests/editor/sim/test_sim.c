@@ -62,7 +62,9 @@ static void open_text(const char *text)
 
 static void test_states(void)
 {
+	const gint64 began_us = g_get_monotonic_time();
 	struct sim_lateness late;
+	struct sim_cost cost;
 
 	CHECK(!ladder_sim_is_on(sim) && ladder_sim_state(sim) == SIM_OFF);
 	CHECK(!ladder_sim_twin(sim) && !ladder_sim_lock_record(sim));
@@ -70,7 +72,7 @@ static void test_states(void)
 	ladder_sim_scan(sim, 3);
 	CHECK_AS(ladder_sim_state(sim) == SIM_OFF,
 		 "no scan runs while the simulation is off");
-	CHECK(!ladder_sim_lateness(sim, &late));
+	CHECK(!ladder_sim_lateness(sim, &late) && !ladder_sim_cost(sim, &cost));
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(ladder_sim_state(sim) == SIM_STOP && states > 0);
 	ladder_sim_scan(sim, 5);
@@ -86,6 +88,10 @@ static void test_states(void)
 		 sim_lateness_scans(&late) == ladder_sim_twin(sim)->scan - 5,
 		 "the lateness of each scan in RUN is counted");
 	CHECK(sim_lateness_us(&late, 0.5) <= sim_lateness_us(&late, 1));
+	CHECK_AS(ladder_sim_cost(sim, &cost) && cost.scans == sim_lateness_scans(&late),
+		 "what each of them took is counted");
+	CHECK(cost.usual_ns > 0 && cost.usual_ns <= cost.most_ns &&
+	      cost.most_ns / 1000 <= g_get_monotonic_time() - began_us);
 	ladder_sim_reset(sim, false);
 	CHECK_SOON(value("Count") == 0);
 	ladder_sim_stop(sim);
