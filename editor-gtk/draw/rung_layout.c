@@ -262,8 +262,8 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 	g_free(heading.comment);
 }
 
-/* The right rail is @width from the left one. */
-static void place_columns(struct rung_layout *layout, float width)
+/* The right rail is @width from the left one. @spread: factor of the width of all columns. */
+static void place_columns(struct rung_layout *layout, float width, float spread)
 {
 	const float spare = layout->natural - layout->tight;
 	const float part = spare > 0 ? MIN((width - layout->tight) / spare, 1) : 1;
@@ -272,8 +272,8 @@ static void place_columns(struct rung_layout *layout, float width)
 
 	layout->right = RUNG_LEFT + width;
 	for (int d = 0; d <= last; d++)
-		layout->column_width[d] = layout->column_need[d] + part *
-			(MAX(layout->column_need[d], RUNG_CELL_WIDTH) - layout->column_need[d]);
+		layout->column_width[d] = spread * (layout->column_need[d] + part *
+			(MAX(layout->column_need[d], RUNG_CELL_WIDTH) - layout->column_need[d]));
 	for (int d = 0; d < last; d++) {
 		layout->column_x[d] = x;
 		x += layout->column_width[d];
@@ -319,12 +319,14 @@ void rung_layout_free(struct rung_layout *layout)
 
 void rung_layout_stretch(struct rung_layout *layout, float width)
 {
-	place_columns(layout, MAX(width, layout->natural));
+	place_columns(layout, MAX(width, layout->natural), 1);
 }
 
 void rung_layout_fit(struct rung_layout *layout, float width)
 {
-	place_columns(layout, MAX(width, layout->tight));
+	const float usual = MAX(layout->natural, RUNG_WIDE / RUNG_SPREAD);
+
+	place_columns(layout, MAX(width, layout->tight), MAX(width / usual, 1));
 }
 
 float rung_layout_width(const struct rung_layout *layout)

@@ -27,6 +27,8 @@
 #define RUNG_WIRE        46     /* of a row: from its top to its wire           */
 #define RUNG_HALF        12     /* half the height of a contact                 */
 #define RUNG_LEAST_COLUMNS 6
+#define RUNG_WIDE        2400 /* rails are not wider apart for the page alone   */
+#define RUNG_SPREAD      1.5f /* columns of such a page, to their usual width   */
 
 enum drafting_show { SHOW_BOTH, SHOW_SYMBOLS, SHOW_ADDRESSES };
 
@@ -86,7 +88,7 @@ void rung_layout_free(struct rung_layout *layout);
  * natural distance if that is more. */
 void rung_layout_stretch(struct rung_layout *layout, float width);
 /** rung_layout_fit - the same, but where there is less room than the natural distance, columns become
- * narrower, down to what their names need. */
+ * narrower, down to what their names need; on a page wider than RUNG_WIDE / RUNG_SPREAD they become wider. */
 void rung_layout_fit(struct rung_layout *layout, float width);
 /** rung_layout_width - of the whole strip, with gutter and margin. */
 float rung_layout_width(const struct rung_layout *layout);

@@ -16,7 +16,6 @@
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out in one idle call                           */
 #define NEAR_RUNGS   40 /* kept above and below the visible ones               */
-#define WIDE         1600 /* px at 100 %: rails are not wider apart for the page alone */
 
 /* ---- which rungs ---- */
 
@@ -343,7 +342,7 @@ static void widen(LadderGridView *view)
 {
 	const double page = gtk_widget_get_width(GTK_WIDGET(view)) / view->canvas->zoom;
 	const float rail = MAX(view->natural, MIN((float)floor(page) - RUNG_LEFT - RUNG_AFTER,
-						  WIDE));
+						  RUNG_WIDE));
 
 	if (rail == view->rail)
 		return;
