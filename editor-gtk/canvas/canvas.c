@@ -18,10 +18,11 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/kit/settings.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 
 enum { PROP_0, PROP_HADJUSTMENT, PROP_VADJUSTMENT, PROP_HPOLICY, PROP_VPOLICY };
 enum { CURSOR_MOVED, TOLD, ZOOM_CHANGED, SIGNALS };
@@ -171,13 +172,9 @@ void canvas_moved(LadderCanvas *canvas)
 const struct theme *canvas_theme(LadderCanvas *canvas)
 {
 	struct canvas_own *own = own_of(canvas);
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-	const bool contrast = adw_style_manager_get_high_contrast(manager);
 
 	if (!own->theme)
-		own->theme = theme_get(contrast ? dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
-				       dark ? THEME_DARK : THEME_LIGHT,
+		own->theme = theme_get(theme_kind_screen(),
 			(enum theme_power)settings_enum("power", THEME_GREEN));
 	return own->theme;
 }
@@ -1391,7 +1388,6 @@ static void ladder_canvas_finalize(GObject *object)
 static void ladder_canvas_constructed(GObject *object)
 {
 	LadderCanvas *canvas = LADDER_CANVAS(object);
-	AdwStyleManager *style = adw_style_manager_get_default();
 
 	G_OBJECT_CLASS(ladder_canvas_parent_class)->constructed(object);
 	state_of(canvas)->zoom = CLAMP(settings_number("zoom", 1.0), class_of(canvas)->least_zoom,
@@ -1400,10 +1396,7 @@ static void ladder_canvas_constructed(GObject *object)
 	gtk_widget_set_direction(GTK_WIDGET(canvas), GTK_TEXT_DIR_LTR);
 	state_of(canvas)->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(canvas)),
 					  NULL);
-	g_signal_connect_object(style, "notify::dark", G_CALLBACK(restyle), canvas,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(style, "notify::high-contrast", G_CALLBACK(restyle), canvas,
-				G_CONNECT_SWAPPED);
+	theme_follow(canvas, G_CALLBACK(restyle));
 	if (settings_get())
 		g_signal_connect_object(settings_get(), "changed::power", G_CALLBACK(restyle),
 					canvas, G_CONNECT_SWAPPED);

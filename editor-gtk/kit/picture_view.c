@@ -3,8 +3,9 @@
  * picture_view - see picture_view.h.
  */
 #include "editor-gtk/kit/picture_view.h"
+#include "editor-gtk/kit/theme.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 #include <math.h>
 
 #define SCALE_LEAST 0.55f /* names stay readable; a wider picture scrolls       */
@@ -116,12 +117,7 @@ static void ladder_picture_view_class_init(LadderPictureViewClass *class)
 static void ladder_picture_view_init(LadderPictureView *view)
 {
 	picture_init(&view->strokes);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(ladder_picture_view_again), view,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
-				G_CALLBACK(ladder_picture_view_again), view,
-				G_CONNECT_SWAPPED);
+	theme_follow(view, G_CALLBACK(ladder_picture_view_again));
 }
 
 GtkWidget *ladder_picture_view_new(picture_draw *draw, gpointer data)

@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/kit/text_scheme.h"
 
+#include "editor-gtk/kit/theme.h"
+
 #include <adwaita.h>
 
 static void follow(GtkSourceBuffer *buffer)
@@ -19,7 +21,6 @@ static void follow(GtkSourceBuffer *buffer)
 
 void text_scheme_follow(GtkSourceBuffer *buffer)
 {
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(follow), buffer, G_CONNECT_SWAPPED);
+	theme_follow(buffer, G_CALLBACK(follow));
 	follow(buffer);
 }

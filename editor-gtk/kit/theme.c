@@ -5,7 +5,11 @@
  */
 #include "editor-gtk/kit/theme.h"
 
+#include "editor-gtk/kit/settings.h"
+
 #include <adwaita.h>
+
+#define CONTRAST_HIGH 1 /* of the setting; 0: as the desktop                  */
 
 #define HEX(rgb) { (float)((rgb) >> 16 & 0xff) / 255, (float)((rgb) >> 8 & 0xff) / 255, \
 		   (float)((rgb) & 0xff) / 255, 1 }
@@ -70,14 +74,53 @@ const struct theme *theme_get(enum theme_kind kind, enum theme_power power)
 	return &table[kind][power];
 }
 
+bool theme_is_high(void)
+{
+	return adw_style_manager_get_high_contrast(adw_style_manager_get_default()) ||
+	       settings_enum("contrast", 0) == CONTRAST_HIGH;
+}
+
+enum theme_kind theme_kind_screen(void)
+{
+	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
+
+	if (theme_is_high())
+		return dark ? THEME_CONTRAST_DARK : THEME_CONTRAST;
+	return dark ? THEME_DARK : THEME_LIGHT;
+}
+
 const struct theme *theme_screen(void)
 {
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
+	return theme_get(theme_kind_screen(), THEME_GREEN);
+}
 
-	return theme_get(adw_style_manager_get_high_contrast(manager) ?
-			 dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
-			 dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+void theme_follow(gpointer object, GCallback changed)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+
+	g_signal_connect_object(manager, "notify::dark", changed, object, G_CONNECT_SWAPPED);
+	g_signal_connect_object(manager, "notify::high-contrast", changed, object,
+				G_CONNECT_SWAPPED);
+	if (settings_get())
+		g_signal_connect_object(settings_get(), "changed::contrast", changed, object,
+					G_CONNECT_SWAPPED);
+}
+
+void theme_call(gpointer data, GCallback changed)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+
+	g_signal_connect_swapped(manager, "notify::dark", changed, data);
+	g_signal_connect_swapped(manager, "notify::high-contrast", changed, data);
+	if (settings_get())
+		g_signal_connect_swapped(settings_get(), "changed::contrast", changed, data);
+}
+
+void theme_leave(gpointer data)
+{
+	g_signal_handlers_disconnect_by_data(adw_style_manager_get_default(), data);
+	if (settings_get())
+		g_signal_handlers_disconnect_by_data(settings_get(), data);
 }
 
 const char *token_name(enum token token)

@@ -54,8 +54,18 @@ struct theme {
 
 /** theme_get - one row of the table. Owns: nothing; it lives for ever. */
 const struct theme *theme_get(enum theme_kind kind, enum theme_power power);
-/** theme_screen - as the desktop has it now: light or dark, high contrast; green power. */
+/** theme_is_high - high contrast: the desktop has it, or the preferences ask for it. */
+bool theme_is_high(void);
+/** theme_kind_screen - what is on the screen now: light or dark, high contrast. */
+enum theme_kind theme_kind_screen(void);
+/** theme_screen - the row of that kind; green power. */
 const struct theme *theme_screen(void);
+/** theme_follow - calls @changed (@object) whenever theme_kind_screen() may be another.
+ * @object: a GObject; with it the calls end. */
+void theme_follow(gpointer object, GCallback changed);
+/** theme_call - the same for @data that is no GObject, until theme_leave(). */
+void theme_call(gpointer data, GCallback changed);
+void theme_leave(gpointer data);
 /** token_name - "power"; names in SVG pictures and tests. Lives for ever. */
 const char *token_name(enum token token);
 

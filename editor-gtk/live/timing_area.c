@@ -14,7 +14,7 @@
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/live_value.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 #include <math.h>
 
 #define NAMES_PX 210      /* names and values at the left                        */
@@ -800,10 +800,9 @@ static void draw_hint(struct drawing *drawing, const char *what)
 static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderTimingArea *area = LADDER_TIMING_AREA(widget);
-	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
 	struct drawing drawing = {
 		.area = area, .timing = area->timing, .snapshot = snapshot,
-		.theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN),
+		.theme = theme_screen(),
 		.width = gtk_widget_get_width(GTK_WIDGET(area)),
 		.bottom = visible_bottom(area),
 	};
@@ -993,7 +992,6 @@ GtkWidget *ladder_timing_area_new(LadderSim *sim)
 	g_signal_connect_object(sim, "shown", G_CALLBACK(shown), area, G_CONNECT_SWAPPED);
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), area,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(gtk_widget_queue_draw), area, G_CONNECT_SWAPPED);
+	theme_follow(area, G_CALLBACK(gtk_widget_queue_draw));
 	return GTK_WIDGET(area);
 }

@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/text_lower.h"
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/panels/manual_page.h"
 
 #include <string.h>
@@ -814,8 +815,7 @@ static void ladder_manual_window_init(LadderManualWindow *window)
 	g_signal_connect_object(gtk_scrolled_window_get_hadjustment(GTK_SCROLLED_WINDOW(
 		window->place)), "notify::page-size", G_CALLBACK(resized), window,
 		G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(recolour), window, G_CONNECT_SWAPPED);
+	theme_follow(window, G_CALLBACK(recolour));
 	tell_history(window);
 }
 

@@ -11,7 +11,7 @@
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/live_value.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 #include <math.h>
 
 #define HIGH 26       /* px of a lane                                          */
@@ -317,16 +317,11 @@ static void ladder_task_lane_class_init(LadderTaskLaneClass *class)
 
 static void ladder_task_lane_init(LadderTaskLane *lane)
 {
-	AdwStyleManager *manager = adw_style_manager_get_default();
-
 	lane->number = -1;
 	lane->mark_ns = -1;
 	gtk_widget_set_overflow(GTK_WIDGET(lane), GTK_OVERFLOW_HIDDEN);
 	gtk_widget_set_hexpand(GTK_WIDGET(lane), TRUE);
-	g_signal_connect_object(manager, "notify::dark", G_CALLBACK(gtk_widget_queue_draw), lane,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(manager, "notify::high-contrast",
-				G_CALLBACK(gtk_widget_queue_draw), lane, G_CONNECT_SWAPPED);
+	theme_follow(lane, G_CALLBACK(gtk_widget_queue_draw));
 }
 
 GtkWidget *ladder_task_lane_new(GtkAdjustment *time)

@@ -9,8 +9,9 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/theme.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 
 #define ICON_WIDTH  56
 #define ICON_HEIGHT 34
@@ -28,20 +29,10 @@ struct _LadderIcon {
 
 G_DEFINE_FINAL_TYPE(LadderIcon, ladder_icon, GTK_TYPE_WIDGET)
 
-static const struct theme *icon_theme(void)
-{
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-
-	if (adw_style_manager_get_high_contrast(manager))
-		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST, THEME_GREEN);
-	return theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
-}
-
 static void ladder_icon_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderIcon *icon = LADDER_ICON(widget);
-	const struct theme *theme = icon_theme();
+	const struct theme *theme = theme_screen();
 	struct picture picture;
 
 	picture_init(&picture);
@@ -70,12 +61,7 @@ static void ladder_icon_init(LadderIcon *icon)
 		gtk_widget_get_pango_context(GTK_WIDGET(icon)), NULL);
 	gtk_widget_set_size_request(GTK_WIDGET(icon), ICON_WIDTH, ICON_HEIGHT);
 	gtk_widget_set_halign(GTK_WIDGET(icon), GTK_ALIGN_CENTER);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(gtk_widget_queue_draw), icon,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
-				G_CALLBACK(gtk_widget_queue_draw), icon,
-				G_CONNECT_SWAPPED);
+	theme_follow(icon, G_CALLBACK(gtk_widget_queue_draw));
 }
 
 /* ---- what is done with it ---- */
@@ -95,9 +81,9 @@ static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderIcon *icon)
 
 	(void)unused;
 	picture_init(&picture);
-	icon->tile.draw(&icon->tile, icon_theme(), icon->lettering, GHOST_WIDTH, GHOST_HEIGHT,
+	icon->tile.draw(&icon->tile, theme_screen(), icon->lettering, GHOST_WIDTH, GHOST_HEIGHT,
 			&picture);
-	ghost_tile(source, &picture, icon_theme(), icon->lettering);
+	ghost_tile(source, &picture, theme_screen(), icon->lettering);
 	picture_clear(&picture);
 }
 

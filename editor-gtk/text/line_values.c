@@ -11,7 +11,7 @@
 #include "engine/base/name.h"
 #include "engine/ladder.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -867,8 +867,7 @@ LadderLineValues *line_values_new(GtkSourceBuffer *buffer)
 	LadderLineValues *values = g_object_new(LADDER_TYPE_LINE_VALUES, "buffer", buffer,
 						"monospace", TRUE, NULL);
 
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(gtk_widget_queue_draw), values, G_CONNECT_SWAPPED);
+	theme_follow(values, G_CALLBACK(gtk_widget_queue_draw));
 	g_signal_connect_object(buffer, "changed", G_CALLBACK(forget_lines), values,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(buffer, "notify::cursor-position", G_CALLBACK(tell_soon),

@@ -14,7 +14,7 @@
 
 #include "engine/base/name.h"
 
-#include <adwaita.h>
+#include <gtk/gtk.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -540,8 +540,7 @@ struct text_stops *text_stops_new(LadderLineValues *view, LadderDocument *docume
 	stops->calls = gtk_text_buffer_create_tag(stops->buffer, NULL, NULL);
 	stops->stands = gtk_text_buffer_create_tag(stops->buffer, NULL, NULL);
 	colour(stops);
-	g_signal_connect_swapped(adw_style_manager_get_default(), "notify::dark", G_CALLBACK(colour),
-				 stops);
+	theme_call(stops, G_CALLBACK(colour));
 	return stops;
 }
 
@@ -550,7 +549,7 @@ void text_stops_free(struct text_stops *stops)
 	if (!stops)
 		return;
 	hold(stops, false);
-	g_signal_handlers_disconnect_by_data(adw_style_manager_get_default(), stops);
+	theme_leave(stops);
 	if (stops->sim) {
 		g_signal_handlers_disconnect_by_data(stops->sim, stops);
 		g_signal_handlers_disconnect_by_data(ladder_sim_breakpoints(stops->sim), stops);

@@ -449,19 +449,46 @@ static void define_colors(GtkCssProvider *css)
 	g_free(force);
 }
 
+/* A sheet that applies with high contrast only; its path is the data of the provider. */
+static void use_contrast(GtkCssProvider *css)
+{
+	const char *path = theme_is_high() ? g_object_get_data(G_OBJECT(css), "path") : NULL;
+
+	if (path)
+		gtk_css_provider_load_from_resource(css, path);
+	else
+		gtk_css_provider_load_from_data(css, "", 0);
+}
+
+/* The sheet of libadwaita is where libadwaita 1.2 to 1.7 have it: they offer no function for the choice. */
+static void follow_contrast(guint priority, const char *path)
+{
+	GtkCssProvider *css;
+
+	if (!g_resources_get_info(path, G_RESOURCE_LOOKUP_FLAGS_NONE, NULL, NULL, NULL))
+		return;
+	css = gtk_css_provider_new();
+	g_object_set_data(G_OBJECT(css), "path", (gpointer)path);
+	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
+						   GTK_STYLE_PROVIDER(css), priority);
+	use_contrast(css);
+	theme_follow(css, G_CALLBACK(use_contrast));
+	g_object_unref(css);
+}
+
 void app_style(void)
 {
 	GtkCssProvider *css = gtk_css_provider_new(), *colors = gtk_css_provider_new();
-	AdwStyleManager *manager = adw_style_manager_get_default();
 
 	define_colors(colors);
 	add_css(colors);
-	g_signal_connect_object(manager, "notify::dark", G_CALLBACK(define_colors), colors,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(manager, "notify::high-contrast", G_CALLBACK(define_colors),
-				colors, G_CONNECT_SWAPPED);
+	theme_follow(colors, G_CALLBACK(define_colors));
 	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
 	add_css(css);
+	follow_contrast(GTK_STYLE_PROVIDER_PRIORITY_THEME + 1,
+			"/org/gnome/Adwaita/styles/base-hc.css");
+	follow_contrast(GTK_STYLE_PROVIDER_PRIORITY_APPLICATION + 1,
+			"/org/rungboard/Editor/ui/contrast.css");
 	g_object_unref(colors);
 	g_object_unref(css);
 }

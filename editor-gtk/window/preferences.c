@@ -75,12 +75,15 @@ static AdwPreferencesGroup *add_group(AdwPreferencesPage *page, const char *titl
 static void add_looks(AdwPreferencesPage *page)
 {
 	const char *appearance[] = { _("as the desktop"), _("light"), _("dark"), NULL };
+	const char *contrast[] = { _("as the desktop"), _("high"), NULL };
 	const char *power[] = { _("green"), _("blue"), NULL };
 	const char *show[] = { _("symbol and address"), _("symbols"), _("addresses"),
 			       NULL };
 	AdwPreferencesGroup *group = add_group(page, _("Drawing"));
 
 	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);
+	add_choice(group, "contrast", _("Contrast"),
+		   _("High: stronger colours, thicker lines, edges around every button"), contrast);
 	add_choice(group, "power", _("Colour of power"),
 		   _("Power is also drawn thicker, so colour is not needed to see it"), power);
 	add_choice(group, "show", _("Above an element"), NULL, show);

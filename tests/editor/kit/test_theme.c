@@ -114,8 +114,11 @@ int main(void)
 
 		CHECK(theme_contrast(&theme->color[TOKEN_INK], &theme->color[TOKEN_SHEET]) >
 		      20);
-		CHECK(theme_contrast(&theme->color[TOKEN_COMMENT],
-				     &theme->color[TOKEN_SHEET]) > 7);
+		for (size_t i = 0; i < G_N_ELEMENTS(texts); i++)
+			at_least(name[kind], texts[i], "the sheet",
+				 theme_contrast(&theme->color[texts[i]],
+						&theme->color[TOKEN_SHEET]), 7);
+		CHECK_AS(failed == 0, "with high contrast texts have 7 : 1");
 	}
 	return tap_done();
 }

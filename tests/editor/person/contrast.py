@@ -74,20 +74,20 @@ def usable(node, nodes):
     return node.states >> SENSITIVE & 1 or node.role == ROLES['frame'] or node.parent not in nodes
 
 
-def faint(editor, where, known):
-    """Texts with less than 4.5 : 1, a line each. A page that goes away is still told for a moment when its
+def faint(editor, where, known, least=4.5):
+    """Texts with less than @least : 1, a line each. A page that goes away is still told for a moment when its
     place shows another one, so a text counts that is faint in each of three looks."""
-    told = look_once(editor, where, known)
+    told = look_once(editor, where, known, least)
     for _ in range(2):
         if not told:
             break
         time.sleep(0.5)
-        again = look_once(editor, where, known)
+        again = look_once(editor, where, known, least)
         told = [each for each in told if each in again]
     return told
 
 
-def look_once(editor, where, known):
+def look_once(editor, where, known, least):
     """The same of one picture, except @known (path and name), which gets those that are good."""
     about = sh('xwininfo', '-id', editor.window)
     left, top, width, height = [int(each.split()[-1]) for each in about.splitlines()
@@ -109,7 +109,7 @@ def look_once(editor, where, known):
             continue
         x, y, w, h = [SCALE * each for each in box]
         value = ink(picture.colors(left + width // 2 - frame[2] + x, top + height // 2 - frame[3] + y, w, h))
-        if value is not None and value >= 4.5:
+        if value is not None and value >= least:
             known.add((node.path, node.name))
         elif value is not None:
             told.append('%s: "%s" is %.2f : 1' % (where, node.name, value))
@@ -166,6 +166,56 @@ def small_dark(screen):
     look(screen, 'dark', 'small-dark', Chinese)
 
 
-light.size = dark.size = '2880x1800x24'
+def choose_contrast(editor, key):
+    """Chooses the row of "Contrast" above or below the chosen one in the preferences and closes them."""
+    editor.keys('ctrl+comma')
+    editor.focus_on('Light or dark')
+    editor.keys('Tab')
+    editor.focus_on('Contrast')
+    count = lambda: len(editor.all('as the desktop', 'label'))
+    rows = count()
+    editor.keys('Return')
+    until(lambda: count() > rows, 'the list')
+    editor.keys(key, 'Return')
+    editor.shot('contrast-chosen')
+    until(lambda: editor.keys('Escape') or not editor.all('Contrast'), 'the preferences to be gone')
+
+
+def is_black(editor, where):
+    """Is anything drawn there in pure black? The ink of the usual contrast is #1d2125, that of the panel grey."""
+    x, y, width, height = editor.place(where)
+    return Picture().colors(x, y, width, height)[(0, 0, 0)] >= 50
+
+
+def chosen(screen):
+    """high contrast chosen in the preferences: sheet, panels and texts follow at once, 7 : 1; another start has it too"""
+    path = os.path.join(ROOT, 'ladders', 'garage-door.rung')
+    env = {'GSETTINGS_BACKEND': 'keyfile', 'GDK_SCALE': str(SCALE), 'ADW_DEBUG_COLOR_SCHEME': 'prefer-light'}
+    editor = Editor(screen, path, **env)
+    editor.to_sheet()
+    assert not is_black(editor, editor.sheet())
+    choose_contrast(editor, 'Down')
+    until(lambda: is_black(editor, editor.sheet()), 'the sheet in high contrast')
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    known = set()
+    told = faint(editor, 'simulating', known, 7)
+    for tab in 'Status chart', 'Timing chart', 'Scenarios':
+        editor.tab(tab)
+        until(lambda: editor.find(tab, 'page tab').states >> SELECTED & 1, 'the tab ' + tab)
+        told += faint(editor, tab, known, 7)
+        editor.shot('contrast-high-' + tab.split()[0])
+    assert not told, '\n'.join(told)
+    assert len(known) >= 60, 'only %d texts were seen' % len(known)
+    editor.finish()
+    editor = Editor(screen, path, **env)
+    editor.to_sheet()
+    until(lambda: is_black(editor, editor.sheet()), 'the sheet in high contrast after another start')
+    choose_contrast(editor, 'Up')
+    until(lambda: not is_black(editor, editor.sheet()), 'the usual contrast')
+
+
+light.size = dark.size = chosen.size = '2880x1800x24'
 small_light.size = small_dark.size = '2048x1400x24'
-main([light, dark, small_light, small_dark])
+main([light, dark, small_light, small_dark, chosen])
