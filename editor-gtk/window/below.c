@@ -10,6 +10,8 @@
 #include "editor-gtk/panels/problems.h"
 
 #define PANEL_ROOM  195 /* px of a panel that is shown, if the sheets keep       */
+#define HEAD_ROOM   48  /* px of a list above its rows and below them            */
+#define ROW_MORE    4   /* px of a row, more than its letters                    */
 #define SHEET_ROOM  180
 #define SHEET_FIRST 620 /* px of the sheets before the window has a size         */
 
@@ -107,9 +109,40 @@ void below_make_room(struct below *below, int panel, int sheet)
 		gtk_paned_set_position(below->paned, most);
 }
 
+void below_share_room(struct below *below, int panel, int sheets)
+{
+	const int height = gtk_widget_get_height(GTK_WIDGET(below->paned));
+
+	below_make_room(below, panel, height * sheets / (sheets + 1));
+}
+
+/* A short list of problems needs no more than its rows. */
+static int room_wanted(struct below *below)
+{
+	int rows, line, tabs;
+	PangoLayout *layout;
+
+	if (g_strcmp0(gtk_stack_get_visible_child_name(below->stack), "problems") != 0)
+		return PANEL_ROOM;
+	rows = ladder_problems_count(LADDER_PROBLEMS(below_panel(below, "problems")), false);
+	layout = gtk_widget_create_pango_layout(GTK_WIDGET(below->box), "X");
+	pango_layout_get_pixel_size(layout, NULL, &line);
+	g_object_unref(layout);
+	gtk_widget_measure(GTK_WIDGET(below->tabs), GTK_ORIENTATION_VERTICAL, -1, NULL, &tabs,
+			   NULL, NULL);
+	return MIN(tabs + HEAD_ROOM + rows * (line + ROW_MORE), PANEL_ROOM);
+}
+
 void below_open(struct below *below)
 {
-	below_make_room(below, PANEL_ROOM, SHEET_ROOM);
+	below_make_room(below, room_wanted(below), SHEET_ROOM);
+}
+
+/* Another tab was pressed. */
+static void panel_changed(struct below *below)
+{
+	if (gtk_widget_get_mapped(GTK_WIDGET(below->box)))
+		below_open(below);
 }
 
 void below_rest(struct below *below)
@@ -273,4 +306,6 @@ void below_init(struct below *below, struct core *core)
 	core_connect(core, along, "value-changed", G_CALLBACK(scrolled), below, G_CONNECT_SWAPPED);
 	core_connect(core, below->stack, "notify::visible-child",
 		     G_CALLBACK(room_changed), below, G_CONNECT_SWAPPED);
+	core_connect(core, below->stack, "notify::visible-child",
+		     G_CALLBACK(panel_changed), below, G_CONNECT_SWAPPED);
 }

@@ -46,12 +46,14 @@ void below_leave(struct below *below, bool away);
 void below_offer(struct below *below, const char *name, bool offered);
 /** below_set_title - @title: translated. */
 void below_set_title(struct below *below, const char *name, const char *title);
-/** below_open - gives the panels their usual room. Before that they have a line below the tabs;
+/** below_open - gives the panels their usual room, the problems only as much as they need. Before that they have a line below the tabs;
  * below_show() and a click on a tab do it too. */
 void below_open(struct below *below);
 /** below_rest - gives the panels the least room if the problems are in front and there is none. */
 void below_rest(struct below *below);
 /** below_make_room - gives the panels @panel px if @sheet px are left for the sheets. */
 void below_make_room(struct below *below, int panel, int sheet);
+/** below_share_room - gives the panels @panel px, but the sheets at least @sheets times as many. */
+void below_share_room(struct below *below, int panel, int sheets);
 
 #endif

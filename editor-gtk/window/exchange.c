@@ -12,8 +12,8 @@
 #include "editor-gtk/window/front.h"
 #include "editor-gtk/window/messages.h"
 
-#define REPORT_ROOM 300 /* px that the panel gets, if the sheets keep SHEET_ROOM */
-#define SHEET_ROOM  180
+#define REPORT_ROOM 300 /* px that the panel gets at most                       */
+#define SHEETS      2   /* times as high as the report are the sheets           */
 
 static LadderReportView *view_of(struct exchange *exchange)
 {
@@ -26,7 +26,7 @@ static void show_panel(struct exchange *exchange)
 {
 	below_offer(exchange->core->below, "report", true);
 	below_show(exchange->core->below, "report");
-	below_make_room(exchange->core->below, REPORT_ROOM, SHEET_ROOM);
+	below_share_room(exchange->core->below, REPORT_ROOM, SHEETS);
 }
 
 static void close_panel(struct exchange *exchange)

@@ -96,29 +96,41 @@ static void show_when(struct sim_bar *bar)
 	g_free(text);
 }
 
-/* "0.1", "12": the part of the period. Only a small one has a digit behind the point. */
-static void print_share(gint64 part_ns, gint64 period_ns, char *out, size_t size)
+/* "0.4 %", "12 %", "less than 0.1 %": the part of the period. Caller frees. */
+static char *share_text(gint64 part_ns, gint64 period_ns)
 {
 	const double percent = 100 * (double)part_ns / (double)MAX(period_ns, 1);
 
-	snprintf(out, size, percent < 10 ? "%.1f" : "%.0f", percent);
+	if (percent < 0.1)
+		return g_strdup(_("less than 0.1 %"));
+	return g_strdup_printf(percent < 10 ? _("%.1f %%") : _("%.0f %%"), percent);
+}
+
+/* "4 µs", "2.2 ms": times that were counted in steps of 6 % have no more digits. */
+static void print_counted(gint64 ns, char *out, size_t size)
+{
+	if (ns < 1000000)
+		snprintf(out, size, "%d µs", (int)MAX(ns / 1000, 1));
+	else
+		live_time_print((ns + 50000) / 100000 * 100000, out, size);
 }
 
 /* What a scan takes, for somebody who chooses a period. Appends nothing before the first scan. */
 static void tell_cost(const struct sim_bar *bar, GString *text)
 {
 	const struct twin *twin = ladder_sim_twin(bar->core->sim);
-	char usual[32], most[32], period[32], share[64];
+	char usual[32], most[32], period[32], *share;
 	struct sim_cost cost;
 
 	if (!twin || !ladder_sim_cost(bar->core->sim, &cost))
 		return;
-	live_time_print(MAX(cost.usual_ns / 1000, 1) * 1000, usual, sizeof(usual));
-	live_time_print(MAX(cost.most_ns / 1000, 1) * 1000, most, sizeof(most));
+	print_counted(cost.usual_ns, usual, sizeof(usual));
+	print_counted(cost.most_ns, most, sizeof(most));
 	live_time_print(twin->period_ns, period, sizeof(period));
-	print_share(cost.usual_ns, twin->period_ns, share, sizeof(share));
-	g_string_append_printf(text, _("On this machine a scan takes %s, %s %% of the period of %s. "
+	share = share_text(cost.usual_ns, twin->period_ns);
+	g_string_append_printf(text, _("On this machine a scan takes %s: %s of the period of %s. "
 				       "The longest took %s."), usual, share, period, most);
+	g_free(share);
 	g_string_append_printf(text, "\n%s\n", cost.most_ns > twin->period_ns ?
 		_("A scan took longer than the period, so later ones were late.") :
 		_("The rest of the period is free. A board may be slower: its state shows its own time."));
@@ -136,8 +148,8 @@ static gboolean tell_lateness(GtkWidget *title, int x, int y, gboolean keys, Gtk
 	(void)title, (void)x, (void)y, (void)keys;
 	if (!ladder_sim_lateness(bar->core->sim, &late) || !sim_lateness_scans(&late))
 		return FALSE;
-	live_time_print((int64_t)(sim_lateness_us(&late, 0.99) * 1000), most, sizeof(most));
-	live_time_print((int64_t)(sim_lateness_us(&late, 1) * 1000), worst, sizeof(worst));
+	print_counted((gint64)(sim_lateness_us(&late, 0.99) * 1000), most, sizeof(most));
+	print_counted((gint64)(sim_lateness_us(&late, 1) * 1000), worst, sizeof(worst));
 	text = g_string_new(NULL);
 	tell_cost(bar, text);
 	g_string_append_printf(text, _("99 of 100 scans began at most %s late, all of them at most %s late"),

@@ -3,6 +3,7 @@
 """below - the panels below the sheets, each shown for the first time, while editing and while simulating."""
 import os
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import ROOT, Editor, main, new_file, until  # noqa: E402
@@ -143,7 +144,38 @@ def all_panels(screen):
     assert 'without a current allocation' not in editor.logged(), editor.logged()
 
 
-all_panels.size = '1024x700x24'
+def problem_room(screen, problems):
+    """Opens a project with so many warnings. px of the panel below, and of the sheet."""
+    declared = ''.join('  Unused%d : BOOL;\n' % number for number in range(problems))
+    editor = Editor(screen, new_file(screen, 'RUNGBOARD 1\n\nVAR\n  In AT %%IX0.0 : BOOL;\n  Out AT %%QX0.0 : BOOL;\n%sEND_VAR\n\n'
+                                     'PROGRAM Main LD\nRUNG\n  | NO In | COIL Out |\nEND_PROGRAM\n' % declared))
+    editor.to_sheet()
+    tab = editor.find('Problems %d' % problems, 'page tab')
+    state = editor.find('%d warning' % problems, 'label')
+
+    def room():
+        return editor.place(state)[1] - editor.place(tab)[1]
+    editor.click(tab)
+    until(lambda: room() < 260, 'the panel to be open')
+    until(lambda: 'Unused0' in ' '.join(node.name for node in editor.all('is declared but not used')), 'the first problem')
+    editor.shot('below-problems-%d' % problems)
+    time.sleep(0.3)
+    found = room(), editor.place(editor.sheet())[3]
+    row = editor.place(until(lambda: editor.all('"Unused0" is declared', 'label'), 'its row')[0])
+    assert row[1] + row[3] <= editor.place(state)[1], 'the row is cut: %s' % (row,)
+    editor.finish()
+    return found
+
+
+def short(screen):
+    """a small window: the problems take the room of their rows, many of them not more than a share"""
+    one, sheet = problem_room(screen, 1)
+    assert one <= 135 and sheet >= 420, 'one problem takes %d px, the sheet has %d' % (one, sheet)
+    many, sheet = problem_room(screen, 30)
+    assert 170 <= many <= 230 and sheet >= 300, '30 problems take %d px, the sheet has %d' % (many, sheet)
+
+
+all_panels.size = short.size = '1024x700x24'
 edits.quick = 'editor-gtk/panels'
 
 
@@ -161,4 +193,4 @@ def alarms(screen):
     editor.shot('below-alarms')
 
 
-main([edits, simulates, chosen, all_panels, alarms])
+main([edits, simulates, chosen, all_panels, short, alarms])

@@ -238,6 +238,8 @@ def small(screen):
         line = report(editor)
         editor.click(line)
         editor.shot('classic-small-' + name)
+        sheet = editor.place(editor.sheet())[3]
+        assert sheet >= 330, 'the report leaves %d of 700 px to the sheet' % sheet
         editor.keys('Return')
         until(lambda: (node := editor.focused()) and node.role != ROLES['table row'], 'the focus in the sheet')
         editor.finish()

@@ -331,8 +331,10 @@ def paces(screen):
     editor.element('Rung 1, COIL', 'Motor', ', on')
     scan = lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
     editor.hover(editor.find('Simulating · ', 'label'))
-    until(lambda: [tip for tip in editor.all('On this machine a scan takes', 'label')
-                   if 'of the period of 10 ms' in tip.name and ' late' in tip.name], 'what a scan takes, and how late scans begin')
+    said = re.compile(r'On this machine a scan takes [\d.]+ (µs|ms): (less than )?[\d.]+ % of the period of 10 ms\. '
+                      r'The longest took [\d.]+ (µs|ms)\..* late')
+    until(lambda: [tip for tip in editor.all('On this machine', 'label') if said.match(' '.join(tip.name.split()))],
+          'what a scan takes, and how late scans begin')
     editor.shot('running-late')
     editor.click(editor.find('Simulation settings', 'push button'))
     editor.focus_on('Period, ms')
