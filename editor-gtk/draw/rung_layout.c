@@ -355,6 +355,48 @@ float rung_layout_label(const struct drafting *drafting, const struct cell *cell
 	return MAX(label.symbol.width, label.address.width);
 }
 
+/* The element in cell (row, col) as drawn, with its names: from *left to *right. False: none. */
+static bool element_ends(const struct drafting *drafting, const struct rung_layout *layout,
+			 int row, int col, float *left, float *right)
+{
+	const int d = rung_layout_column(layout, row, col);
+	float width = rung_at(layout->rung, row, col)->word == ELEM_EMPTY ? 0 :
+		      element_width(drafting, layout->rung, row, col);
+	float middle = layout->column_x[d] + layout->column_width[d] / 2;
+	struct rung_box box;
+
+	if (width <= 0)
+		return false;
+	if (word_at(drafting, layout->rung, row, col)->kind != WORD_ELEM) {
+		rung_box_at(drafting, layout, row, col, &box);
+		middle = box.x + box.inner / 2;
+		*left = middle - box.left;
+		*right = middle + box.right;
+		return true;
+	}
+	width = MAX(width, RUNG_TIGHT_WIDTH / 2);
+	*left = middle - width / 2;
+	*right = middle + width / 2;
+	return true;
+}
+
+float rung_layout_whole(const struct drafting *drafting, const struct rung_layout *layout, float x)
+{
+	const struct rung *rung = layout->rung;
+	float left, right, before;
+
+	do {
+		before = x;
+		for (int i = 0; i < rung->rows * rung->cols; i++)
+			if (rung_layout_column(layout, i / rung->cols, i % rung->cols) <
+			    layout->columns - 1 &&
+			    element_ends(drafting, layout, i / rung->cols, i % rung->cols, &left,
+					 &right) && left < x && x < right - 1)
+				x = left;
+	} while (x < before);
+	return x;
+}
+
 /* ---- the part at a point ---- */
 
 static int row_at(const struct rung_layout *layout, float y)

@@ -107,6 +107,8 @@ float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
  * the cursor, accessible children and popovers. */
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
 
+/** rung_layout_whole - the place at or left of @x where a line from top to bottom cuts no element. */
+float rung_layout_whole(const struct drafting *drafting, const struct rung_layout *layout, float x);
 /** rung_layout_label - px: width of the texts above an element. */
 float rung_layout_label(const struct drafting *drafting, const struct cell *cell);
 

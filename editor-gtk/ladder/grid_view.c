@@ -15,6 +15,9 @@ static guint statements_wanted;
 
 #define AHEAD 1.3 /* pages above and below the screen that are drawn before      */
 #define BELOW 120 /* px of free sheet below the last rung                        */
+#define HIDDEN_SLICE 4  /* px left of the outputs, where there are only wires    */
+#define HIDDEN_DOT   3  /* px of a dot for hidden elements                       */
+#define HIDDEN_ABOVE 12 /* px from the wire up to the dots                       */
 
 static graphene_size_t size(LadderCanvas *canvas)
 {
@@ -137,6 +140,40 @@ static void append_strip(GtkSnapshot *snapshot, const struct strip *strip, float
 	gtk_snapshot_restore(snapshot);
 }
 
+/* Between the last element that is shown wholly and the pinned outputs: the wires to them, as wide as
+ * the room, and dots for what is hidden. @to: px of the widget, where the outputs begin. */
+static void snapshot_hidden(LadderGridView *view, GtkSnapshot *snapshot,
+			    const struct strip *strip, float x, float y, float to)
+{
+	const struct theme *theme = canvas_theme(LADDER_CANVAS(view));
+	const struct rung_layout *layout = strip->layout;
+	const float zoom = (float)view->canvas->zoom, top = y + layout->top * zoom;
+	const float from = strips_pin_edge(view, strip) * zoom - x;
+	const float slice = layout->column_x[layout->columns - 1] - HIDDEN_SLICE;
+	const float size = HIDDEN_DOT * zoom, middle = (from + to) / 2;
+
+	if (to - from < 1)
+		return;
+	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(from, top, to - from,
+							     y + strip->height * zoom - top));
+	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_SHEET],
+		&GRAPHENE_RECT_INIT(from, top, to - from, y + strip->height * zoom - top));
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(from, y));
+	gtk_snapshot_scale(snapshot, to - from, zoom);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(-slice, 0));
+	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(slice, 0, 1, strip->height));
+	gtk_snapshot_append_node(snapshot, strip->node);
+	gtk_snapshot_pop(snapshot);
+	gtk_snapshot_restore(snapshot);
+	for (int dot = -1; dot <= 1; dot++)
+		gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_COMMENT],
+			&GRAPHENE_RECT_INIT(middle + 2 * (float)dot * size - size / 2,
+					    y + (layout->row[0].wire - HIDDEN_ABOVE) * zoom,
+					    size, size));
+	gtk_snapshot_pop(snapshot);
+}
+
 /* The outputs once more at the edge of a narrow page, behind a line. @x, @y: scroll position and
  * top of the strip, px of the widget. */
 static void snapshot_pinned(LadderGridView *view, GtkSnapshot *snapshot,
@@ -150,6 +187,7 @@ static void snapshot_pinned(LadderGridView *view, GtkSnapshot *snapshot,
 	if (by <= 0)
 		return;
 	left = strip->layout->column_x[strip->layout->columns - 1] * zoom - x - by;
+	snapshot_hidden(view, snapshot, strip, x, y, left);
 	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(left, y, page - left,
 							     strip->height * zoom));
 	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_SHEET],

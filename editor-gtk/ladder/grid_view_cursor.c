@@ -177,9 +177,22 @@ static double aside(LadderGridView *view)
 	return RUNG_AFTER * view->canvas->zoom - 1;
 }
 
+/* The box of the cursor, with the room right of it that pinned outputs take. */
+static graphene_rect_t box_to_reveal(LadderGridView *view)
+{
+	graphene_rect_t box = cursor_cell_box(view);
+	const struct strip *strip = view->cursor.at.rung < (int)view->strips->len ?
+		strips_get(view, view->cursor.at.rung) : NULL;
+	const struct rung_layout *layout = strip ? strip->layout : NULL;
+
+	if (layout && view->cursor.at.col < layout->columns - 1 && strips_pinned(view, strip) > 0)
+		box.size.width += layout->column_width[layout->columns - 1];
+	return box;
+}
+
 void cursor_reveal(LadderGridView *view)
 {
-	canvas_reveal(LADDER_CANVAS(view), cursor_cell_box(view), aside(view), MARGIN);
+	canvas_reveal(LADDER_CANVAS(view), box_to_reveal(view), aside(view), MARGIN);
 }
 
 void cursor_reveal_head(LadderGridView *view)
@@ -188,7 +201,7 @@ void cursor_reveal_head(LadderGridView *view)
 	float head;
 
 	cursor_reveal(view);
-	box = cursor_cell_box(view);
+	box = box_to_reveal(view);
 	head = (float)(head_of(view, &box) / view->canvas->zoom);
 	box.size.height += box.origin.y - head;
 	box.origin.y = head;

@@ -139,6 +139,9 @@ void strips_resize_later(LadderGridView *view);
 /** strips_pinned - px of the widget that the outputs of a rung are moved left: they stay visible at the
  * edge of a page that is narrower than the rungs; 0: they are not. */
 float strips_pinned(LadderGridView *view, const struct strip *strip);
+/** strips_pin_edge - px at 100 %, up to where elements of a rung with pinned outputs are shown: none is
+ * cut. */
+float strips_pin_edge(LadderGridView *view, const struct strip *strip);
 /** strip_box - a cell as shown, px at 100 %: an output where it is pinned. */
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column);
 float strips_width(LadderGridView *view);

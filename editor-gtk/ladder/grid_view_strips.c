@@ -433,6 +433,14 @@ int strips_at(LadderGridView *view, float y)
 	return high < 0 ? -1 : low;
 }
 
+/* Outputs that are moved left by @by px of the widget cut no element: one that is in their way is
+ * hidden wholly. px at 100 %. */
+static float pin_edge(LadderGridView *view, const struct rung_layout *layout, float by)
+{
+	return rung_layout_whole(&view->drafting, layout, layout->column_x[layout->columns - 1] -
+							  by / (float)view->canvas->zoom);
+}
+
 float strips_pinned(LadderGridView *view, const struct strip *strip)
 {
 	const float page = (float)gtk_widget_get_width(GTK_WIDGET(view));
@@ -442,7 +450,13 @@ float strips_pinned(LadderGridView *view, const struct strip *strip)
 
 	return by > 0 && layout &&
 	       (strips_width(view) - layout->column_x[layout->columns - 1]) *
-	       (float)view->canvas->zoom < page / 2 ? by : 0;
+	       (float)view->canvas->zoom < page / 2 &&
+	       pin_edge(view, layout, by) * (float)view->canvas->zoom - x > page / 4 ? by : 0;
+}
+
+float strips_pin_edge(LadderGridView *view, const struct strip *strip)
+{
+	return pin_edge(view, strip->layout, strips_pinned(view, strip));
 }
 
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column)

@@ -291,6 +291,53 @@ static void check_comments(void)
 	}
 }
 
+/* Does a line at @x cut the strokes of the element in cell (row, col)? */
+static bool cuts(const struct sheet *sheet, const struct rung_layout *layout, int row, int col,
+		 float x)
+{
+	const struct word_row *word = word_row(rung_at(layout->rung, row, col)->word);
+	const int d = rung_layout_column(layout, row, col);
+	const float middle = layout->column_x[d] + layout->column_width[d] / 2;
+	struct rung_box box;
+
+	if (d == layout->columns - 1 || rung_at(layout->rung, row, col)->word == ELEM_EMPTY || word->place == PLACE_WIRE ||
+	    word->place == PLACE_PIN)
+		return false;
+	if (word->kind == WORD_ELEM)
+		return x > middle - RUNG_HALF && x < middle + RUNG_HALF;
+	rung_box_at(&sheet->drafting, layout, row, col, &box);
+	return x > box.x + 1 && x < box.x + box.inner - 1;
+}
+
+static int cut_elements(const struct sheet *sheet, const struct rung_layout *layout, float x)
+{
+	const struct rung *rung = layout->rung;
+	int cut = 0;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++)
+		cut += cuts(sheet, layout, i / rung->cols, i % rung->cols, x);
+	return cut;
+}
+
+/* A line from top to bottom that hides what is right of it cuts no element, wherever it begins. */
+static void check_whole(const struct sheet *sheet)
+{
+	int cut = 0, moved = 0, bad = 0;
+
+	for (int i = 0; i < sheet->count; i++)
+		for (float x = RUNG_LEFT; x < sheet->rung[i]->right; x += 3) {
+			const struct rung_layout *layout = sheet->rung[i];
+			const float at = rung_layout_whole(&sheet->drafting, layout, x);
+
+			cut += cut_elements(sheet, layout, at);
+			moved += at < x;
+			bad += at > x || rung_layout_whole(&sheet->drafting, layout, at) != at ||
+			       (at < x && cut_elements(sheet, layout, x) == 0 &&
+				x - at > RUNG_CELL_WIDTH * 4);
+		}
+	CHECK_AS(cut == 0 && bad == 0 && moved > 100, "no element is cut at the edge of what is shown");
+}
+
 int main(void)
 {
 	check_comments();
@@ -307,6 +354,7 @@ int main(void)
 	CHECK(missed_cells(sheet) == 0);
 	CHECK(bad_columns(sheet) == 0);
 	check_sheet(sheet);
+	check_whole(sheet);
 	check_clipping();
 	sheet_free(sheet);
 	ladder_free(ladder);

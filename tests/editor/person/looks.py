@@ -152,6 +152,41 @@ def edge(screen):
     check(path)
 
 
+WIDE = '\n'.join('RUNG\n  | %s | COIL Out%d |' % (' | '.join(elements), number) for number, elements in enumerate((
+    ['NO A%d' % i for i in range(9)],
+    ['NC AVeryLongNameOfAContact%d' % i for i in range(6)],
+    ['NO A0', 'NO AVeryLongNameOfAContact1', 'TON Delay PT:=T#5s', 'NO A3', '[ Count > 500 ]', 'NO A5', 'NO A6'],
+    ['[ Count > %d ]' % (10 ** i) for i in range(7)],
+)))
+
+
+def beside(screen):
+    """a small window while simulating: the pinned coil covers no element at the cursor, and cuts none"""
+    names = ['A%d' % i for i in range(9)] + ['AVeryLongNameOfAContact%d' % i for i in range(6)]
+    path = new_file(screen, 'RUNGBOARD 1\n\nVAR\n%s  Count : DINT;\n%sEND_VAR\n\nPROGRAM Main LD\nVAR\n  Delay : TON;\nEND_VAR\n%s\nEND_PROGRAM\n' % (
+        ''.join('  %s AT %%IX%d.%d : BOOL;\n' % (name, i // 8, i % 8) for i, name in enumerate(names)),
+        ''.join('  Out%d AT %%QX0.%d : BOOL;\n' % (i, i) for i in range(4)), WIDE))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+m')
+    editor.find('Filter the variables')
+    until(lambda: not editor.all('Find an element'), 'the left side to be folded')
+    editor.keys('ctrl+Home')
+    for rung, count in enumerate((9, 6, 7, 7)):
+        editor.keys('Home')
+        for column in range(count):
+            editor.says('Rung %d · column %s' % (rung + 1, 'ABCDEFGHI'[column]))
+            coil = editor.place(editor.element('Rung %d, COIL' % (rung + 1)))[0]
+            x, _, width, _ = editor.place(editor.sheet())
+            here = until(lambda: [node for node in editor.all('Rung %d, ' % (rung + 1)) if node.has(23)], 'the cell')[0]
+            until(lambda: editor.place(here)[0] >= x and editor.place(here)[0] + editor.place(here)[2] <=
+                  editor.place(editor.element('Rung %d, COIL' % (rung + 1)))[0] + 1,
+                  'the cell at the cursor beside the coil: rung %d, column %d, %s, %d' % (rung + 1, column, editor.place(here), coil))
+            editor.keys('Right')
+        editor.shot('looks-beside-%d' % rung)
+        editor.keys('Home', 'Down')
+
+
 def columns(screen):
     """1024x700: the symbols have no room for all columns; the menu brings one back, by keys alone"""
     path = new_file(screen, GOOD)
@@ -227,7 +262,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = narrow.size = edge.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
+small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, narrow, edge, columns, last_tab, large_letters, large, sharp])
+main([light, dark, high, small, narrow, edge, beside, columns, last_tab, large_letters, large, sharp])
