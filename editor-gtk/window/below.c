@@ -100,7 +100,8 @@ void below_set_title(struct below *below, const char *name, const char *title)
 	gtk_stack_page_set_title(page_of(below, name), title);
 }
 
-void below_make_room(struct below *below, int panel, int sheet)
+/* Gives the panels @panel px if @sheet px are left for the sheets. */
+static void make_room(struct below *below, int panel, int sheet)
 {
 	const int height = gtk_widget_get_height(GTK_WIDGET(below->paned));
 	const int most = height ? MAX(height - panel, sheet) : SHEET_FIRST;
@@ -113,7 +114,7 @@ void below_share_room(struct below *below, int panel, int sheets)
 {
 	const int height = gtk_widget_get_height(GTK_WIDGET(below->paned));
 
-	below_make_room(below, panel, height * sheets / (sheets + 1));
+	make_room(below, panel, height * sheets / (sheets + 1));
 }
 
 /* A short list of problems needs no more than its rows. */
@@ -135,7 +136,7 @@ static int room_wanted(struct below *below)
 
 void below_open(struct below *below)
 {
-	below_make_room(below, room_wanted(below), SHEET_ROOM);
+	make_room(below, room_wanted(below), SHEET_ROOM);
 }
 
 /* Another tab was pressed. */

@@ -51,8 +51,6 @@ void below_set_title(struct below *below, const char *name, const char *title);
 void below_open(struct below *below);
 /** below_rest - gives the panels the least room if the problems are in front and there is none. */
 void below_rest(struct below *below);
-/** below_make_room - gives the panels @panel px if @sheet px are left for the sheets. */
-void below_make_room(struct below *below, int panel, int sheet);
 /** below_share_room - gives the panels @panel px, but the sheets at least @sheets times as many. */
 void below_share_room(struct below *below, int panel, int sheets);
 
