@@ -701,27 +701,27 @@ static bool keep(struct line_reader *line, struct io_point point, const struct i
 	       check_places(line, &point) && add_point(line->reader, &point, &line->address);
 }
 
+/* The last step of a line: its point and channel become those of each value in turn. */
 static void keep_group(struct line_reader *line)
 {
-	struct io_channel channel = line->channel;
-	struct io_point point = line->point;
+	struct io_channel *channel = &line->channel;
 
 	for (uint32_t i = 0; i < line->count; i++) {
-		const uint32_t next = channel.reg + places_of(&channel);
+		const uint32_t next = channel->reg + places_of(channel);
 
-		if (!keep(line, point, &channel))
+		if (!keep(line, line->point, channel))
 			return;
-		step_address(&point.addr);
-		if (channel.reg_bit >= 0 && channel.reg_bit < 15) {
-			channel.reg_bit++;
+		step_address(&line->point.addr);
+		if (channel->reg_bit >= 0 && channel->reg_bit < 15) {
+			channel->reg_bit++;
 			continue;
 		}
-		channel.reg_bit = channel.reg_bit < 0 ? -1 : 0;
-		if (next > UINT16_MAX && i + 1 < line->count && channel.table != TABLE_NONE) {
+		channel->reg_bit = channel->reg_bit < 0 ? -1 : 0;
+		if (next > UINT16_MAX && i + 1 < line->count && channel->table != TABLE_NONE) {
 			complain(line->reader, DIAG_IO_GROUP, &line->address);
 			return;
 		}
-		channel.reg = (uint16_t)next;
+		channel->reg = (uint16_t)next;
 	}
 }
 

@@ -79,6 +79,14 @@ static bool complain(struct script *script, enum diag_id id,
 			(int)(word.len < 60 ? word.len : 60), word.text);
 }
 
+static bool expect(struct script *script, struct script_word word, const char *what)
+{
+	struct diag place = place_of(script, word.text);
+
+	place.id = DIAG_EXPECTED;
+	return diag_add(script->diags, place, "%s", what);
+}
+
 static bool is_word(struct script_word word, const char *want)
 {
 	size_t i = 0;
@@ -300,13 +308,11 @@ static bool set_columns(struct script *script, struct script_word head)
 
 static bool set_period(struct script *script, struct script_word head)
 {
-	struct diag place = place_of(script, head.text);
 	struct script_word word;
 	int64_t ns;
 
-	place.id = DIAG_EXPECTED;
 	if (!next_word(script, &word))
-		return diag_add(script->diags, place, "a time after @period");
+		return expect(script, head, "a time after @period");
 	if (!take_time(script, word, 0, &ns))
 		return false;
 	if (!ns)
@@ -318,13 +324,11 @@ static bool set_period(struct script *script, struct script_word head)
 /* 0: scans take no time. */
 static bool set_speed(struct script *script, struct script_word head)
 {
-	struct diag place = place_of(script, head.text);
 	struct script_word word;
 	uint64_t speed;
 
-	place.id = DIAG_EXPECTED;
 	if (!next_word(script, &word))
-		return diag_add(script->diags, place, "words a millisecond after @speed");
+		return expect(script, head, "words a millisecond after @speed");
 	speed = pace_read(word.text, word.len);
 	if (speed == PACE_NO_NUMBER)
 		return complain(script, DIAG_BAD_LITERAL, word);
@@ -345,6 +349,8 @@ static void echo(struct script *script)
 	script->at = script->end;
 }
 
+/* With a frame of its own: that of read_lines() would be larger than 1 KB. */
+__attribute__((noinline))
 static bool directive(struct script *script)
 {
 	struct script_word head, rest;

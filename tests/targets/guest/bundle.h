@@ -5,7 +5,8 @@
  * endian.
  *
  *   8 bytes  RUNGPLAY
- *   u32      number of programs
+ *   u32      number of the first program, 1 unless the file is a part of another
+ *   u32      how many programs
  *   then for each: u32 bytes of its image, u32 scans, u32 bytes of its record,
  *   u32 bytes of its data; the image; the record:
  *     the memory after the cold start, as changes from all zero

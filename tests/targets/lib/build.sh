@@ -342,7 +342,7 @@ disk_close() {
 	(cd "$root" && find . | LC_ALL=C sort | cpio -o -H newc --quiet -R 0:0) | gzip -1n >"$out/initrd"
 }
 
-# Two disks for a small machine: the suite, and what replays the random programs. A file of a disk
+# Disks for a small machine: the suite, and what replays the random programs. A file of a disk
 # takes memory as long as the machine runs, so what tier small does not read is left out: the texts
 # of programs, and the program of 10,000 elements. Without an MMU a program needs one piece of memory;
 # where there is none, the kernel ends it at its start with SIGSEGV.
@@ -352,7 +352,15 @@ suite() { # CC
 	# shellcheck disable=SC2046
 	guest_runs /guest --tier small $(guest_options) /cases /ladderd-uapi
 }
+# All random programs, some on each disk: `start` boots the machine with it.
 replay() { # CC
-	disk "$1" "$out/build/replay" "$out/cases/programs.bundle"
-	guest_runs /replay /programs.bundle
+	rm -rf "$out/parts"
+	mkdir "$out/parts"
+	perl "$here/parts.pl" "$out/cases/programs.bundle" 600000 "$out/parts" >>"$log" 2>&1 ||
+		broken "the programs to replay could not be divided" "$log"
+	for part in "$out"/parts/*; do
+		disk "$1" "$out/build/replay" "$part"
+		guest_runs /replay "/$(basename "$part")"
+		start
+	done
 }

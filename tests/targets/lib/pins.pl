@@ -103,10 +103,12 @@ sub wait_for {
 
 	while (time < $until) {
 		return 1 if $good->();
+		last if is_dead();
 		sleep 0.02;
 	}
 	return 0;
 }
+sub is_dead { return console() =~ /Kernel panic|Internal error:|Unable to handle kernel/ }
 # Checks that the LEDs become @want, and stay so for @ms. With @set, when the keys were set, and @was,
 # the LEDs until then: they go on by themselves later than @ms after the guest saw the keys, which it
 # had not yet when they still were @was. A look that comes after that says nothing.

@@ -88,8 +88,7 @@ boot() {
 		esac
 	done &
 	teller=$!
-	rm -f "$out/silent"
-	until_silent >/dev/null 2>&1 &
+	until_dead >/dev/null 2>&1 &
 	watcher=$!
 	wait $guest
 	guest=
@@ -97,21 +96,26 @@ boot() {
 	watcher=
 	wait $teller
 	note "the guest ran for $(($(date +%s) - booted)) s"
-	[ ! -e "$out/silent" ] || note "the guest printed no line of TAP for $HANGS s"
 }
-# Ends the emulator after $HANGS seconds without a new line of TAP, however many came before. A test takes
-# less, also on a slow machine. What a dying kernel prints again and again does not count.
+# What a kernel prints when it goes no further. Some boards stop there and their emulator goes on.
+dying='Kernel panic|System is deadlocked|Internal error:|Unable to handle kernel|Reboot failed|BUG: '
+# Ends the emulator when its kernel has died, and after $HANGS seconds without a new line of TAP. A test
+# takes less, also on a slow machine. What a dying kernel prints again and again is no line of TAP.
+# guest_said prints why.
 HANGS=${HANGS:-900}
-until_silent() {
+until_dead() {
 	quiet=0 before=
 	# Counted and not by the clock: a machine that was suspended has not waited.
 	while [ "$quiet" -lt "$HANGS" ]; do
 		sleep 2
-		now=$(grep -acE '^(not )?ok [0-9]|^# |^BEGIN |^RC=|^END' "$out/console")
 		kill -0 $guest 2>/dev/null || return
+		why=$(tail -c "+$seen" "$out/console" | tr -d '\r' | grep -aEm 1 "$dying")
+		[ -z "$why" ] || break
+		now=$(grep -acE '^(not )?ok [0-9]|^# |^BEGIN |^RC=|^END' "$out/console")
 		if [ "$now" = "$before" ]; then quiet=$((quiet + 2)); else quiet=0 before=$now; fi
 	done
-	: >"$out/silent"
+	[ -z "$why" ] || sleep 2 # the rest of what it prints
+	printf '\nENDED %s\n' "${why:-it printed no line of TAP for $HANGS s}" >>"$out/console"
 	kill $guest
 }
 
@@ -132,6 +136,7 @@ guest_said() {
 			part = ""
 			next
 		}
+		/^ENDED / { verdict(0, "the guest was ended: " substr($0, 7)); next }
 		!part || /^$/ { next }
 		/^1\.\./ { plan = substr($1, 4); next }
 		/^(not )?ok [0-9]+/ {

@@ -176,6 +176,7 @@ int make_bundle(const char *path, uint32_t count, uint64_t seed)
 		return 1;
 	}
 	fputs(BUNDLE_MAGIC, recorder.out);
+	put_u32(1);
 	put_u32(count);
 	for (uint32_t tried = 0; made < count && tried < count * 2; tried++)
 		made += add_program(seed + tried);

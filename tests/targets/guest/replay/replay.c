@@ -207,21 +207,23 @@ static void damage(void)
 	result(open_image(player.image_len), "and the whole one is not");
 }
 
-static void play_all(uint32_t count)
+static void play_all(uint32_t begin, uint32_t count)
 {
+	const uint32_t last = begin + count - 1;
 	unsigned long scans = 0;
-	unsigned good = 0, first = 1;
+	unsigned good = 0, first = (unsigned)begin;
 	bool sound = true;
 	char text[80];
 
-	for (uint32_t i = 1; i <= count && sound; i++) {
+	player.number = first - 1;
+	for (uint32_t i = begin; i <= last && sound; i++) {
 		sound = read_program();
 		if (sound && play_program())
 			good++;
 		else
 			printf("# %s\n", player.why);
 		scans += player.scans;
-		if (i % BATCH && i != count && sound)
+		if (i % BATCH && i != last && sound)
 			continue;
 		snprintf(text, sizeof(text), "programs %u to %u: every scan "
 			 "byte for byte", first, (unsigned)i);
@@ -229,7 +231,7 @@ static void play_all(uint32_t count)
 		first = i + 1;
 		good = 0;
 	}
-	printf("# %u programs, %lu scans\n", player.number, scans);
+	printf("# %u programs, %lu scans\n", player.number + 1 - (unsigned)begin, scans);
 	if (sound)
 		damage();
 }
@@ -237,7 +239,7 @@ static void play_all(uint32_t count)
 int main(int argc, char **argv)
 {
 	char magic[8];
-	uint32_t count = 0;
+	uint32_t begin = 0, count = 0;
 
 	if (argc != 2) {
 		fprintf(stderr, "usage: replay BUNDLE\n");
@@ -245,12 +247,13 @@ int main(int argc, char **argv)
 	}
 	player.in = fopen(argv[1], "rb");
 	if (!player.in || fread(magic, 1, 8, player.in) != 8 ||
-	    memcmp(magic, BUNDLE_MAGIC, 8) != 0 || !take_u32(&count) ||
-	    count == 0) {
+	    memcmp(magic, BUNDLE_MAGIC, 8) != 0 || !take_u32(&begin) ||
+	    !take_u32(&count) || begin == 0 || count == 0 ||
+	    count > UINT32_MAX - begin) {
 		printf("Bail out! %s is no bundle\n", argv[1]);
 		return 1;
 	}
-	play_all(count);
+	play_all(begin, count);
 	fclose(player.in);
 	printf("1..%d\n", results);
 	return results == 0 || failures;
