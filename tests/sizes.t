@@ -60,5 +60,25 @@ measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
 # 128 bytes more than the limit before, for lines of a map that are checked further after an error.
 measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 87168 /small-serial SMALL=1 LINK=serial WORDS=core
+
+# ladder-guard: its code and all its tables. `make sizes` has the whole file with a C library: 40 KB at most.
+n=$((n + 1)) not=
+guard=$(for file in runtime/guard/*.c; do echo "$build/${file%.c}.o"; done)
+# shellcheck disable=SC2086
+if env -u CC -u MAKEFLAGS make -s BUILD="$build" CROSS=$cross STATIC=1 HAL=uapi CFLAGS=-Os $guard >"$tmp/log" 2>&1; then
+	bytes=$(${cross}size $guard | awk 'NR > 1 { sum += $4 } END { print sum + 0 }')
+	[ "$bytes" -le 29696 ] || not='not ' failed=1
+else
+	not='not ' failed=1 bytes=?
+	tail -n 5 "$tmp/log" | sed 's/^/# /'
+fi
+echo "${not}ok $n - ladder-guard has $bytes bytes with its tables, at most 29696"
+# What allocates, or brings what does.
+n=$((n + 1)) not=
+# shellcheck disable=SC2086
+calls=$(${cross}nm -u $guard | grep -wE '(m|c|re)alloc|strdup|realpath|(open|fdopen)dir|scandir|getline|fopen|[a-z]*printf|setenv|putenv|asprintf')
+[ -z "$calls" ] || not='not ' failed=1
+[ -z "$calls" ] || echo "$calls" | sed 's/^/# /'
+echo "${not}ok $n - ladder-guard calls nothing that allocates"
 echo "1..$n"
 exit $failed

@@ -31,14 +31,22 @@ static bool check_table(const struct guard_table *table, size_t len)
 
 static bool check_files(const struct guard_files *files, size_t len)
 {
-	const size_t count = files->head.count;
+	const char *at = files->record, *end = (const char *)files + len;
 
-	if (count > GUARD_FILES || len != offsetof(struct guard_files, file) + count * sizeof(files->file[0]))
+	if (files->head.count > GUARD_FILES)
 		return false;
-	for (size_t i = 0; i < count; i++)
-		if (files->file[i].path[0] != '/' || !memchr(files->file[i].path, 0, GUARD_PATH))
+	for (size_t i = 0; i < files->head.count; i++) {
+		const size_t left = (size_t)(end - at);
+		const char *path = at + sizeof(int64_t), *nul;
+
+		if (left <= sizeof(int64_t) || *path != '/')
 			return false;
-	return true;
+		nul = memchr(path, 0, left - sizeof(int64_t));
+		if (!nul || nul - path >= GUARD_PATH)
+			return false;
+		at = nul + 1;
+	}
+	return at == end;
 }
 
 bool guard_check(const union guard_packet *packet, size_t len)
@@ -57,7 +65,7 @@ bool guard_check(const union guard_packet *packet, size_t len)
 		       check_table(&packet->table, len);
 	case GUARD_VALUES:
 	case GUARD_VALUES_MORE:
-		return len >= offsetof(struct guard_files, file) && check_files(&packet->files, len);
+		return len >= offsetof(struct guard_files, record) && check_files(&packet->files, len);
 	case GUARD_LEVELS:
 		return len == sizeof(packet->levels);
 	case GUARD_TAKE:

@@ -6,10 +6,10 @@
 #include "guard/child.h"
 
 #include "guard/say.h"
+#include "guard/text.h"
 
 #include <errno.h>
 #include <signal.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -23,7 +23,7 @@
 #define SYS_pidfd_open 434
 #endif
 #define SEALS     (F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL)
-#define VARIABLES 512
+#define VARIABLES 256
 
 extern char **environ;
 
@@ -69,8 +69,8 @@ void child_page(struct child *child)
 	child->page = page != MAP_FAILED ? page : NULL;
 	child->page_fd = child->page ? fd : -1;
 	if (!child->page)
-		dprintf(STDERR_FILENO, "ladder-guard: no memory to share with ladderd: %s; a scan that "
-			"hangs is found by its heartbeat\n", strerror(errno));
+		text_say("no memory to share with ladderd: %s; a scan that "
+			"hangs is found by its heartbeat", strerror(errno));
 }
 
 /* After vfork(): system calls only. */
@@ -102,15 +102,15 @@ bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stoppe
 	pid_t pid;
 
 	if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair) != 0) {
-		dprintf(STDERR_FILENO, "ladder-guard: no socket pair: %s\n", strerror(errno));
+		text_say("no socket pair: %s", strerror(errno));
 		return false;
 	}
 	if (child->page)
 		memset(child->page, 0, sizeof(*child->page));
-	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d %d", pair[1], heartbeat_ms, stopped,
+	text_print(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d %d", pair[1], heartbeat_ms, stopped,
 		 count, how, child->page_fd);
 	if (!make_environment(table, ours)) {
-		dprintf(STDERR_FILENO, "ladder-guard: more than %d variables in the environment\n",
+		text_say("more than %d variables in the environment",
 			VARIABLES - 2);
 		close(pair[0]);
 		close(pair[1]);
@@ -123,7 +123,7 @@ bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stoppe
 	environ = before;
 	close(pair[1]);
 	if (pid < 0) {
-		dprintf(STDERR_FILENO, "ladder-guard: no process: %s\n", strerror(errno));
+		text_say("no process: %s", strerror(errno));
 		close(pair[0]);
 		return false;
 	}

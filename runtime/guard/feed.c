@@ -5,10 +5,11 @@
 #define _DEFAULT_SOURCE
 #include "guard/feed.h"
 
+#include "guard/text.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -23,7 +24,7 @@ static bool open_socket(struct feed *feed)
 	if (len == 0)
 		return true;
 	if (len >= sizeof(feed->to.sun_path) || (path[0] != '/' && path[0] != '@')) {
-		dprintf(STDERR_FILENO, "ladder-guard: NOTIFY_SOCKET: no path of a socket\n");
+		text_say("NOTIFY_SOCKET: no path of a socket");
 		return false;
 	}
 	feed->to.sun_family = AF_UNIX;
@@ -40,7 +41,7 @@ static bool open_socket(struct feed *feed)
 static int64_t interval(void)
 {
 	const char *us = getenv("WATCHDOG_USEC");
-	const long long wanted = us ? strtoll(us, NULL, 10) / 2000 : 0;
+	const long long wanted = us ? text_number(us) / 2000 : 0;
 
 	return wanted >= 1 && wanted < EVERY_MS ? wanted : EVERY_MS;
 }
@@ -74,7 +75,7 @@ bool feed_open(struct feed *feed, const char *device)
 		return false;
 	if (!device || open_device(feed))
 		return true;
-	dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\": %s; %s, or leave --watchdog out\n", device,
+	text_say("watchdog \"%s\": %s; %s, or leave --watchdog out", device,
 		strerror(errno), what_to_do(errno));
 	return false;
 }
@@ -87,10 +88,10 @@ static void feed_device(struct feed *feed)
 		return;
 	feed->lost = !good;
 	if (good)
-		dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\" is fed again\n", feed->path);
+		text_say("watchdog \"%s\" is fed again", feed->path);
 	else
-		dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\" takes no byte: %s; if it still counts, it "
-			"restarts the machine; the guard tries again\n", feed->path, strerror(errno));
+		text_say("watchdog \"%s\" takes no byte: %s; if it still counts, it "
+			"restarts the machine; the guard tries again", feed->path, strerror(errno));
 }
 
 void feed_give(struct feed *feed, int64_t now_ms)
@@ -118,7 +119,7 @@ void feed_tell(const struct feed *feed, const char *state)
 void feed_close(struct feed *feed)
 {
 	if (feed->device >= 0 && write(feed->device, "V", 1) < 0)
-		dprintf(STDERR_FILENO, "ladder-guard: the watchdog was not stopped: %s\n",
+		text_say("the watchdog was not stopped: %s",
 			strerror(errno));
 	if (feed->device >= 0)
 		close(feed->device);

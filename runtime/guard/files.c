@@ -6,50 +6,81 @@
 #define _DEFAULT_SOURCE
 #include "guard/files.h"
 
+#include "guard/text.h"
+
 #include <errno.h>
 #include <fcntl.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-static void copy(struct guard_files *to, struct place *at, const struct guard_files *from)
+/* Forgets what is behind the known files. */
+static void forget(struct files *files)
 {
-	memset(to, 0, sizeof(*to));
-	memcpy(to, from, offsetof(struct guard_files, file) + from->head.count * sizeof(from->file[0]));
-	for (int i = 0; i < to->head.count; i++)
-		place_learn(&at[i], to->file[i].path);
+	files->count = files->known;
+	files->lack = files->known_lack;
+	files->told = files->written = false;
+	places_reset(&files->places, files->known_places, files->known_bytes);
+}
+
+static void add(struct files *files, const struct guard_files *from)
+{
+	const char *at = from->record;
+
+	for (int i = 0; i < from->head.count; i++) {
+		const char *path = at + sizeof(files->number[0]);
+		const bool room = files->count < 2 * GUARD_FILES &&
+			places_learn(&files->places, files->known_places, path, &files->file[files->count]);
+
+		if (room)
+			memcpy(&files->number[files->count++], at, sizeof(files->number[0]));
+		else
+			text_say("\"%s\" is not made safe: the guard has no room for it", path);
+		files->lack = files->lack || !room;
+		at = path + strlen(path) + 1;
+	}
+}
+
+void files_begin(struct files *files)
+{
+	memset(files, 0, sizeof(*files));
+	forget(files);
 }
 
 void files_know(struct files *files, const struct guard_files *known)
 {
-	copy(&files->known, files->known_at, known);
-	files->more.head.count = 0;
-	files->told = files->written = false;
+	files->known = files->known_places = files->known_bytes = 0;
+	files->known_lack = false;
+	forget(files);
+	add(files, known);
+	files->known = files->count;
+	files->known_places = files->places.count;
+	files->known_bytes = files->places.bytes;
+	files->known_lack = files->lack;
 }
 
 void files_more(struct files *files, const struct guard_files *more)
 {
-	copy(&files->more, files->more_at, more);
-	files->told = files->written = false;
+	forget(files);
+	add(files, more);
 }
 
 /* A converter's highest step is one below its reference: it refuses the number of the reference. 0 or -errno. */
-static int write_one(const struct guard_file *file, const struct place *at)
+static int write_one(const struct files *files, int number)
 {
+	const int64_t safe = files->number[number];
 	char path[GUARD_PATH], text[24];
-	int error = place_find(at, file->path, path);
+	int error = places_find(&files->places, &files->file[number], path);
 	const int fd = error ? -1 : open(path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
 
 	if (!error)
 		error = fd < 0 ? -errno : -EINVAL;
 
 	for (int i = 0; fd >= 0 && i < 2 && error == -EINVAL; i++) {
-		const int len = snprintf(text, sizeof(text), "%lld\n", (long long)file->number - i);
+		const int len = text_print(text, sizeof(text), "%lld\n", (long long)safe - i);
 
 		errno = 0;
 		error = write(fd, text, (size_t)len) == len ? 0 : errno ? -errno : -EIO;
-		if (file->number <= 0)
+		if (safe <= 0)
 			break;
 	}
 	if (fd >= 0)
@@ -57,30 +88,23 @@ static int write_one(const struct guard_file *file, const struct place *at)
 	return error;
 }
 
-static bool write_all(struct files *files, const struct guard_files *all, const struct place *at)
-{
-	bool good = true;
-
-	for (int i = 0; i < all->head.count; i++) {
-		const int error = write_one(&all->file[i], &at[i]);
-
-		if (error && !files->told)
-			dprintf(STDERR_FILENO, "ladder-guard: \"%s\" is not safe: %s; the guard tries again\n",
-				all->file[i].path, strerror(-error));
-		files->told = files->told || error;
-		good = good && !error;
-	}
-	return good;
-}
-
 bool files_write(struct files *files)
 {
-	bool known, more;
+	bool good = !files->lack;
+	char path[GUARD_PATH];
 
 	if (files->written)
 		return true;
-	known = write_all(files, &files->known, files->known_at);
-	more = write_all(files, &files->more, files->more_at);
-	files->written = known && more;
-	return files->written;
+	for (int i = 0; i < files->count; i++) {
+		const int error = write_one(files, i);
+
+		if (error && !files->told) {
+			places_path(&files->places, &files->file[i], path);
+			text_say("\"%s\" is not safe: %s; the guard tries again", path, strerror(-error));
+		}
+		files->told = files->told || error;
+		good = good && !error;
+	}
+	files->written = good;
+	return good;
 }

@@ -12,15 +12,21 @@
 #include <stdbool.h>
 
 struct files {
-	struct guard_files known;   /* the last ones of ladderd                */
-	struct guard_files more;    /* of another map that is about to be opened */
-	struct place known_at[GUARD_FILES], more_at[GUARD_FILES]; /* which device each is of */
-	bool told;                  /* that one cannot be written               */
-	bool written;               /* all of them, since ladderd said them      */
+	int64_t number[2 * GUARD_FILES];         /* the safe one              */
+	struct place_file file[2 * GUARD_FILES]; /* the last ones of ladderd; behind them those of another map that
+						  * is about to be opened     */
+	uint16_t known, count;                   /* … of ladderd, and all     */
+	uint16_t known_places, known_bytes;      /* what they take of places  */
+	bool known_lack, lack;                   /* there was no room for all */
+	bool told;                               /* that one cannot be written */
+	bool written;                            /* all of them, since ladderd said them */
+	struct places places;
 };
 
+/** files_begin - no file. */
+void files_begin(struct files *files);
 /** files_know - other files; those of files_more() go. Their devices are there now: which ones they are is looked up,
- * as a device may come back with another number (pwmchip0 as pwmchip1). */
+ * as a device may come back with another number (pwmchip0 as pwmchip1). One that has no room is told. */
 void files_know(struct files *files, const struct guard_files *known);
 /** files_more - files beside those, until others come or none. */
 void files_more(struct files *files, const struct guard_files *more);

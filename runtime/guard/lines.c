@@ -5,11 +5,12 @@
 #define _DEFAULT_SOURCE
 #include "guard/lines.h"
 
+#include "guard/text.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/gpio.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -128,7 +129,7 @@ static int request(struct lines *lines, int chip, const int *number, uint32_t co
 	}
 	if (ioctl(chip, GPIO_V2_GET_LINE_IOCTL, &ask) < 0)
 		return -errno;
-	lines->fd[number[0]] = ask.fd;
+	lines->fd[number[0]] = (int16_t)ask.fd;
 	for (uint32_t i = 0; i < count; i++)
 		lines->held[number[i]] = true;
 	return 0;
@@ -146,13 +147,13 @@ static void tell(struct lines *lines, int number, int chip, int error)
 	about.offset = line->offset;
 	if (error == -EBUSY && ioctl(chip, GPIO_V2_GET_LINEINFO_IOCTL, &about) == 0) {
 		about.consumer[sizeof(about.consumer) - 1] = 0;
-		dprintf(STDERR_FILENO, "ladder-guard: line %u of gpiochip%u is held by \"%s\": it is "
-			"not safe; the guard tries again\n", (unsigned)line->offset,
+		text_say("line %u of gpiochip%u is held by \"%s\": it is "
+			"not safe; the guard tries again", (unsigned)line->offset,
 			(unsigned)line->chip, about.consumer);
 		return;
 	}
-	dprintf(STDERR_FILENO, "ladder-guard: line %u of gpiochip%u is not safe: %s; the guard tries "
-		"again\n", (unsigned)line->offset, (unsigned)line->chip, strerror(-error));
+	text_say("line %u of gpiochip%u is not safe: %s; the guard tries "
+		"again", (unsigned)line->offset, (unsigned)line->chip, strerror(-error));
 }
 
 static bool same_request(const struct guard_line *a, const struct guard_line *b)
@@ -181,7 +182,7 @@ static void take_from(struct lines *lines, int first, bool *tried)
 	const uint32_t count = gather(lines, first, tried, number);
 	int chip, error;
 
-	snprintf(path, sizeof(path), "%s/gpiochip%u", lines->table.dev,
+	text_print(path, sizeof(path), "%s/gpiochip%u", lines->table.dev,
 		 (unsigned)lines->table.line[first].chip);
 	chip = open(path, O_RDWR | O_CLOEXEC | O_NONBLOCK);
 	error = chip < 0 ? -errno : request(lines, chip, number, count);

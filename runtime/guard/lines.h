@@ -15,7 +15,7 @@ struct lines {
 	struct guard_table next;  /* after the lines are released             */
 	int more;                 /* lines behind those of table, see lines_more() */
 	bool waits;               /* next is one                              */
-	int fd[GUARD_LINES];      /* of the request whose first line this is; else -1 */
+	int16_t fd[GUARD_LINES];  /* of the request whose first line this is; else -1 */
 	bool held[GUARD_LINES];
 	bool told[GUARD_LINES];   /* that the line cannot be taken            */
 };

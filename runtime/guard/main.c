@@ -12,14 +12,13 @@
 #include "guard/feed.h"
 #include "guard/files.h"
 #include "guard/lines.h"
+#include "guard/text.h"
 
 #include <errno.h>
 #include <poll.h>
 #include <sched.h>
 #include <stdatomic.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/signalfd.h>
@@ -87,7 +86,7 @@ static const char help[] =
 
 static int wrong(const char *what, const char *why)
 {
-	dprintf(STDERR_FILENO, "ladder-guard: %s %s\nTry `ladder-guard --help`.\n", what, why);
+	text_say("%s %s\nTry `ladder-guard --help`.", what, why);
 	return 2;
 }
 
@@ -104,7 +103,7 @@ static int read_options(int argc, char **argv)
 			return guard.argv[0] ? -1 : wrong("--", "names no program");
 		}
 		if (strcmp(word, "--help") == 0)
-			return dprintf(STDOUT_FILENO, "%s", help) < 0;
+			return write(STDOUT_FILENO, help, sizeof(help) - 1) < 0;
 		if (i + 1 == argc)
 			return wrong(word, "is no option, or needs a value");
 		i++;
@@ -113,10 +112,9 @@ static int read_options(int argc, char **argv)
 		} else if (strcmp(word, "--name") == 0) {
 			guard.name = argv[i];
 		} else if (strcmp(word, "--heartbeat") == 0) {
-			char *end;
-			const long ms = strtol(argv[i], &end, 10);
+			const long long ms = text_number(argv[i]);
 
-			if (*end || ms < 50 || ms > 10000)
+			if (ms < 50 || ms > 10000)
 				return wrong(word, "takes 50 to 10000 ms");
 			guard.heartbeat_ms = (int)ms;
 		} else {
@@ -131,7 +129,7 @@ static bool be_the_only_one(void)
 {
 	struct sockaddr_un address = { .sun_family = AF_UNIX };
 	const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-	const int len = snprintf(address.sun_path + 1, sizeof(address.sun_path) - 1,
+	const int len = text_print(address.sun_path + 1, sizeof(address.sun_path) - 1,
 				 "rungboard-guard-%s", guard.name);
 
 	if (len >= (int)sizeof(address.sun_path) - 1) {
@@ -141,7 +139,7 @@ static bool be_the_only_one(void)
 	if (fd >= 0 && bind(fd, (const struct sockaddr *)&address,
 			    (socklen_t)(offsetof(struct sockaddr_un, sun_path) + 1 + len)) == 0)
 		return true;
-	dprintf(STDERR_FILENO, "ladder-guard: %s\n", fd >= 0 && errno == EADDRINUSE ?
+	text_say("%s", fd >= 0 && errno == EADDRINUSE ?
 		"another ladder-guard of this name runs; stop it, or give this one another --name" :
 		strerror(errno));
 	return false;
@@ -154,7 +152,7 @@ static void make_ready(void)
 
 	syscall(SYS_sched_setscheduler, 0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted);
 	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-		dprintf(STDERR_FILENO, "ladder-guard: memory is not locked: %s\n",
+		text_say("memory is not locked: %s",
 			strerror(errno));
 }
 
@@ -168,7 +166,7 @@ static bool listen_to_signals(void)
 	sigprocmask(SIG_BLOCK, &guard.signals, NULL);
 	guard.signal_fd = signalfd(-1, &guard.signals, SFD_CLOEXEC | SFD_NONBLOCK);
 	if (guard.signal_fd < 0)
-		dprintf(STDERR_FILENO, "ladder-guard: no signals: %s\n", strerror(errno));
+		text_say("no signals: %s", strerror(errno));
 	return guard.signal_fd >= 0;
 }
 
@@ -187,8 +185,8 @@ static bool start(int64_t now)
 	guard.again_ms = 0;
 	guard.due_ms = now + BEGIN_MS;
 	if (stopped)
-		dprintf(STDERR_FILENO, "ladder-guard: ladderd has ended abnormally %d times within "
-			"%d s: it begins in STOP\n", ENDS, WITHIN_MS / 1000);
+		text_say("ladderd has ended abnormally %d times within "
+			"%d s: it begins in STOP", ENDS, WITHIN_MS / 1000);
 	return child_start(&guard.child, guard.argv, guard.heartbeat_ms, stopped,
 			   guard.ends, guard.how);
 }
@@ -261,8 +259,8 @@ static void hear(int64_t now)
 			continue;
 		}
 		if (!guard.strange)
-			dprintf(STDERR_FILENO, "ladder-guard: ladderd sent %zd bytes that say "
-				"nothing; they are not used\n", got);
+			text_say("ladderd sent %d bytes that say "
+				"nothing; they are not used", (int)got);
 		guard.strange = true;
 	}
 }
@@ -286,14 +284,14 @@ static void tell_end(void)
 	char how[48];
 
 	if (guard.hung)
-		snprintf(how, sizeof(how), "hung in a scan and is killed");
+		text_print(how, sizeof(how), "hung in a scan and is killed");
 	else if (guard.killed)
-		snprintf(how, sizeof(how), "was frozen and is killed");
+		text_print(how, sizeof(how), "was frozen and is killed");
 	else if (WIFSIGNALED(status))
-		snprintf(how, sizeof(how), "died of signal %d", WTERMSIG(status));
+		text_print(how, sizeof(how), "died of signal %d", WTERMSIG(status));
 	else
-		snprintf(how, sizeof(how), "ended with status %d", WEXITSTATUS(status));
-	dprintf(STDERR_FILENO, "ladder-guard: ladderd %s; %s\n", how,
+		text_print(how, sizeof(how), "ended with status %d", WEXITSTATUS(status));
+	text_say("ladderd %s; %s", how,
 		guard.safe ? "the outputs are safe" : "not all outputs are safe");
 	feed_tell(&guard.feed, guard.safe ? "STATUS=ladderd has died, outputs are safe" :
 					    "STATUS=ladderd has died, not all outputs are safe");
@@ -314,7 +312,7 @@ static int on_end(int64_t now)
 
 	if (WIFEXITED(status) && !guard.killed && !guard.recovers) {
 		if (WEXITSTATUS(status) == CHILD_NO_PROGRAM)
-			dprintf(STDERR_FILENO, "ladder-guard: \"%s\" cannot be started\n",
+			text_say("\"%s\" cannot be started",
 				guard.argv[0]);
 		return WEXITSTATUS(status);
 	}
@@ -423,6 +421,7 @@ int main(int argc, char **argv)
 	if (status >= 0)
 		return status;
 	lines_begin(&guard.lines);
+	files_begin(&guard.files);
 	guard.child.pidfd = guard.child.socket = -1;
 	if (!be_the_only_one() || !listen_to_signals() || !feed_open(&guard.feed, guard.device))
 		return 1;

@@ -21,6 +21,7 @@
 #define GUARD_LINES    256            /* outputs that it can hold             */
 #define GUARD_FILES    64             /* outputs in files that it can make safe */
 #define GUARD_PATH     168            /* bytes of the name of such a file     */
+#define GUARD_RECORDS  4080           /* bytes of all files of a packet       */
 #define GUARD_DEV      64             /* bytes of the folder of device files  */
 #define GUARD_TEXT     120
 #define GUARD_MAGIC    UINT32_C(0x31475552)
@@ -65,17 +66,11 @@ struct guard_table {
 	struct guard_line line[GUARD_LINES];
 };
 
-/* An output that is a number in a file; none that holds its last value: the kernel does that by itself. */
-struct guard_file {
-	int64_t number;     /* the safe one                                   */
-	char path[GUARD_PATH]; /* ends with a NUL                             */
-};
-
-/* As long as its files. */
+/* Outputs that are numbers in files; none that holds its last value: the kernel does that by itself. As long as its
+ * records: for each file an int64_t, the safe number, and the path, which ends with a NUL. */
 struct guard_files {
 	struct guard_head head;
-	uint32_t pad;       /* 0                                              */
-	struct guard_file file[GUARD_FILES];
+	char record[GUARD_RECORDS];
 };
 
 /* A bit for each line of the last table, in its order. */

@@ -183,32 +183,40 @@ static bool send_table(struct guard_table *table, enum guard_kind kind, const st
 	return dropped == 0;
 }
 
+/* The packet, and the bytes of its records so far. */
+struct records {
+	struct guard_files *files;
+	size_t len;
+};
+
 static bool add_file(void *context, const char *path, int64_t number)
 {
-	struct guard_files *files = context;
-	struct guard_file *file = &files->file[files->head.count];
+	struct records *all = context;
+	struct guard_files *files = all->files;
+	const size_t len = strlen(path) + 1;
 
-	if (files->head.count == GUARD_FILES) {
+	if (len > GUARD_PATH)
+		return true;
+	if (files->head.count == GUARD_FILES || all->len + sizeof(number) + len > sizeof(files->record)) {
 		fprintf(stderr, "ladderd: ladder-guard knows %d outputs of converters; the others are not made safe by it\n",
-			GUARD_FILES);
+			(int)files->head.count);
 		return false;
 	}
-	if (strlen(path) < sizeof(file->path)) {
-		memset(file, 0, sizeof(*file));
-		memcpy(file->path, path, strlen(path));
-		file->number = number;
-		files->head.count++;
-	}
+	memcpy(files->record + all->len, &number, sizeof(number));
+	memcpy(files->record + all->len + sizeof(number), path, len);
+	all->len += sizeof(number) + len;
+	files->head.count++;
 	return true;
 }
 
 /* Of a map without channels: none. @fresh: as send_table(). */
 static bool send_files(struct guard_files *files, enum guard_kind kind, const struct hal *hal, bool fresh)
 {
-	memset(files, 0, offsetof(struct guard_files, file));
+	struct records all = { .files = files };
+
 	files->head = (struct guard_head){ .magic = GUARD_MAGIC, .kind = (uint16_t)kind };
-	channels_safe_files(hal_channels(hal), fresh, add_file, files);
-	return send(to.fd - 1, files, offsetof(struct guard_files, file) + files->head.count * sizeof(files->file[0]),
+	channels_safe_files(hal_channels(hal), fresh, add_file, &all);
+	return send(to.fd - 1, files, offsetof(struct guard_files, record) + all.len,
 		    MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 

@@ -302,6 +302,40 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	finish($pid);
 }
 
+# More outputs than the guard has room for: the ones that it knows are made safe, the others are told. First one chip with
+# many channels: ladderd tells. Then many chips, each in a folder with a long name: the guard tells.
+for my $case ([1, 70, '', qr{ladderd: ladder-guard knows (\d+) outputs of converters; the others are not made safe by it}],
+	      [30, 1, 'x' x 190, qr{ladder-guard: "\S*/pwmchip(\d+)/pwm0/duty_cycle" is not made safe: the guard has no room for it}]) {
+	my ($chips, $channels, $long, $told) = @$case;
+	my $copied = "$dir/ladderd";
+	copy($ladderd, $copied) or die;
+	chmod 0755, $copied;
+	make_devices();
+	remove_tree("$sys/class/pwm");
+	my ($lines, $at) = ("BOARD \"Many\"\n%AIW0 sim\n%IX9.0 sim\n%QX0.0 sim safe=0\n", 0);
+	for my $chip (0 .. $chips - 1) {
+		make_chip("$long-$chip/1-0040", $chip);
+		show("devices/$long-$chip/1-0040/pwm/pwmchip$chip/npwm", "$channels\n");
+		for my $channel (0 .. $channels - 1) {
+			show("devices/$long-$chip/1-0040/pwm/pwmchip$chip/pwm$channel/$_", '0') for qw(period duty_cycle enable);
+			$lines .= sprintf "%%AQW%d pwm chip=pwmchip%d channel=%d period=20ms range=0..10000 at 0%%..100%% safe=4500\n",
+				2 * $at++, $chip, $channel;
+		}
+	}
+	my @duty = map { my $chip = $_; map { "sys/class/pwm/pwmchip$chip/pwm$_/duty_cycle" } 0 .. $channels - 1 } 0 .. $chips - 1;
+	$pid = start_guard($copied, $rung, '--io', put('many.io', $lines));
+	ok(until_true(sub { (get('sys/class/pwm/pwmchip0/pwm0/enable') || 0) == 1 && get('err') =~ $told }), 'too many outputs are told')
+		or diag get('err');
+	my ($known) = get('err') =~ $told;
+	unlink $copied;
+	kill 'KILL', child_of($pid);
+	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; / }), 'ladderd is killed') or diag get('err');
+	is(scalar(grep { (get($_) || 0) == $safe } @duty), $known, "the $known outputs that the guard knows are safe");
+	like(get('err'), qr/signal 9; not all outputs are safe/, 'and it says that not all are') if $long;
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
 # All lines of a wrong map are told, and nothing is driven.
 $map = put('wrong.io', <<'END');
 BOARD "Wrong"

@@ -233,7 +233,8 @@ musl() {
 		#!/bin/sh
 		set -- $2 -fPIE -nostdinc -isystem "$dest/include" \\
 		    -isystem "\$($1gcc -print-file-name=include)" "\$@"
-		case " \$* " in *" -c "* | *" -S "* | *" -E "* | *" -M "*) exec $1gcc "\$@" ;; esac
+		# -fPIE once more: the Makefile takes it away from programs that have a fixed address elsewhere.
+		case " \$* " in *" -c "* | *" -S "* | *" -E "* | *" -M "*) exec $1gcc "\$@" -fPIE ;; esac
 		exec $1gcc -nostdlib -static -pie -Wl,-pie,--no-dynamic-linker,-z,text,--gc-sections \\
 		    -Wl,-z,stack-size=\${STACK:-65536},-z,noexecstack -L"$dest/lib" "$dest/lib/rcrt1.o" \\
 		    "$dest/lib/crti.o" "\$@" -Wl,--start-group -lc -lgcc -Wl,--end-group "$dest/lib/crtn.o"
