@@ -67,12 +67,12 @@ guard=$(for file in runtime/guard/*.c; do echo "$build/${file%.c}.o"; done)
 # shellcheck disable=SC2086
 if env -u CC -u MAKEFLAGS make -s BUILD="$build" CROSS=$cross STATIC=1 HAL=uapi CFLAGS=-Os $guard >"$tmp/log" 2>&1; then
 	bytes=$(${cross}size $guard | awk 'NR > 1 { sum += $4 } END { print sum + 0 }')
-	[ "$bytes" -le 29696 ] || not='not ' failed=1
+	[ "$bytes" -le 30720 ] || not='not ' failed=1
 else
 	not='not ' failed=1 bytes=?
 	tail -n 5 "$tmp/log" | sed 's/^/# /'
 fi
-echo "${not}ok $n - ladder-guard has $bytes bytes with its tables, at most 29696"
+echo "${not}ok $n - ladder-guard has $bytes bytes with its tables, at most 30720"
 # What allocates, or brings what does.
 n=$((n + 1)) not=
 # shellcheck disable=SC2086
