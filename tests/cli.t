@@ -114,6 +114,15 @@ my %inputs = (
 	name => "RUNGBOARD 1\nVAR\n  " . ('n' x 10_000) . " : BOOL;\nEND_VAR\n", range => "RUNGBOARD 1\nVAR\n A : INT := 99999999999999999999;\nEND_VAR\n",
 	code => "RUNGCODE" . ("\xff" x 200),
 );
+# An alarm whose text is too long, in each way to write it.
+my $long_text = "'" . ('x' x 10_000) . "'";
+my $alarm = "RUNGBOARD 1\nVAR\n  A : ALARM;\nEND_VAR\n";
+$inputs{alarm} = "${alarm}PROGRAM M LD\nRUNG\n  | NO I0 | ALARM A MSG:=$long_text |\nEND_PROGRAM\n";
+$inputs{alarm_st} = "${alarm}PROGRAM M ST\nA(MSG := $long_text);\nEND_PROGRAM\n";
+for my $name (qw(alarm alarm_st)) {
+	put("in-$name", $inputs{$name});
+	like((is_run(1, "$name: refused", ['check', "in-$name"]))[1], qr/: error LD116: "'x+": constant is out of range/, "$name: too long");
+}
 my %with = (trace => ['good.script'], build => ['-o', 'out.rungc'], diff => ['good.rung'], run => ['--scans', '1']);
 for my $name (sort keys %inputs) {
 	put("in-$name", $inputs{$name});
@@ -162,6 +171,9 @@ put('hasty.rung', "RUNGBOARD 1\nCONFIGURATION P\n  TASK T (INTERVAL := T#100us, 
 ($out) = is_run(1, 'check --speed', ['check', '--json', '--speed', '1', 'hasty.rung']);
 $json = decode_json($out)->[0];
 ok($json->{good} && !$json->{fast_enough} && $json->{enough} > 1 && $json->{tasks}[0]{left_out}, 'check --speed: too slow');
+($out) = is_run(1, 'check --tasks of tasks that cannot meet their periods', ['check', '--tasks', '--speed', '1', 'hasty.rung']);
+like($out, qr/^  T +every 0\.1 ms .* \d+\n.*^  too slow: tasks leave out periods; (\d+) words a millisecond are enough\n/ms, 'check --tasks: with the figures');
+($out) = is_run(0, 'check --tasks with the speed that it names', ['check', '--tasks', '--speed', $out =~ /(\d+) words a millisecond/, 'hasty.rung']);
 is_run(2, 'check --speed 0', ['check', '--speed', '0', 'good.rung']);
 ($out) = is_run(2, 'check --json of no file', ['check', '--json', 'nowhere']);
 is(decode_json($out)->[0]{diagnostics}[0]{code}, 'LD002', 'check --json: no file');

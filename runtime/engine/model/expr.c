@@ -525,7 +525,7 @@ static bool take_operand(struct parser *parser, bool *more)
 	if (!literal && is_call(lex))
 		return open_call(parser, more);
 	if (token->len > LIMIT_NAME)
-		return refuse(parser, DIAG_NAME_TOO_LONG);
+		return refuse(parser, literal ? DIAG_LITERAL_RANGE : DIAG_NAME_TOO_LONG);
 	parser->bit.len = 0;
 	len = token->len;
 	if (token->kind != TOKEN_NUMBER) {
