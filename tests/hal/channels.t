@@ -278,7 +278,8 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	my $its = put('named.io', slurp($map) =~ s/pwmchip0/$was/r);
 	$pid = start_guard($copied, $rung, '--io', $its);
 	ok(until_true(sub { duty_of(0) == 4_288_000 }), "$how: it writes") or diag get('err');
-	kill 'STOP', child_of($pid);
+	my $child = child_of($pid); # a guard that is late has killed it already
+	kill 'STOP', $child;
 	unlink $copied;
 	unlink "$sys/class/pwm/pwmchip0";
 	remove_tree("$sys/devices/i2c-1/$was");
@@ -292,7 +293,7 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 		make_chip("i2c-1/$is", 3);
 		show("devices/i2c-1/$is/name", $name) if $name;
 	}
-	kill 'KILL', child_of($pid);
+	kill 'KILL', $child;
 	my $told = qr{ladder-guard: "\S*/pwmchip0/pwm0/duty_cycle" is not safe: No such device; the guard tries again};
 	ok(until_true(sub { $found ? duty_of(3) == $safe : get('err') =~ $told }),
 		$found ? 'the guard finds the chip' : 'the guard tells that it is not there') or diag get('err');
