@@ -506,6 +506,15 @@ for my $line (@run) {
 		or diag("not there: " . ($test // 'no text'));
 }
 
+# What a board must do that one can leave alone is shown by tests (tests/bars.txt).
+my @bars = map { [split / \| /] } grep { /^\d/ } split /\n/, slurp('tests/bars.txt', ':encoding(UTF-8)');
+is_deeply([sort { $a <=> $b } keys %{{ map { $_->[0] =~ /^(\d+) / => 1 } @bars }}], [3 .. 13, 15, 22 .. 26, 39], 'tests/bars.txt: all numbers');
+for my $bar (@bars) {
+	my ($what, $path, $test) = @$bar;
+	ok(defined $test && index(slurp($path, ':encoding(UTF-8)') // '', $test) >= 0, "tests/bars.txt: $what: $path has its test")
+		or diag("not there: " . ($test // 'no text'));
+}
+
 # Each kind of event is made by a test, and the board is killed after it.
 list_is('tests/online/link.py, KINDS: the rows of events.def', [(slurp('tests/online/link.py') =~ /^KINDS = \{\n(.*?)^\}/ms)[0] =~ /'([A-Z_]+)': \(/g],
 	[slurp('runtime/online/events.def') =~ /^EVENT\((\w+),/mg]);

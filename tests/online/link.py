@@ -480,6 +480,20 @@ def test_force_holds_and_unforce_releases():
         assert desk.forces() == {}
 
 
+def test_no_force_outlasts_a_start():
+    for end in kill, Board.stop:
+        with slots() as board:
+            desk = board.client()
+            desk.force({'Start': (BOOL, True), 'Count': (INT, 7)})
+            until(lambda: desk.read('Count') == [7])  # pylint: disable=cell-var-from-loop
+            assert desk.status()['forces'] == 2
+            end(board)
+            board.start()
+            desk = board.client()
+            assert desk.status()['forces'] == 0 and desk.forces() == {}
+            assert desk.read('Start')[0] is False
+
+
 def test_forces_have_a_limit():
     many = ''.join(f'  N{i} : INT;\n' for i in range(300))
     with Board(SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + many)) as board:
