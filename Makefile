@@ -776,7 +776,7 @@ TSAN     := $(BUILD)/tsan
 TSAN_RUN := $(addprefix tests/online/,link.py gateways.py peers.py stress.py sick_disk.py quiet_scan.py watchdog.py) tests/modbus/field.py
 tsan: ## ladderd and its gateways with the sanitizer of threads, in build/tsan/, and the tests of the link; it fails if a race is reported
 	$(MAKE) BUILD=$(TSAN) CFLAGS='-O1 -g -fsanitize=thread' LDFLAGS=-fsanitize=thread tsan-run
-tsan-run: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/ladder-modbus $(BUILD)/ladder-peer $(BUILD)/ladder-guard $(BUILD)/tests/online/ladder-attach $(BUILD)/tests/bin/ladder_random $(SICK_DISK) $(HAL_TEST)/ladderd_uapi
+tsan-run: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/ladder-modbus $(BUILD)/ladder-peer $(BUILD)/ladder-guard $(BUILD)/tests/online/ladder-attach $(BUILD)/tests/bin/ladder_random $(SICK_DISK) $(HAL_TEST)/ladderd_uapi $(HAL_TEST)/ladderd_v2
 	@races=$$(mktemp -d) && chmod 777 $$races; status=0; \
 	  BUILD=$(BUILD) LADDER=$(BUILD)/ladder TSAN_OPTIONS="log_path=$$races/race:exitcode=0" prove -e '' $(TSAN_RUN) || status=1; \
 	  cat $$races/* 2>/dev/null && status=1; rm -r $$races; exit $$status
