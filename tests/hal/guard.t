@@ -108,6 +108,8 @@ sub start {
 		open STDOUT, '>', "$dir/out" or die;
 		open STDERR, '>', "$dir/err" or die;
 		open STDIN, '<', '/dev/null' or die;
+		# A session of its own: when the shell above ends, the kernel lets the stopped processes of its jobs go on.
+		POSIX::setsid();
 		$user == $> or POSIX::setuid($user) or die;
 		exec $guard, @args;
 		die "exec: $!";
@@ -166,8 +168,7 @@ for my $how (['kills', $kills, qw(SEGV FPE BUS ABRT KILL)], ['stops', $stops, 'S
 	for my $number (1 .. $count) {
 		if ($number % 2) {
 			fresh();
-			# Long, so that a busy machine makes no freeze of its own: the third end would begin in STOP.
-			start(named(), '--heartbeat', 1000, '--', @ladderd);
+			start(named(), '--heartbeat', 100, '--', @ladderd);
 		}
 		until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
 		my $pid = child($running);
