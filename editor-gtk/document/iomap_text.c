@@ -406,7 +406,7 @@ static const struct field_row {
 	[IO_LIMITS] = { N_("Limits"), IO_WORD_LIMITS },
 	[IO_THRESHOLD] = { N_("Threshold"), IO_WORD_THRESHOLD },
 	[IO_HYSTERESIS] = { N_("Hysteresis"), IO_WORD_HYSTERESIS },
-	[IO_FILTER] = { N_("Filter"), IO_WORD_FILTER },
+	[IO_FILTER] = { N_("Filter time"), IO_WORD_FILTER },
 	[IO_POLL] = { N_("Poll"), IO_WORD_POLL },
 	[IO_STALE] = { N_("Stale"), IO_WORD_STALE },
 	[IO_SUBSTITUTE] = { N_("Substitute"), IO_WORD_SUBSTITUTE },
