@@ -76,8 +76,23 @@ static void json_row(const struct sink *out, const struct machine_row *row, bool
 	sink_text(out, "}");
 }
 
+static bool keep_row(struct remote_machine *machine, const struct machine_row *row)
+{
+	if (machine->count == machine->room) {
+		const uint32_t room = machine->room ? 2 * machine->room : 64;
+		struct machine_row *more = realloc(machine->row, room * sizeof(*more));
+
+		if (!more)
+			return false;
+		machine->row = more;
+		machine->room = room;
+	}
+	machine->row[machine->count++] = *row;
+	return true;
+}
+
 /* The rows from *@next on, which moves behind them; 0: there are no more. *@ready: false: ask again. */
-static enum status ask(struct remote *remote, bool anew, uint32_t *next, bool *ready, bool *any)
+static enum status ask(struct remote *remote, struct remote_machine *machine, bool anew, uint32_t *next, bool *ready)
 {
 	const uint32_t from = *next;
 	struct wire_writer out = desk_ask(&remote->desk, SERVICE_DEVICES);
@@ -98,31 +113,54 @@ static enum status ask(struct remote *remote, bool anew, uint32_t *next, bool *r
 		machine_take(&in, &row);
 		if (in.failed)
 			break;
-		(remote->json ? json_row : print_row)(&remote->call->out, &row, !*any);
-		*any = true;
+		if (!keep_row(machine, &row))
+			return report_no_memory(remote->where);
 	}
 	return in.failed || (*next && *next <= from) ? remote_fail(remote, DESK_NONSENSE) : STATUS_GOOD;
 }
 
-enum status remote_devices(struct remote *remote)
+static enum status ask_all(struct remote *remote, struct remote_machine *machine)
 {
 	const struct timespec nap = { 0, 100000000 };
-	bool any = false, ready = false;
+	bool ready = false;
 	uint32_t next = 0;
-	enum status status = ask(remote, true, &next, &ready, &any);
+	enum status status = ask(remote, machine, true, &next, &ready);
 
 	for (int i = 0; status == STATUS_GOOD && !ready && i < LOOKS; i++) {
 		nanosleep(&nap, NULL);
 		next = 0;
-		status = ask(remote, false, &next, &ready, &any);
+		status = ask(remote, machine, false, &next, &ready);
 	}
 	while (status == STATUS_GOOD && next)
-		status = ask(remote, false, &next, &ready, &any);
-	if (status == STATUS_GOOD && !ready)
-		return remote_fail(remote, DESK_LATE);
-	if (status == STATUS_GOOD && !any && !remote->json)
-		sink_text(&remote->call->out, "no GPIO lines and no analog devices\n");
+		status = ask(remote, machine, false, &next, &ready);
+	return status == STATUS_GOOD && !ready ? remote_fail(remote, DESK_LATE) : status;
+}
+
+static void print_rows(const struct remote *remote, const struct remote_machine *machine)
+{
+	const struct sink *out = &remote->call->out;
+
+	for (uint32_t i = 0; i < machine->count; i++)
+		(remote->json ? json_row : print_row)(out, &machine->row[i], i == 0);
 	if (remote->json)
-		sink_text(&remote->call->out, any ? "\n]\n" : "[]\n");
+		sink_text(out, machine->count ? "\n]\n" : "[]\n");
+	else if (!machine->count)
+		sink_text(out, "no GPIO lines and no analog devices\n");
+}
+
+enum status remote_devices(struct remote *remote)
+{
+	const struct call *call = remote->call;
+	struct remote_machine machine = { .row = NULL };
+	enum status status;
+
+	if (call->arg_count > 3)
+		return report_usage(call, "devices takes one MAP");
+	status = ask_all(remote, &machine);
+	if (status == STATUS_GOOD && call->arg_count == 3)
+		status = remote_check_map(remote, call->arg[2], &machine);
+	else if (status == STATUS_GOOD)
+		print_rows(remote, &machine);
+	free(machine.row);
 	return status;
 }

@@ -624,7 +624,7 @@ static const struct action {
 	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
 	{ "compare", true, remote_compare }, { "alarms", true, remote_alarms },
-	{ "time", true, remote_time },     { "devices", false, remote_devices },
+	{ "time", true, remote_time },     { "devices", true, remote_devices },
 };
 
 static enum status begin(struct remote *remote)

@@ -9,6 +9,7 @@
 #include "ladder/bytes.h"
 #include "ladder/report.h"
 
+#include "online/machine.h"
 #include "online/desk.h"
 #include "online/status.h"
 #include "online/stored.h"
@@ -130,6 +131,14 @@ enum status remote_restore(struct remote *remote);
 enum status remote_record(struct remote *remote);
 enum status remote_alarms(struct remote *remote);
 enum status remote_time(struct remote *remote);
+/* The lines and devices of a board. */
+struct remote_machine {
+	struct machine_row *row;
+	uint32_t count, room;
+};
+/** remote_check_map - board_map.c: prints of each line of the map @path whether the board has it. Fails: STATUS_NO:
+ * it lacks one, or the map has errors. */
+enum status remote_check_map(struct remote *remote, const char *path, const struct remote_machine *machine);
 /** remote_devices - board_devices.c */
 enum status remote_devices(struct remote *remote);
 /** remote_print_alarms - a line of `status`, or a field: how many alarms are active; none, or null,

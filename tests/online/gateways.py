@@ -3,6 +3,7 @@
 """gateways - a ladderd whose map has points of gateways, and the client made from docs/online.md as their gateway.
 GATEWAY_KILLS is how often a gateway is killed.
 """
+import json
 import os
 import signal
 import struct
@@ -492,6 +493,29 @@ def test_a_desk_is_told_what_lines_and_devices_the_board_has():
         status, out, err = board.command('devices', '--json')
         assert status == 0 and '{"driver": "gpio", "device": "gpiochip0", "label": "panel", "channel": "OUT0", "offset": 2' in out, (out, err)
         refused(1, lambda: desk.call(client.DEVICES, b'\0'))
+        # A map against that list; its errors do not keep the other lines from being checked.
+        board.write('next.io', 'BOARD "next"\nBUS m modbus-tcp host=127.0.0.1\n%IX0.0 gpio line=IN0\n%IX0.1 gpio line=NOWHERE\n'
+                    '%IX0.2 gpio chip=panel offset=1\n%IX0.3 gpio chip=panel offset=900\n%QX0.0 gpio line=OUT0 safe=0\n'
+                    '%AIW0 hwmon device=cpu_thermal channel=temp1\n%AIW2 hwmon device=cpu_thermal channel=temp7\n'
+                    '%AIW4 w1 sensor=28-9\n%AIW6 modbus bus=m unit=1 input-register=0\n%QX0.1 sim safe=0\n%AQW0 pwm chip=fe20c000.pwm channel=0 period=1ms safe=0\n')
+        status, out, err = board.command('devices', board.folder + '/next.io')
+        there = {line.split()[0]: line for line in out.splitlines()}
+        assert status == 1 and not err, (status, out, err)
+        good = [it for it, line in there.items() if line.endswith(' good')]
+        assert good == ['%IX0.0', '%IX0.2', '%QX0.0', '%AIW0', '%AIW6', '%QX0.1'], out
+        gone = [it for it, line in there.items() if line.endswith(' not on the board')]
+        assert gone == ['%IX0.1', '%IX0.3', '%AIW2', '%AIW4'], out
+        assert there['%AQW0'].endswith(' not in the list of the board by this name'), out
+        status, out, err = board.command('devices', board.folder + '/next.io', '--json')
+        told = json.loads(out)
+        assert status == 1 and [it['good'] for it in told] == [True, False, True, False, True, True, False, False, True, True, None], out
+        assert told[1]['address'] == '%IX0.1' and told[1]['map_line'] == 4, out
+        board.write('good.io', 'BOARD "next"\n%IX0.0 gpio line=IN0\n')
+        assert board.command('devices', board.folder + '/good.io')[0] == 0
+        board.write('bad.io', 'BOARD "next"\n%IX0.0 gpio line=IN0\n%IX0.0 sim\n')
+        status, out, err = board.command('devices', board.folder + '/bad.io')
+        assert status == 1 and out.startswith('%IX0.0 ') and 'bad.io:3:1: error LD506' in err, (status, out, err)
+        assert board.command('devices', board.folder + '/no.io')[0] == 2
 
 
 def test_the_end_waits_for_a_sensor_at_most_as_long_as_it_takes():
