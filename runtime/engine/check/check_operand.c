@@ -700,8 +700,21 @@ static void report_call(struct operand_check *c, struct operand_spot at, enum di
 	operand_report(c, why, at, text);
 }
 
+/* W.3 where only a whole variable can stand. */
+static void report_part(struct operand_check *c, struct operand_spot at, const struct expr *expr, int node)
+{
+	const struct expr_node *part = &expr->node[node], *whole = &expr->node[part->left];
+	const char *end = part->tail.text + part->tail.len;
+	const int len = end > whole->text && end - whole->text < LIMIT_ARG ? (int)(end - whole->text) : 0;
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.*s", len ? len : part->tail.len, len ? whole->text : part->tail.text);
+	c->spot = whole->text;
+	operand_report(c, DIAG_WHOLE_WANTED, at, text);
+}
+
 /* An argument for a VAR_IN_OUT, or a structure or array, of a function of the project. */
-static void note_place(struct operand_check *c, struct operand_spot at,
+static void note_place(struct operand_check *c, struct operand_spot at, const struct expr *expr,
 		       struct expr_node *value, const struct word_pin *pin)
 {
 	if (!pin->elements && pin->type != IEC_NONE && pin->dir != PIN_IN_OUT)
@@ -709,7 +722,9 @@ static void note_place(struct operand_check *c, struct operand_spot at,
 	value->whole = true;
 	if (value->op == EXPR_CALL && pin->dir != PIN_IN_OUT)
 		return; /* check_il compares the types */
-	if (value->op != EXPR_NAME && value->op != EXPR_INDEX)
+	if (value->op == EXPR_BIT && pin->dir == PIN_IN_OUT)
+		report_part(c, at, expr, (int)(value - expr->node));
+	else if (value->op != EXPR_NAME && value->op != EXPR_INDEX)
 		operand_report(c, pin->dir == PIN_IN_OUT ? DIAG_WRITE_CONSTANT :
 			       DIAG_WRONG_TYPE, at, pin->name);
 	else if (value->op == EXPR_NAME && pin->dir == PIN_IN_OUT && !pin->elements)
@@ -912,7 +927,7 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	note_others(c, at, expr, &args);
 	if (word_is_own(word)) {
 		for (int i = 0; i < args.count; i++)
-			note_place(c, at, &expr->node[args.arg[i].at],
+			note_place(c, at, expr, &expr->node[args.arg[i].at],
 				   &row->pin[args.arg[i].pin]);
 	}
 }
@@ -1075,12 +1090,15 @@ static void use_place(struct operand_check *c, struct expr *expr, enum operand_u
 		return;
 	}
 	if (root->op != EXPR_NAME) {
-		const bool named = root->op == EXPR_BIT || root->op == EXPR_LITERAL;
+		const bool named = root->op == EXPR_LITERAL;
 		char text[LIMIT_ARG];
 
-		snprintf(text, sizeof(text), "%.*s", root->op == EXPR_BIT ? root->tail.len : root->len,
-			 root->op == EXPR_BIT ? root->tail.text : root->text);
-		operand_report(c, root->op == EXPR_BIT ? DIAG_PART_ALONE : named ? DIAG_WRITE_CONSTANT : DIAG_EXPECTED, at,
+		if (root->op == EXPR_BIT) {
+			report_part(c, at, expr, expr->root);
+			return;
+		}
+		snprintf(text, sizeof(text), "%.*s", root->len, root->text);
+		operand_report(c, named ? DIAG_WRITE_CONSTANT : DIAG_EXPECTED, at,
 			       named ? text : "name of a variable");
 		return;
 	}

@@ -687,6 +687,247 @@ static bool operator_follows(const struct mender *m, size_t at)
 	return is_operator(m->text[at]);
 }
 
+/* ---- what stands behind the word of a cell ---- */
+
+/* An operand at the cursor: a name with its path, an address or a constant. Returns its bytes; 0: none. */
+static size_t plain_length(const struct mender *m, size_t at, size_t to)
+{
+	struct lex lex;
+	size_t end = at;
+	int depth = 0;
+
+	lex_init(&lex, m->text + at, to - at);
+	lex_next(&lex);
+	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS && lex.token.kind != TOKEN_NUMBER)
+		return 0;
+	do {
+		depth += lex_is(&lex, "[") - lex_is(&lex, "]");
+		end = (size_t)(lex.token.text + lex.token.len - m->text);
+		lex_next(&lex);
+	} while (lex.token.kind != TOKEN_END && (depth > 0 || lex_is(&lex, "[") ||
+		 (!lex.token.space_before && !is_operator(*lex.token.text) && *lex.token.text != ',')));
+	return end - at;
+}
+
+static size_t skip_blanks(const struct mender *m, size_t at)
+{
+	while (m->text[at] == ' ' || m->text[at] == ',')
+		at++;
+	return at;
+}
+
+/* Signs of comparison in a contact: `=` was taken for the one of a parameter. Returns the new end. */
+static size_t compare_again(struct mender *m, size_t from, size_t to)
+{
+	if (strstr(m->in->text, ":=") && strstr(m->in->text, ":=") < m->in->text + m->in->len)
+		return to;
+	for (size_t at = from; at + 1 < to; at++)
+		if (m->text[at] == ':' && m->text[at + 1] == '=') {
+			memmove(m->text + at, m->text + at + 1, m->len - at);
+			m->len--;
+			to--;
+			m->changed = false;
+		}
+	return to;
+}
+
+/* Is there a sign or word that computes something? */
+static bool has_operator(const struct mender *m, size_t from, size_t to)
+{
+	static const char *const words[] = { "AND", "OR", "XOR", "NOT", "MOD" };
+	struct lex lex;
+
+	lex_init(&lex, m->text + from, to - from);
+	while (lex_next(&lex) != TOKEN_END) {
+		if (lex.token.kind == TOKEN_SYMBOL && strchr("<>=+-*&/", *lex.token.text))
+			return true;
+		for (size_t i = 0; i < COUNT(words); i++)
+			if (lex_is(&lex, words[i]))
+				return true;
+	}
+	return false;
+}
+
+/* NO Start Ready → NO Start | NO Ready, COIL Lamp, Horn likewise; COIL Lamp := TRUE → COIL Lamp. */
+static bool mend_more(struct mender *m, const struct word_row *row, size_t at, size_t to)
+{
+	size_t first = plain_length(m, at, to);
+	const size_t sign = at + first + strspn(m->text + at + first, " :=");
+	char made[MADE] = "";
+	size_t used = 0, len;
+
+	if (first && row->operand == OPND_BOOL_W && memchr(m->text + at + first, '=', sign - at - first) &&
+	    ((to - sign == 1 && m->text[sign] == '1') || (to - sign == 4 && ascii_same(m->text + sign, "TRUE", 4)))) {
+		m->changed = false;
+		first += strspn(m->text + at + first, " ");
+		change(m, at + first, to - at - first, "");
+		return true;
+	}
+	if (ascii_is(row->word, m->text + at, first) && m->text[at + first] == ' ') { /* NO NO Start */
+		change(m, at, first + 1, "");
+		return true;
+	}
+	if (has_operator(m, at, to))
+		return false;
+	for (size_t next = at; next < to; next = skip_blanks(m, next + len)) {
+		len = plain_length(m, next, to);
+		if (!len || operator_follows(m, next + len) || used + len + 20 >= sizeof(made) || ascii_digit(m->text[next]))
+			return false;
+		used += (size_t)snprintf(made + used, sizeof(made) - used, "%s%.*s", used ? " | " : "", (int)len,
+					 m->text + next);
+		if (next == at)
+			continue;
+		used -= len;
+		used += (size_t)snprintf(made + used, sizeof(made) - used, "%s %.*s", row->word, (int)len,
+					 m->text + next);
+	}
+	if (!first || used == first)
+		return false;
+	change(m, at, to - at, made);
+	return true;
+}
+
+/* P (NOT Start) → N Start, NO (Start) → NO Start, NO A AND B → [ A AND B ]. */
+static bool mend_contact(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
+{
+	const char *const with[] = { "NC", "NO", "N", "P", "COILNOT", "COIL" };
+	const char *const turned[] = { "NO", "NC", "P", "N", "COIL", "COILNOT" };
+	const bool negated = row->negate, plain = row->edge == EDGE_NONE && row->operand == OPND_BOOL_R;
+	size_t at = skip_blanks(m, from + word), end, len;
+	const char *other = row->word;
+	bool turn;
+	char made[MADE];
+
+	if (row->edge == EDGE_NONE || row->operand == OPND_BOOL_W)
+		to = compare_again(m, from, to);
+	end = to;
+	while (end - at > 2 && m->text[at] == '(' && m->text[end - 1] == ')') {
+		at = skip_blanks(m, at + 1);
+		for (end--; end > at && m->text[end - 1] == ' '; end--)
+			;
+	}
+	turn = end - at > 4 && ascii_same(m->text + at, "NOT", 3) && !mend_is_word(m->text[at + 3]);
+	len = turn ? 3 : 0;
+	for (size_t i = at + len; turn && i < end && (m->text[i] == ' ' || m->text[i] == '('); i++)
+		len++;
+	const size_t bare = plain_length(m, at + len, end);
+	size_t rest = at + len + bare;
+
+	while (turn && rest < end && (m->text[rest] == ' ' || m->text[rest] == ')'))
+		rest++;
+	if (bare && rest == end) {
+		for (size_t i = 0; turn && i < COUNT(with); i++)
+			if (!strcmp(row->word, with[i]))
+				other = turned[i];
+		if (turn && other == row->word)
+			return false;
+		if (!turn && m->text[skip_blanks(m, from + word)] != '(')
+			return false;
+		snprintf(made, sizeof(made), "%s %.*s", other, (int)bare, m->text + at + len);
+	} else if (mend_more(m, row, skip_blanks(m, from + word), to)) {
+		return true;
+	} else if (plain && to - at < MADE - 20 && has_operator(m, at, to)) {
+		snprintf(made, sizeof(made), negated ? "[ NOT (%.*s) ]" : "[ %.*s ]", (int)(to - at), m->text + at);
+		at = from;
+		if (!negated && to - skip_blanks(m, from + word) < MADE - 20)
+			snprintf(made, sizeof(made), "[ %.*s ]", (int)(to - skip_blanks(m, from + word)),
+				 m->text + skip_blanks(m, from + word));
+	} else {
+		return false;
+	}
+	change(m, from, to - from, made);
+	return true;
+}
+
+/* TON Delay 5s → TON Delay PT:=T#5s, ADD A B Sum → ADD IN1:=A IN2:=B OUT=>Sum: the pins in their
+ * order, of a block without those that are BOOL. */
+static bool mend_values(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
+{
+	size_t at = skip_blanks(m, from + word), first = 0, len, value[8], size[8];
+	char made[MADE] = "", last[24];
+	int count = 0, pin = 0;
+	size_t named = 0, used = 0;
+
+	if (row->kind == WORD_FB) {
+		len = mend_word_length(m->text + at);
+		if (!len)
+			return false;
+		if (m->text[at + len] == '(' && m->text[to - 1] == ')') { /* TON Delay(PT:=5s) */
+			change(m, --to, 1, "");
+			change(m, at + len, 1, " ");
+		}
+		if (strchr("[.", m->text[at + len]))
+			len = plain_length(m, at, to);
+		first = at + len;
+		at = skip_blanks(m, first);
+	}
+	first = first ? first : at;
+	for (; at < to && count < 8; at = skip_blanks(m, at + len)) {
+		len = mend_word_length(m->text + at);
+		if (count == 0 && row->kind == WORD_FB && word_pin_find(row, m->text + at, len) >= 0) {
+			named = at;
+			at += len;
+			at += strspn(m->text + at, " :");
+			pin = word_pin_find(row, m->text + named, len);
+			if (at - named == len || pin >= row->pin_count || row->pin[pin].dir != PIN_IN)
+				return false;
+		}
+		len = row->kind == WORD_FN && count == 1 && ascii_same(m->text + at, "TO ", 3) ? 3 : 0;
+		at += len;
+		len = plain_length(m, at, to);
+		if (!len || operator_follows(m, at + len))
+			return false;
+		value[count] = at;
+		size[count++] = len;
+	}
+	if (!count || at < to || (row->kind == WORD_FN && row->pin_count == 0))
+		return false;
+	for (int i = 0; i < count; i++, pin++) {
+		const bool result = row->kind == WORD_FN && i == count - 1 && count > 1 && !word_is_test(row);
+		const char *name = NULL;
+
+		while (row->kind == WORD_FB && pin < row->pin_count &&
+		       (row->pin[pin].dir != PIN_IN || row->pin[pin].type == IEC_BOOL))
+			pin++;
+		if (result) {
+			name = "OUT";
+		} else if (pin < row->pin_count) {
+			name = row->pin[pin].name;
+		} else if (row->kind == WORD_FN && pin < row->most_inputs) {
+			snprintf(last, sizeof(last), "IN%d", word_last_number(row) + pin - row->pin_count + 1);
+			name = last;
+		}
+		if (!name)
+			return false;
+		used += (size_t)snprintf(made + used, sizeof(made) - used, "%s%s%s%.*s", i || row->kind == WORD_FB ? " " : "", name, result ? "=>" : ":=",
+				(int)size[i], m->text + value[i]);
+		if (used >= sizeof(made))
+			return false;
+	}
+	const bool told = m->changed;
+
+	change(m, first, to - first, made);
+	if (!m->full && (!told || m->out->id == DIAG_WRITE_INSTEAD)) {
+		m->out->id = DIAG_MISSING;
+		m->out->column = (int)value[0] + 1;
+		snprintf(m->out->to, sizeof(m->out->to), "%.*s", (int)strcspn(made, "=") + 1 - (*made == ' '),
+			 made + (*made == ' '));
+	}
+	return true;
+}
+
+static bool mend_known(struct mender *m, size_t from, size_t word, size_t to)
+{
+	struct word_table *words = &m->in->project->words;
+	const enum word id = words_find(words, m->text + from, word);
+	const struct word_row *row = words_row(words, id);
+
+	if (row->kind == WORD_FB || row->kind == WORD_FN)
+		return m->text[from + word] == ' ' && mend_values(m, row, from, word, to);
+	return row->kind == WORD_ELEM && (row->operand == OPND_BOOL_R || row->operand == OPND_BOOL_W) &&
+	       mend_contact(m, row, from, word, to);
+}
+
 /* Start → NO Start, (Motor) → COIL Motor, N := 1 → [ N := 1 ], TON(D, PT := …) → TON D PT:=… */
 static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 {
@@ -708,12 +949,19 @@ static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 		change(m, from, to - from, "---");
 		return;
 	}
+	if (known && mend_known(m, from, word, to))
+		return;
 	if (known && m->text[from + word] == '(' && m->text[to - 1] == ')') {
 		change(m, from + word, 1, " ");
 		change(m, to - 1, 1, "");
 		for (at = from; at < to && m->text[at] != '|'; at++)
 			if (m->text[at] == ',')
 				change(m, at, 1, "");
+		for (at = from; at < m->len && m->text[at] != '|'; at++)
+			;
+		while (at > from && m->text[at - 1] == ' ')
+			at--;
+		mend_known(m, from, word, at);
 		return;
 	}
 	if (ascii_same(m->text + from, "NOT ", 4) && mend_word_length(m->text + from + 4) &&

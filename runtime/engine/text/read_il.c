@@ -95,6 +95,31 @@ static bool is_formal_arg(const struct reader *r)
 	       (reader_peek(r, ":=") || reader_peek(r, "=>"));
 }
 
+/* NOT Q => Lamp, Q => NOT Lamp: a message says what a list writes instead. */
+static bool is_negated_output(const struct reader *r, struct token *pin, struct token *value)
+{
+	struct lex ahead = r->lex;
+	const bool first = lex_accept(&ahead, "NOT");
+
+	*pin = ahead.token;
+	lex_next(&ahead);
+	if (pin->kind != TOKEN_NAME || !lex_accept(&ahead, "=>") ||
+	    !(first || lex_accept(&ahead, "NOT")))
+		return false;
+	*value = ahead.token;
+	return value->kind == TOKEN_NAME || value->kind == TOKEN_ADDRESS;
+}
+
+static bool fail_negated(struct reader *r, const struct token *pin, const struct token *value)
+{
+	const int p = pin->len < 40 ? (int)pin->len : 40, v = value->len < 60 ? (int)value->len : 60;
+	char text[LIMIT_PARTS];
+
+	snprintf(text, sizeof(text), "NOT %.*s => %.*s" DIAG_AND "%.*s => %.*s" DIAG_AND "%.*s", p, pin->text,
+		 v, value->text, p, pin->text, v, value->text, v, value->text);
+	return reader_fail_word(r, DIAG_OUTPUT_NEGATED, text);
+}
+
 /* Reads parameters. @word: NULL if they have names; else the word whose inputs they are, in
  * order. */
 static bool read_args(struct reader *r, const struct token *word)
@@ -103,6 +128,10 @@ static bool read_args(struct reader *r, const struct token *word)
 	r->arg_count = 0;
 	reader_step(r);
 	while (!reader_is(r, ')') || (word && r->arg_count)) {
+		struct token pin, value;
+
+		if (is_negated_output(r, &pin, &value))
+			return fail_negated(r, &pin, &value);
 		if (!word && !is_formal_arg(r))
 			return reader_fail_token(r, DIAG_MIXED_NAMES);
 		if (!(word ? read_value(r, word) : reader_arg(r)))
@@ -253,6 +282,8 @@ static bool is_formal(const struct reader *r)
 	lex_next(&ahead);
 	if (!lex_is(&ahead, "(") || lex_next(&ahead) != TOKEN_NAME)
 		return false;
+	if (lex_is(&ahead, "NOT"))
+		lex_next(&ahead);
 	lex_next(&ahead);
 	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
 }

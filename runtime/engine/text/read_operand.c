@@ -10,6 +10,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A name may carry a pin behind a dot; each part has its own limit. */
@@ -268,6 +269,33 @@ static bool is_reference(const struct reader *r)
 	       (ascii_is("REF", token->text, token->len) || ascii_is("ADR", token->text, token->len));
 }
 
+bool reader_fail_operand(struct reader *r, const struct token *word)
+{
+	const enum token_kind kind = r->lex.token.kind;
+
+	if (!r->place.row || reader_is(r, '|') || kind == TOKEN_NEWLINE || kind == TOKEN_END ||
+	    kind == TOKEN_COMMENT || kind == TOKEN_BAD)
+		return reader_fail(r, DIAG_MISSING_OPERAND, word->text, word->len);
+	return reader_fail_token(r, DIAG_EXTRA_TEXT);
+}
+
+/* NOT Q => Lamp, Q => NOT Lamp, Q => /Lamp in a cell. */
+static bool is_negated(struct reader *r, struct lex ahead)
+{
+	const bool first = lex_accept(&ahead, "NOT");
+	const struct token pin = ahead.token;
+	char text[LIMIT_PARTS];
+
+	lex_next(&ahead);
+	if (!r->place.row || pin.kind != TOKEN_NAME || !lex_accept(&ahead, "=>") ||
+	    !(first || lex_accept(&ahead, "NOT") || lex_accept(&ahead, "/")) || ahead.token.kind != TOKEN_NAME)
+		return false;
+	snprintf(text, sizeof(text), "NOT %.*s=>%.*s", pin.len < 40 ? (int)pin.len : 40, pin.text,
+		 ahead.token.len < 60 ? (int)ahead.token.len : 60, ahead.token.text);
+	reader_fail_word(r, DIAG_NEGATED, text);
+	return true;
+}
+
 bool reader_value(struct reader *r, bool constant, const struct token *word)
 {
 	const struct token *token = &r->lex.token;
@@ -293,7 +321,7 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 		return r->no_memory ||
 		       check_constant(r, r->text.text + from,
 				      r->text.len - from);
-	return reader_fail(r, DIAG_MISSING_OPERAND, word->text, word->len);
+	return reader_fail_operand(r, word);
 }
 
 /* Pins of the catalogue become upper case, pins of the project keep their spelling. */
@@ -338,6 +366,8 @@ bool reader_arg(struct reader *r)
 	struct read_arg arg = { 0 };
 	bool inverse = false;
 
+	if (is_negated(r, r->lex))
+		return false;
 	if (pin.kind != TOKEN_NAME || memchr(pin.text, '.', pin.len))
 		return reader_fail_token(r, DIAG_EXTRA_TEXT);
 	if (r->arg_count == LIMIT_ARGS)

@@ -201,8 +201,8 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&
 	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
-		return reader_fail(r, row->kind == WORD_FB ? DIAG_MISSING_INSTANCE :
-				   DIAG_MISSING_OPERAND, word->text, word->len);
+		return row->kind == WORD_FB ? reader_fail(r, DIAG_MISSING_INSTANCE, word->text, word->len) :
+					      reader_fail_operand(r, word);
 	if (plain && !(row->kind == WORD_FB ?
 		       reader_instance(r, &cell->operand) :
 		       reader_name(r, "name", &cell->operand)))

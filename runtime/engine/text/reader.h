@@ -171,6 +171,8 @@ bool reader_string(struct reader *r, uint32_t *id);
 /** reader_value - appends a name, an address (both perhaps with an index) or (if
  * @constant) a constant to r->text, and leaves the cursor on its last token. @word needs it. */
 bool reader_value(struct reader *r, bool constant, const struct token *word);
+/** reader_fail_operand - @word lacks its operand: the cell ends, or something else stands there. */
+bool reader_fail_operand(struct reader *r, const struct token *word);
 /** reader_pin - the name of a pin, in upper case. */
 bool reader_pin(struct reader *r, uint32_t *id);
 /** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */

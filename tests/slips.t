@@ -1,0 +1,121 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# slips.t - slips that people make in a row, a list or statements, made from words, operands and forms: each
+# is refused with a message that quotes what was written, and the line that a message tells to write is read.
+#
+#   slips.t --show   prints each slip and its message, for a person to read
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname);
+use File::Temp qw(tempdir);
+use Test::More;
+
+my $tests = abs_path(dirname(__FILE__));
+my $build = abs_path($ENV{BUILD} // "$tests/../build");
+my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
+my $dir = tempdir(CLEANUP => 1);
+my $show = @ARGV && $ARGV[0] eq '--show';
+
+my $vars = <<'END';
+RUNGBOARD 1
+
+VAR
+  A, B, Sum : INT;
+  Bits : WORD;
+  Ready, Lamp, Horn : BOOL;
+  Delay : TON;
+  Rest : TOF;
+  Parts : CTU;
+  Pulse : TP;
+END_VAR
+
+END
+
+# The last line of a file with @line in a body, its number, and what the check says about it.
+sub said {
+	my ($head, $line) = @_;
+	my $text = "$vars$head\n  $line\nEND_PROGRAM\n";
+	my $number = () = "$vars$head\n" =~ /\n/g;
+
+	open(my $out, '>', "$dir/slip.rung") or die;
+	print $out $text;
+	close $out;
+	my @told = grep { /: error / } `cd $dir && $ladder check slip.rung 2>&1`;
+	return ($number + 1, @told);
+}
+
+# Every slip of @slips, in a body that begins with @head. @may: a pattern; messages that may have no mended line.
+sub judge {
+	my ($name, $head, $may, @slips) = @_;
+	my (@wrong, $mended);
+
+	for my $slip (@slips) {
+		my ($number, @told) = said($head, $slip);
+		my $message = $told[0] // 'good';
+
+		$message =~ s/\s+$//;
+		$message =~ s/^slip\.rung:[\d:]+ (rung \d+( \(\d+,\d+\))?: )?//;
+		print "# $slip\n#    $message\n" if $show;
+		if (!@told) {
+			push @wrong, "$slip: is taken";
+		} elsif ($told[0] !~ /^slip\.rung:$number\b/) {
+			push @wrong, "$slip: another place: $told[0]";
+		} elsif ($message !~ /^error \w+: "/) {
+			push @wrong, "$slip: quotes nothing first: $message";
+		} elsif ($message =~ /; write: (.*)$/) {
+			my ($again, @more) = said($head, $1);
+
+			$mended++;
+			push @wrong, "$slip: the line to write is refused: $1: $more[0]" if @more && $more[0] !~ /LD32[0-9]/;
+		} elsif ($message !~ $may) {
+			push @wrong, "$slip: no line to write: $message";
+		}
+	}
+	ok(!@wrong, "$name: " . scalar(@slips) . ' slips, ' . ($mended // 0) . ' with the line to write');
+	diag($_) for @wrong;
+}
+
+my (@values, @contacts, @coils, @outputs);
+
+for my $block (['TON', 'Delay', '5s'], ['TOF', 'Rest', 'T#200ms'], ['TP', 'Pulse', '2.5s'], ['CTU', 'Parts', '10']) {
+	my ($word, $name, $value) = @$block;
+
+	push @values, "| NO Ready | $_ | COIL Lamp |" for "$word $name $value", "$word $name, $value",
+		"$word($name, $value)", "$word $name($value)", $word eq 'CTU' ? "$word $name PV $value" : "$word $name PT $value",
+		$word eq 'CTU' ? "$word $name PV:$value" : "$word $name PT:$value",
+		$word eq 'CTU' ? "$word $name(PV:=$value)" : "$word $name(PT:=$value)";
+}
+for my $word ('ADD', 'SUB', 'MUL', 'DIV', 'MAX') {
+	push @values, "| NO Ready | $_ |" for "$word A B Sum", "$word A, 5, Sum", "$word(A, B, Sum)", "$word 5 A Sum";
+}
+push @values, "| NO Ready | $_ |" for 'MOVE 5 A', 'MOVE A, B', 'MOVE 5 TO A', 'MOVE(A, B)';
+push @values, "| NO Ready | $_ | COIL Lamp |" for 'GT A 5', 'EQ A, B', 'LE(A, 7)';
+judge('values of a box', "PROGRAM Main LD\nRUNG", qr/^$/, @values);
+
+for my $word ('NO', 'NC', 'P', 'N') {
+	push @contacts, "| $_ | COIL Lamp |" for "$word (Ready)", "$word(Ready)", "$word (NOT Ready)", "$word(NOT Ready)",
+		"$word NOT Ready", "$word /Ready", "$word !Ready", "$word Ready I0", "$word Ready, I0", "$word $word Ready";
+}
+for my $word ('NO', 'NC') {
+	push @contacts, "| $word $_ | COIL Lamp |" for 'Ready AND I0', 'Ready OR Horn', 'A > 5', 'A = 5', 'A <> B', 'Ready & I0',
+		'A + B > 7', '(A > 5)';
+}
+judge('contacts', "PROGRAM Main LD\nRUNG", qr/error LD159: ".*write |LD121: "\(/, @contacts);
+
+for my $word ('COIL', 'S', 'R') {
+	push @coils, "| NO Ready | $word $_ |" for '(Lamp)', 'Lamp Horn', 'Lamp, Horn', 'Lamp := TRUE', 'Lamp = 1', "$word Lamp",
+		'5', '"Lamp"';
+}
+push @coils, "| NO Ready | COIL $_ |" for 'NOT Lamp', '/Lamp', '(NOT Lamp)', '(/Lamp)';
+judge('coils', "PROGRAM Main LD\nRUNG", qr/error LD159: ".*write |error LD121: "["5(]/, @coils);
+
+push @outputs, "| NO Ready | TON Delay PT:=T#1s $_ | COIL Lamp |"
+	for 'NOT Q=>Horn', 'Q=>NOT Horn', 'Q=>/Horn', 'Q => NOT Horn';
+judge('negated outputs of a box', "PROGRAM Main LD\nRUNG", qr/LD159: "NOT Q=>Horn"/, @outputs);
+
+judge('negated outputs in a list', 'PROGRAM Main IL', qr/LD246: "NOT Q => Horn": .*; write Q => Horn, and behind/,
+	'CAL Delay(IN := Ready, NOT Q => Horn)', 'CAL Delay(NOT Q => Horn)', 'CAL Delay(IN := Ready, Q => NOT Horn)',
+	'CAL Delay(NOT Q => Horn, IN := Ready)');
+done_testing();
