@@ -69,6 +69,11 @@ for my $file (map { "$tests/bad/$_.cases" } qw(st fbd)) {
 		my $said = messages($text);
 		$said = "good\n" if $said eq '';
 		is($said, $want, $name);
+		# A second mistake below the first one is told as well; a comment that is not closed takes it in.
+		if ($language eq 'ST' && (program($text))[1] && $want =~ /error LD[12]\d\d|error LD39/ && $name !~ /comment that is not closed/) {
+			my $second = 1 + ($text =~ tr/\n//);
+			like(messages("${text}A := B + ;\n"), qr/^$second(?::\d+)*: error /m, "$name: the next mistake is found, too");
+		}
 		ok(!$seen{$name}++, "$name: one case of this name");
 		$out .= "=== $name\n$text---\n$said";
 	}

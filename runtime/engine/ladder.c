@@ -523,7 +523,8 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	} else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch)) {
 		return no_memory(ladder, unit->pou->file);
 	}
-	if (!generic_lines(t->scope, unit->pou, il, &ladder->scratch) || !located_calls(t, unit, il))
+	if (!generic_lines(t->scope, unit->pou, il, &ladder->scratch) || !located_calls(t, unit, il) ||
+	    !config_blocks(t, unit, il))
 		return no_memory(ladder, unit->pou->file);
 	values_in_list(t->scope, unit->pou, il);
 	*types = arena_alloc(&ladder->arena,
@@ -608,6 +609,7 @@ static int count_further(struct project *project)
 	for (int i = 0; project->config && i < project->config->count; i++) {
 		const struct config_entry *entry = &project->config->entry[i];
 
+		count += entry->calls;
 		if (!project_is_further(project, entry))
 			continue;
 		count++;
@@ -615,6 +617,35 @@ static int count_further(struct project *project)
 			count += is_action_of(project, k, entry);
 	}
 	return count;
+}
+
+/* The programs that call blocks with a task of their own: `Main.Pump();`. Fails: false: no memory. */
+__attribute__((noinline)) /* its text is not on the stack of add_further() */
+static bool add_callers(struct project *project, struct pou *pou, int *at)
+{
+	for (int i = 0; i < project->config->count; i++) {
+		const struct config_entry *entry = &project->config->entry[i];
+
+		for (int k = 0; k < entry->calls; k++) {
+			struct st_item *item = arena_alloc(&project->arena, sizeof(*item));
+			struct st *st = arena_alloc(&project->arena, sizeof(*st));
+			const uint32_t name = project_called(project, entry, k);
+			char text[2 * LIMIT_NAME + 8];
+			const int len = snprintf(text, sizeof(text), "%s", project_text(project, name));
+
+			if (!item || !st || !name)
+				return false;
+			*item = (struct st_item){ .kind = ST_CALL, .line = entry->line, .column = 1,
+						  .text = names_intern(&project->names, text, (size_t)len) };
+			*st = (struct st){ item, 1 };
+			pou[*at] = (struct pou){ .name = name, .kind = POU_PROGRAM, .language = LANGUAGE_ST,
+						 .word = WORD_COUNT, .temp_word = WORD_COUNT, .st = st,
+						 .file = project->config->file, .line = entry->line,
+						 .il.arena = &project->arena };
+			++*at;
+		}
+	}
+	return true;
 }
 
 /* Each becomes a program of its own behind the others: with the same rungs, and the name of
@@ -652,6 +683,8 @@ static bool add_further(struct project *project, int count)
 			pou[at++].name = names_intern(&project->names, name, strlen(name));
 		}
 	}
+	if (!add_callers(project, pou, &at))
+		return false;
 	project->pou = pou;
 	project->pou_count = at;
 	return true;

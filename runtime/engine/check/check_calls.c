@@ -159,6 +159,28 @@ static void warn_of_uncalled(struct calls *c, int count)
 	}
 }
 
+/* A block that a task of its own calls is not called by its program. */
+static void check_block_tasks(struct calls *c, int count, const struct config_entry *entry)
+{
+	struct names *names = &scope_project(c->scope)->names;
+
+	for (int i = 0; i < count && entry->calls; i++) {
+		const struct pou *pou = c->list[i].pou;
+
+		if (pou->kind != POU_PROGRAM || names_fold(names, pou->name) != names_fold(names, entry->pou))
+			continue;
+		for (int k = 0; k < c->list[i].il->count; k++) {
+			const struct il_line *line = &c->list[i].il->line[k];
+
+			for (int n = 0; n < entry->calls; n++)
+				if (line->kind == IL_OP && line->op == OP_CAL &&
+				    names_fold(names, line->operand) == names_fold(names, entry->called[n].name))
+					c->good = diag_add(c->diags, il_place(c->scope, pou, line, DIAG_BLOCK_CALLED), "%s",
+							   scope_text(c->scope, line->operand));
+		}
+	}
+}
+
 bool check_calls(struct scope *scope, const struct il_pou *list, int count,
 		 struct arena *scratch, struct diag_list *diags)
 {
@@ -182,5 +204,7 @@ bool check_calls(struct scope *scope, const struct il_pou *list, int count,
 			step(&c);
 	}
 	warn_of_uncalled(&c, count);
+	for (int i = 0; c.project->config && i < c.project->config->count; i++)
+		check_block_tasks(&c, count, &c.project->config->entry[i]);
 	return c.good;
 }

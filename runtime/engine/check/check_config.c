@@ -80,8 +80,13 @@ static void check_task(struct config_check *c, const struct config_entry *entry)
 	bool used = false;
 
 	check_event(c, entry);
-	for (int i = 0; i < c->config->count && !used; i++)
-		used = same_name(c, c->config->entry[i].task, entry->name);
+	for (int i = 0; i < c->config->count && !used; i++) {
+		const struct config_entry *program = &c->config->entry[i];
+
+		used = same_name(c, program->task, entry->name);
+		for (int k = 0; k < program->calls && !used; k++)
+			used = same_name(c, program->called[k].task, entry->name);
+	}
 	if (!used)
 		report(c, DIAG_TASK_EMPTY, entry, scope_text(c->scope, entry->name));
 }
@@ -106,14 +111,35 @@ static bool has_own_name(struct config_check *c, const struct config_entry *entr
 	return vars_find(&project->globals, names_fold(&project->names, entry->name)) < 0;
 }
 
+/* `Pump WITH Fast`: a block of the program, and a task. */
+static void check_called(struct config_check *c, const struct config_entry *entry, const struct pou *pou)
+{
+	for (int i = 0; i < entry->calls; i++) {
+		const struct block_task *called = &entry->called[i];
+		enum diag_id why;
+		const struct meaning *m = scope_find(c->scope, pou, called->name, &why);
+
+		if (!m || m->kind != MEANING_INSTANCE || m->pou != pou)
+			report(c, DIAG_BLOCK_TASK, entry, scope_text(c->scope, called->name));
+		else
+			uses_add(c->uses, m, USE_READ | USE_CALLED);
+		if (!has_task(c, called->task))
+			report(c, DIAG_UNKNOWN_NAME, entry, scope_text(c->scope, called->task));
+	}
+}
+
 static void check_program(struct config_check *c,
 			  const struct config_entry *entry)
 {
+	const struct pou *pou = NULL;
 	bool found = false;
 
-	for (int i = 0; i < c->project->pou_count && !found; i++)
-		found = c->project->pou[i].kind == POU_PROGRAM &&
-			same_name(c, c->project->pou[i].name, entry->pou);
+	for (int i = 0; i < c->project->pou_count && !found; i++) {
+		pou = &c->project->pou[i];
+		found = pou->kind == POU_PROGRAM && same_name(c, pou->name, entry->pou);
+	}
+	if (found)
+		check_called(c, entry, pou);
 	if (!found)
 		report(c, DIAG_UNKNOWN_NAME, entry,
 		       scope_text(c->scope, entry->pou));

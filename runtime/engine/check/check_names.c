@@ -434,8 +434,9 @@ static void check_located_part(struct names_check *c, const struct var *line, co
 {
 	struct project *project = c->project;
 	enum diag_id why;
-	const struct meaning *m = scope_find(c->scope, &project->pou[to->pou],
-					     names_intern(&project->names, to->text, strlen(to->text)), &why);
+	const struct meaning *m = scope_find(c->scope, &project->pou[to->pou], scope_within(c->scope, to->text), &why);
+	const char *open = m && m->like ? text_of(c, m->like->at_text) : "", *at = text_of(c, line->at_text);
+	const size_t len = strlen(open);
 
 	if (!m || m->type == IEC_NONE || m->type == IEC_STRING || m->kind == MEANING_ARRAY || m->constant ||
 	    m->addr.area != AREA_NONE || meaning_is_indexed(m) || (m->like && m->like->target))
@@ -443,8 +444,10 @@ static void check_located_part(struct names_check *c, const struct var *line, co
 	else if (m->type != line->type)
 		c->good &= located_report(project, line, DIAG_LOCATED_TYPE, iec_type_row(m->type)->word,
 					  iec_type_row(line->type)->word, c->diags);
+	else if (line->at_text && len && (open[len - 1] != '*' || strlen(at) < len || !ascii_same(open, at, len - 1)))
+		c->good &= located_report(project, line, DIAG_LOCATED_AT, open, at, c->diags);
 	else
-		uses_add(&c->uses, m, USE_WRITTEN);
+		uses_add(&c->uses, m, line->at.area == AREA_Q ? USE_READ : USE_WRITTEN);
 }
 
 /* VAR_CONFIG */
@@ -457,7 +460,7 @@ static void check_located(struct names_check *c)
 		if (has_address(c, line))
 			check_address(c, line, (struct diag){ .file = c->project->config->file,
 							      .line = line->line });
-		if (located_find(c->project, text_of(c, line->name), &to) && to.part && !line->at_text)
+		if (located_find(c->project, text_of(c, line->name), &to) && to.part)
 			check_located_part(c, line, &to);
 		else if (located_is_whole(line) && init_has_parts(line))
 			c->good &= check_init(c->project, line, &c->walk, c->scratch, c->diags,
@@ -502,7 +505,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	if (var_is_nameless(var))
 		; /* its name is an address */
 	else if ((is_reserved(c, name, var->fold) && !may_be_power(c, pou, name)) ||
-	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
+	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL) &&
+	     !(c->project->words.own_first && name[1] >= 'a')) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name) && !c->project->words.own_first))
 		report_var(c, DIAG_RESERVED_NAME, pou, var, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)

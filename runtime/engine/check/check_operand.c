@@ -138,6 +138,8 @@ static const struct meaning *operand_find(struct operand_check *c, struct operan
 
 	if (!m)
 		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
+	else if (m->within && operand_report(c, DIAG_WITHIN_BLOCK, at, scope_said(c->scope, id)))
+		uses_add_index(c->uses, c->scope, c->pou, id, m);
 	else if (scope_is_condition(m) && !c->condition)
 		operand_report(c, DIAG_SFC_TRANSITION, at, project_text(c->project, id));
 	else
@@ -196,6 +198,8 @@ static enum diag_id write_fault(const struct meaning *m)
 		return m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE;
 	if (m->writable)
 		return DIAG_COUNT;
+	if (m->within)
+		return DIAG_NO_PIN;
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 
@@ -203,9 +207,12 @@ static enum diag_id write_fault(const struct meaning *m)
 static const struct meaning *operand_write(struct operand_check *c, struct operand_spot at,
 					uint32_t id, bool always)
 {
-	const struct meaning *m = operand_find(c, at, id);
-	enum diag_id fault;
+	enum diag_id fault = DIAG_COUNT;
+	const struct meaning *m = scope_find(c->scope, c->pou, id, &fault);
 
+	if (m && m->within && write_fault(m) != DIAG_COUNT) /* it can only be read, and no more is said of it */
+		return operand_refuse(c, write_fault(m), at, id, m);
+	m = operand_find(c, at, id);
 	if (!m)
 		return NULL;
 	fault = write_fault(m);

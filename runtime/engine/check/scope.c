@@ -8,6 +8,7 @@
 #include "engine/check/scope.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/name.h"
 #include "engine/model/expr.h"
 #include "engine/model/fbd.h"
 #include "engine/model/named.h"
@@ -139,6 +140,18 @@ static void declare_values(struct scope *scope)
 		scope->several |= first && value[first->index].number != value[i].number;
 		declare(scope, (struct declared){ .table = VALUES, .index = i, .fold = value[i].fold });
 	}
+}
+
+uint32_t scope_within(struct scope *scope, const char *path)
+{
+	const size_t len = strlen(path);
+	char *text = arena_alloc(scope->arena, len + 1);
+
+	if (!text)
+		return 0;
+	text[0] = SCOPE_WITHIN;
+	memcpy(text + 1, path, len);
+	return names_intern(&scope->project->names, text, len + 1);
 }
 
 bool scope_has_several(const struct scope *scope)
@@ -318,9 +331,9 @@ static bool scope_mean_name(const struct scope *scope, uint32_t table, const cha
 						    names_fold(names, id));
 	if (!slot)
 		slot = find_wire(scope, table, text, len);
-	const struct answer *made = slot || *text != '_' ? NULL : find_answer(scope, table, id);
+	const struct answer *made = *text != '_' ? NULL : find_answer(scope, table, id);
 
-	if (slot)
+	if (slot && !(made && made->made))
 		mean_variable(scope, slot, out);
 	else if (made && made->known && made->meaning.var) /* scope_add() */
 		*out = made->meaning;
@@ -494,6 +507,7 @@ struct path {
 	const struct meaning *index_of, *pointer;
 	enum diag_id why;
 	bool raw;                /* a REFERENCE is meant, not what it leads to */
+	bool within;             /* variables within blocks have names, too    */
 	bool done;               /* a part was named: nothing can follow it   */
 	uint32_t count;          /* elements of the array that a pointer leads to: others may be read, too */
 };
@@ -616,7 +630,16 @@ static bool step_overlapped(struct path *path)
 	return true;
 }
 
-/* `.Speed`. Inner variables of a block cannot be named from outside. */
+/* A variable within a block of the project, which its outside has no name for; -1: none. */
+static int find_within(const struct word_row *row, const char *name, size_t len)
+{
+	for (int i = 0; row->kind == WORD_FB && row->owner >= 0 && i < row->pin_count; i++)
+		if (row->pin[i].dir == PIN_VAR && len && name_is(row->pin[i].name, name, len))
+			return i;
+	return -1;
+}
+
+/* `.Speed`. Inner variables of a block cannot be named from outside; in plain IEC text they can be read. */
 static bool step_into(struct path *path)
 {
 	struct meaning *m = &path->m;
@@ -636,12 +659,15 @@ static bool step_into(struct path *path)
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
 	index = m->kind == MEANING_INSTANCE && m->action ? -1 : word_pin_find(row, name, len);
+	if (index < 0 && !m->action && (path->within || path->scope->project->words.own_first))
+		index = find_within(row, name, len);
 	if (index < 0)
 		return step_action(path, row, name, len);
 	if (path->pin < 0)
 		path->pin = index;
 	if (row->kind == WORD_FB)
-		m->writable = row->pin[index].dir == PIN_IN;
+		m->writable = row->pin[index].dir == PIN_IN || path->within;
+	m->within |= row->kind == WORD_FB && row->pin[index].dir == PIN_VAR;
 	if (row->overlaps && !step_overlapped(path))
 		return false;
 	m->like = declares(path->scope, m->word, index);
@@ -1132,11 +1158,12 @@ static bool step_part(struct path *path, struct expr_tail tail)
 /* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`, with or without blanks inside
  * brackets. Scan-safe: no. Fails: false with @why; @out is unchanged. */
 static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
-			    size_t len, bool raw, struct meaning *out, enum diag_id *why)
+			    size_t len, char sign, struct meaning *out, enum diag_id *why)
 {
 	struct open_index open[LIMIT_INDICES + 1];
 	struct path path = { .scope = scope, .table = table, .at = text,
-			     .end = text + len, .open = open, .pin = -1, .raw = raw,
+			     .end = text + len, .open = open, .pin = -1, .raw = sign == '@',
+			     .within = sign == SCOPE_WITHIN,
 			     .why = *why };
 	bool good = begin(&path);
 
@@ -1206,11 +1233,11 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	struct names *names = &scope->project->names;
 	const char *text = names_text(names, id);
 	size_t len = names_len(names, id);
-	const bool raw = len > 1 && *text == '@'; /* what REF= stores to */
+	const char mark = len > 1 && (*text == '@' || *text == SCOPE_WITHIN) ? *text : '\0'; /* @: what REF= stores to */
 	const struct declared *slot;
 
 	*why = DIAG_UNKNOWN_NAME;
-	if (raw) {
+	if (mark) {
 		text++;
 		len--;
 		id = names_intern(names, text, len);
@@ -1220,7 +1247,7 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		slot = find_wire(scope, table, text, len);
 	if (slot) {
 		struct open_index open[1];
-		struct path path = { .scope = scope, .raw = raw, .pin = -1, .open = open };
+		struct path path = { .scope = scope, .raw = mark == '@', .pin = -1, .open = open };
 
 		mean_variable(scope, slot, &path.m);
 		if (!follow(&path) || !finish(&path, out)) {
@@ -1232,7 +1259,7 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	if (len > 1 && *text == '&')
 		return mean_address_of(scope, table, text, len, out, why);
 	if (scope_has_index(text, len))
-		return scope_mean_path(scope, table, text, len, raw, out, why);
+		return scope_mean_path(scope, table, text, len, mark, out, why);
 	if (is_step(scope, table, text, len, why))
 		return false;
 	*why = DIAG_UNKNOWN_NAME;
@@ -1248,7 +1275,7 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	if (ascii_is("NULL", text, len))
 		return mean_literal("LWORD#0", 7, out, why);
 	if (mean_system(text, len, out) ||
-	    (memchr(text, '.', len) && scope_mean_path(scope, table, text, len, raw, out, why)))
+	    (memchr(text, '.', len) && scope_mean_path(scope, table, text, len, mark, out, why)))
 		return true;
 	return *why != DIAG_NO_SUCH_PART && (mean_literal(text, len, out, why) ||
 					     scope_mean_address(scope, text, len, out, why));
@@ -1316,7 +1343,7 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 	answer->known = answer->made = true;
 	answer->meaning = (struct meaning){
 		.type = var->type, .pou = pou, .var = var, .index = index,
-		.writable = true,
+		.writable = may_write(var->at), .addr = var->at,
 	};
 	mean_shape(scope, var, &answer->meaning);
 	return true;

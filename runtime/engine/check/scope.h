@@ -62,6 +62,7 @@ struct meaning {
 	bool through;             /* a pointer leads to it: meaning_pointer()  */
 	bool several;             /* of a LITERAL: a value of several enumerations with other numbers;
 				     values_in_list() finds which is meant */
+	bool within;              /* a variable inside of a block, from outside */
 	bool part;                /* a bit, byte or word of a number that has no address of its own */
 	uint8_t first;            /* of a part: its lowest bit                 */
 	uint32_t address_of;      /* string id: what ADR names, a PIN of type LWORD; 0: none */
@@ -183,6 +184,10 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 /** scope_span - bytes from its offset to the end of the last element that an index may reach.
  * Scan-safe: no. */
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning);
+/* Before the path of a variable within a block, which translation may read and write: `~A.Level`. */
+#define SCOPE_WITHIN '~'
+/** scope_within - the string id of a path with that sign; 0: no memory. Scan-safe: no. */
+uint32_t scope_within(struct scope *scope, const char *path);
 /** scope_has_several - is there a name that is a value of several enumerations, with other numbers? Scan-safe: yes. */
 bool scope_has_several(const struct scope *scope);
 struct project *scope_project(const struct scope *scope);

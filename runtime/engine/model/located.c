@@ -179,7 +179,7 @@ bool located_place(struct project *project, struct diag_list *diags)
 
 		if (!located_find(project, project_text(project, line->name), &to) ||
 		    (!is_plain(line) && (to.part || !located_is_whole(line))) ||
-		    (to.part && (line->at_text || !line->has_init || line->inherits))) {
+		    (to.part && !line->at_text && (!line->has_init || line->inherits))) {
 			good = located_report(project, line, DIAG_NO_LOCATED, "", "", diags) && good;
 			continue;
 		}

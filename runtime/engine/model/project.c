@@ -191,6 +191,16 @@ bool project_is_further(struct project *project, const struct config_entry *entr
 	return false;
 }
 
+uint32_t project_called(struct project *project, const struct config_entry *entry, int index)
+{
+	char text[2 * LIMIT_NAME + 2];
+	const int len = snprintf(text, sizeof(text), "%s.%s()",
+				 project_text(project, project_is_further(project, entry) ? entry->name : entry->pou),
+				 project_text(project, entry->called[index].name));
+
+	return names_intern(&project->names, text, (size_t)len);
+}
+
 int project_find_pou(const struct project *project, const char *name, size_t len)
 {
 	for (int i = 0; i < project->pou_count; i++)
@@ -361,17 +371,21 @@ void project_write_array(const struct project *project, const struct var *var, c
 void project_write_values(const struct project *project, const struct config_entry *entry,
 			  const struct sink *sink)
 {
+	for (int i = 0; i < entry->calls; i++)
+		sink_printf(sink, "%s%s WITH %s", i ? ", " : " (", project_text(project, entry->called[i].name),
+			    project_text(project, entry->called[i].own_task ? entry->called[i].own_task :
+					 entry->called[i].task));
 	for (int i = 0; i < entry->values; i++) {
 		const char *text = project_text(project, entry->value[i].text);
 		const char *sign = strstr(text, " := ");
 
-		sink_text(sink, i ? ", " : " (");
+		sink_text(sink, i || entry->calls ? ", " : " (");
 		if (entry->value[i].behind && sign)
 			sink_printf(sink, "%s => %.*s", sign + 4, (int)(sign - text), text);
 		else
 			sink_text(sink, text);
 	}
-	sink_text(sink, entry->values ? ")" : "");
+	sink_text(sink, entry->values || entry->calls ? ")" : "");
 }
 
 void project_write_init(const struct project *project, const struct var *var, const struct sink *sink)

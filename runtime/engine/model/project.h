@@ -33,6 +33,9 @@ struct config_entry {
 				 entries follow: its kind behind ON, comments behind END_RESOURCE */
 	uint32_t own_name, own_task; /* as written, if another RESOURCE has the name, too: then name and task
 				 are Resource_Name; 0: name and task are as written */
+	struct block_task { uint32_t name, task, own_task; } *called; /* PROGRAM: `Pump WITH Fast`: string ids of a
+				 block of the program and the task that calls it; own_task as below */
+	int calls;
 	struct st_item *value; /* PROGRAM: Input := value; or, `behind`, place := Output */
 	int values;
 	uint32_t single;      /* TASK: string id of an operand; 0: none       */
@@ -276,6 +279,9 @@ const char *pou_language_word(enum pou_language language);
  * same program? Then this instance has data of its own, and is called by its own name.
  * Scan-safe: no. */
 bool project_is_further(struct project *project, const struct config_entry *entry);
+/** project_called - the name of the program that calls block @index of `(Pump WITH Fast)` of a PROGRAM line, `Main.Pump()`: such
+ * programs are there while the project is translated. Scan-safe: no. */
+uint32_t project_called(struct project *project, const struct config_entry *entry, int index);
 /** project_find_pou - index of the POU with this name, in any case; -1: none. @len: bytes. */
 int project_find_pou(const struct project *project, const char *name, size_t len);
 /** project_has_head - whether it has a title or a property. */

@@ -171,7 +171,23 @@ static void add_text(struct reader *r, const char *text, size_t len)
 	buffer_add(r, &r->text, text, len);
 }
 
-/* `Input := value` or `Output => place`, kept as assignments. */
+/* `Pump WITH Fast`; the name was read. */
+static bool read_called(struct reader *r, struct config_entry *entry, uint32_t name)
+{
+	struct block_task called = { .name = name }, *slot;
+
+	reader_step(r);
+	if (!reader_name(r, "name of the task", &called.task))
+		return false;
+	reader_step(r);
+	slot = arena_push(&r->project->arena, &entry->called, &entry->calls, sizeof(*slot));
+	if (!slot)
+		return r->no_memory = true, false;
+	*slot = called;
+	return true;
+}
+
+/* `Input := value` or `Output => place`, kept as assignments; or `Pump WITH Fast`. */
 static bool read_value(struct reader *r, struct config_entry *entry)
 {
 	struct st_item item = { .kind = ST_ASSIGN, .line = r->lex.token.line,
@@ -185,6 +201,8 @@ static bool read_value(struct reader *r, struct config_entry *entry)
 	const size_t len = names_len(&r->project->names, name);
 
 	reader_step(r);
+	if (lex_is(&r->lex, "WITH"))
+		return read_called(r, entry, name);
 	item.behind = lex_is(&r->lex, "=>");
 	if (!item.behind && !lex_is(&r->lex, ":="))
 		return reader_fail_word(r, DIAG_EXPECTED, ":= or =>");
@@ -445,6 +463,19 @@ static uint32_t in_resource(struct reader *r, uint32_t resource, uint32_t name)
 	return len > 0 && (size_t)len < sizeof(text) ? reader_intern(r, text, (size_t)len) : name;
 }
 
+/* The same for `Pump WITH Slow` of @entry, if @task is that one. */
+static void part_called(struct reader *r, struct config_entry *entry, const struct config_entry *task)
+{
+	for (int i = 0; i < entry->calls && task->kind == CONFIG_TASK && task->own_name; i++) {
+		struct block_task *called = &entry->called[i];
+
+		if (called->own_task || !same_text(r, task->own_name, called->task))
+			continue;
+		called->own_task = called->task;
+		called->task = task->name;
+	}
+}
+
 /* Tasks and programs from entry @from on get names that no earlier RESOURCE has: all run on one processor. */
 static void part_names(struct reader *r, struct config *config, int from, uint32_t resource)
 {
@@ -470,6 +501,9 @@ static void part_names(struct reader *r, struct config *config, int from, uint32
 			entry->own_task = entry->task;
 			entry->task = task->name;
 		}
+	for (int i = from; i < config->count; i++)
+		for (int k = from; k < config->count; k++)
+			part_called(r, &config->entry[i], &config->entry[k]);
 }
 
 /* Another RESOURCE behind the first one: an entry, and those in it behind it. */

@@ -72,6 +72,17 @@ static bool is_open_address(struct lex lex)
 	       lex_is(&lex, "*") && !lex.token.space_before;
 }
 
+/* `%IX1.2.3`: rack, module and channel, which the vendor of another controller numbers. */
+static bool is_hierarchical(const struct token *token)
+{
+	int dots = 0;
+
+	for (size_t i = 1; i < token->len; i++)
+		dots += token->text[i] == '.' && ascii_digit(token->text[i - 1]) && i + 1 < token->len &&
+			ascii_digit(token->text[i + 1]);
+	return token->kind == TOKEN_ADDRESS && dots > 1;
+}
+
 static bool read_at(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -92,6 +103,8 @@ static bool read_at(struct reader *r, struct var *var)
 	why = iec_addr_fault(token->text, token->len, &var->at);
 	if (why == DIAG_NOT_ADDRESS && token->kind != TOKEN_ADDRESS)
 		return reader_fail_word(r, DIAG_EXPECTED, "address");
+	if (why == DIAG_NOT_ADDRESS && is_hierarchical(token))
+		why = DIAG_HIERARCHICAL;
 	if (why != DIAG_COUNT)
 		return reader_fail_token(r, why);
 	int len = iec_addr_print(var->at, text, sizeof(text));

@@ -730,7 +730,7 @@ static void init_parts(struct assembler *as)
 		enum diag_id why;
 
 		if (!located_find(project, project_text(project, line->name), &to) ||
-		    (!to.part && !located_is_whole(line)))
+		    (to.part ? !line->has_init || line->inherits : !located_is_whole(line)))
 			continue;
 		if (to.instance && project_is_further(project, to.instance)) {
 			name = project_text(project, to.instance->name);
@@ -738,7 +738,7 @@ static void init_parts(struct assembler *as)
 		}
 		if (to.pou >= 0)
 			m = scope_find(as->translation->scope, &project->pou[to.pou],
-				       names_intern(&project->names, to.text, strlen(to.text)), &why);
+				       scope_within(as->translation->scope, to.text), &why);
 		if (m && to.part)
 			layout_init_over(as, layout_spot(as, m).offset, m->type, line->init);
 		else if (m && m->addr.area == AREA_NONE)

@@ -29,6 +29,24 @@ static void add_call(struct assembler *as, struct code_task *task, int unit)
 	task->count++;
 }
 
+/* The calls of blocks that PROGRAM lines give to @name: project_called(). */
+static void add_called(struct assembler *as, struct code_task *task, uint32_t name)
+{
+	const struct translation *t = as->translation;
+	const struct config *config = config_of(as);
+
+	for (int i = 0; i < config->count; i++)
+		for (int k = 0; k < config->entry[i].calls; k++) {
+			const uint32_t runs = project_called(t->project, &config->entry[i], k);
+
+			if (!same_name(as, config->entry[i].called[k].task, name))
+				continue;
+			for (int unit = 0; unit < t->unit_count; unit++)
+				if (same_name(as, t->unit[unit].pou->name, runs))
+					add_call(as, task, unit);
+		}
+}
+
 /* The programs that a PROGRAM line gives to @name, or, 0, to no task. */
 static void add_named(struct assembler *as, struct code_task *task,
 		      uint32_t name)
@@ -99,6 +117,7 @@ static void add_task(struct assembler *as, const struct config_entry *entry)
 	if (entry->single)
 		task->single = event_of(as, entry->single);
 	add_named(as, task, entry->name);
+	add_called(as, task, entry->name);
 	task->name = entry->name; /* until pack_image knows its string */
 }
 

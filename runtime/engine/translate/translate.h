@@ -64,6 +64,9 @@ bool sfc_to_il(struct translation *translation, struct unit *unit,
  * wrong type. */
 bool st_to_il(struct translation *translation, struct unit *unit, struct arena *scratch);
 
+/** config_blocks - copies that VAR_CONFIG wants around the list of a program: variables within blocks, and their addresses.
+ * Fails: false: no memory. */
+bool config_blocks(struct translation *translation, struct unit *unit, struct il *il);
 /** il_to_il - the list that runs, of one that was written. */
 bool il_to_il(struct translation *translation, struct unit *unit, struct arena *scratch);
 
