@@ -553,7 +553,7 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		struct lex ahead = r->lex;
 
 		lex_next(&ahead);
-		if (r->members)
+		if (r->members && !is_open_address(ahead))
 			return reader_fail_word(r, DIAG_MEMBER_PLACE, names_text(&r->project->names,
 										 table->var[first].name));
 		if (!is_open_address(ahead))
