@@ -173,7 +173,7 @@ static enum status watch_rungs(struct call *call, struct machine *machine,
 	const struct project *project = ladder_project(machine->ladder);
 
 	machine->resource.watch = true;
-	if (project && rungs_show(project, rungs, &machine->resource, options,
+	if (project && rungs_show(project, rungs, &machine->resource, NULL, options,
 				  &nowhere) > 0)
 		return STATUS_GOOD;
 	return report_missing(call, "rung or instance", rungs);

@@ -29,16 +29,17 @@ static void show_head(const struct sink *out, const struct project *project)
 		sink_text(out, "\n");
 }
 
-static enum status show(struct call *call, const struct project *project,
+static enum status show(struct call *call, struct ladder *ladder,
 			const struct resource *resource,
 			const struct show_options *options)
 {
+	const struct project *project = ladder_project(ladder);
 	const char *name = call->arg_count < 2 ? NULL : call->arg[1];
 	int shown;
 
 	if (!name)
 		show_head(&call->out, project);
-	shown = rungs_show(project, name, resource, *options, &call->out);
+	shown = rungs_show(project, name, resource, ladder, *options, &call->out);
 
 	if (shown < 0)
 		return report_no_memory(call->arg[0]);
@@ -57,14 +58,13 @@ static enum status show_after(struct call *call, const char *script,
 	char *text = report_read(script, &len);
 
 	if (text)
-		status = machine_open(&machine, call->arg[0], MACHINE_WATCHED);
+		status = machine_open(&machine, call->arg[0], MACHINE_WATCHED | MACHINE_LISTED);
 	if (status == STATUS_GOOD && !ladder_project(machine.ladder))
 		status = report_no_text(call->arg[0]);
 	if (status == STATUS_GOOD) {
 		status = machine_play(&machine, script, text, len);
 		if (status == STATUS_GOOD || machine.resource.state == STATE_FAULT) {
-			drawn = show(call, ladder_project(machine.ladder),
-				     &machine.resource, options);
+			drawn = show(call, machine.ladder, &machine.resource, options);
 			status = drawn > status ? drawn : status;
 		}
 	}
@@ -94,7 +94,7 @@ enum status cmd_show(struct call *call)
 	status = report_load(ladder, call->arg[0], false);
 	if (status == STATUS_GOOD)
 		status = ladder_project(ladder) ?
-			show(call, ladder_project(ladder), NULL, &options) :
+			show(call, ladder, NULL, &options) :
 			report_no_text(call->arg[0]);
 	ladder_free(ladder);
 	return status;

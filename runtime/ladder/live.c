@@ -237,7 +237,7 @@ static void put_rungs(struct live *live)
 	char *at, *end;
 
 	live->drawing.len = 0;
-	if (rungs_show(live->project, live->rungs, live->board->resource, options,
+	if (rungs_show(live->project, live->rungs, live->board->resource, NULL, options,
 		       &out) < 1)
 		return;
 	for (at = live->drawing.text; at && (end = strchr(at, '\n')) != NULL;

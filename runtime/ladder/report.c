@@ -280,6 +280,7 @@ enum status machine_open(struct machine *machine, const char *path, int how)
 		return report_no_memory(path);
 	ladder_classic_task(machine->ladder, how & MACHINE_AS_FILE);
 	ladder_watch(machine->ladder, how & MACHINE_WATCHED);
+	ladder_watch_lists(machine->ladder, how & MACHINE_LISTED);
 	status = report_load(machine->ladder, path, true);
 	if (status != STATUS_GOOD)
 		return status;

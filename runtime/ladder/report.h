@@ -76,11 +76,12 @@ struct machine {
 	struct ladder *plant_ladder;
 	struct plant plant;       /* memory NULL: none                        */
 };
-/* How machine_open() loads; the last two matter for projects of ClassicLadder only. */
+/* How machine_open() loads; two of them matter for projects of ClassicLadder only. */
 enum {
 	MACHINE_WATCHED = 1,  /* with the power of all cells while resource.watch */
 	MACHINE_FAITHFUL = 2, /* with the faults of ClassicLadder             */
 	MACHINE_AS_FILE = 4,  /* with a task, as `ladder import` writes it    */
+	MACHINE_LISTED = 8,   /* with the results of lists, ladder_watch_lists() */
 };
 /** machine_open - loads and builds @path; @how: bits as above.
  * Owns: machine_close(), always.   Fails: a status after diagnostics. */

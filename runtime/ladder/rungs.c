@@ -3,6 +3,7 @@
  * rungs - finds rungs by name and draws them with the power of the last scan.
  */
 #include "ladder/rungs.h"
+#include "ladder/pins.h"
 
 #include "engine/base/name.h"
 #include "engine/model/fbd.h"
@@ -62,6 +63,7 @@ static int show_named(const struct project *project, const char *name,
 struct powered {
 	const struct project *project;
 	const struct resource *resource;
+	const struct ladder *ladder; /* NULL: without results of networks     */
 	const char *instance; /* NULL: the one that was called last           */
 };
 
@@ -76,6 +78,18 @@ static bool power_of(void *context, int pou, int rung, int row, int col, bool *i
 					 (uint32_t)row, (uint32_t)col, in, out);
 	return resource_power(powered->resource, (uint32_t)pou, (uint32_t)rung,
 			      (uint32_t)row, (uint32_t)col, in, out);
+}
+
+static bool pin_of(void *context, int pou, int network, const struct fbd_graph *graph, int pin, char *text,
+		   size_t size, bool *on)
+{
+	const struct powered *powered = context;
+	const struct pins pins = {
+		.project = powered->project, .resource = powered->resource, .pou = pou, .instance = powered->instance,
+		.il = powered->ladder ? ladder_il(powered->ladder, pou) : NULL,
+	};
+
+	return pins_value(&pins, network, graph, pin, text, size, on);
 }
 
 /* Finds `Main.Fill.X`, or `Fill.X` if the project has only one program. */
@@ -150,15 +164,16 @@ static int show_instance(const struct project *project, const char *full,
 }
 
 int rungs_show(const struct project *project, const char *name,
-	       const struct resource *resource, struct show_options options,
-	       const struct sink *out)
+	       const struct resource *resource, const struct ladder *ladder,
+	       struct show_options options, const struct sink *out)
 {
-	struct powered powered = { .project = project, .resource = resource };
+	struct powered powered = { .project = project, .resource = resource, .ladder = ladder };
 	int shown;
 
 	if (resource) {
 		options.power = power_of;
 		options.step = step_of;
+		options.pin = pin_of;
 		options.context = &powered;
 	}
 	if (!name)

@@ -11,6 +11,8 @@
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
 
+struct fbd_graph;
+
 struct show_options {
 	bool ascii;   /* - | + instead of box characters                      */
 	int width;    /* narrower rungs are stretched to it, in columns; 0: no */
@@ -21,6 +23,10 @@ struct show_options {
 	/* Whether a step of a chart is active, and for how long ("": not known). NULL:
 	 * not known. */
 	bool (*step)(void *context, int pou, int step, char *time, size_t size);
+	/* The value at a pin of a network (model/fbd_graph.h), @network from 0. @text: of a
+	 * number or a text, "" of a BOOL; @on: whether that is TRUE. False, or NULL: not known. */
+	bool (*pin)(void *context, int pou, int network, const struct fbd_graph *graph,
+		    int pin, char *text, size_t size, bool *on);
 	void *context;
 	const char *instance; /* of a block whose rungs are drawn; or NULL    */
 };

@@ -31,6 +31,7 @@ struct canvas {
 	const struct draw *draw;
 	const struct fbd_graph *graph;
 	struct fbd_plan plan;
+	bool *on;                /* by pin: a BOOL that is TRUE; NULL: nothing runs */
 	struct spot *place;
 	int width, height;
 };
@@ -124,6 +125,12 @@ static void put_wires(const struct canvas *canvas)
 	}
 }
 
+/* The line of a wire or a pin. */
+static const char *across(const struct canvas *canvas, int pin)
+{
+	return canvas->on && canvas->on[pin] ? canvas->draw->strokes->powered : canvas->draw->strokes->across;
+}
+
 static const char *wire_glyph(const struct canvas *canvas, const struct spot *place)
 {
 	const bool ascii = canvas->draw->options && canvas->draw->options->ascii;
@@ -132,6 +139,8 @@ static const char *wire_glyph(const struct canvas *canvas, const struct spot *pl
 		return ascii ? "." : "┄";
 	if (place->feedback && (place->arms & ~(JOIN_UP | JOIN_DOWN)) == 0)
 		return ascii ? ":" : "┆";
+	if ((place->arms & ~(JOIN_LEFT | JOIN_RIGHT)) == 0)
+		return across(canvas, place->pin - 1);
 	return canvas->draw->strokes->joint[place->arms];
 }
 
@@ -161,17 +170,17 @@ static void put_edge(const struct canvas *canvas, int x, int y, int width, const
 	put_glyph(canvas, x + width - 1, y, strokes->corner[corner + 1]);
 }
 
-static void put_operand(const struct canvas *canvas, const struct fbd_pin *pin, int x, int y)
+static void put_operand(const struct canvas *canvas, int index, int x, int y)
 {
+	const struct fbd_pin *pin = &canvas->graph->pin[index];
 	const int width = (int)measure(NULL, FBD_TEXT_OPERAND, pin->operand);
-	const char *across = canvas->draw->strokes->across;
 
 	if (pin->output) {
-		put_glyph(canvas, x, y, across);
+		put_glyph(canvas, x, y, across(canvas, index));
 		put_text(canvas, x + (pin->wire < 0 ? 2 : 1), y, pin->operand);
 		return;
 	}
-	put_glyph(canvas, x - 1, y, across);
+	put_glyph(canvas, x - 1, y, across(canvas, index));
 	put_text(canvas, x - 2 - width, y, pin->operand);
 }
 
@@ -188,11 +197,11 @@ static void put_pin(const struct canvas *canvas, int index)
 	if (!value && !pin->open && !fbd_is_end(&canvas->graph->box[pin->box]))
 		put_glyph(canvas, pin->output ? x - 1 : x, y, pin->output ? strokes->close : strokes->open);
 	if (pin->operand)
-		put_operand(canvas, pin, x, y);
+		put_operand(canvas, index, x, y);
 	if (pin->negated)
 		put_glyph(canvas, x - 1, y, "o");
 	if (pin->output && pin->wire >= 0 && !at(canvas, x, y)->pin) /* nobody reads it */
-		put_glyph(canvas, x, y, strokes->across);
+		put_glyph(canvas, x, y, across(canvas, index));
 	if (pin->output && pin->wire >= 0)
 		for (int i = 0, column = x + 1; i < canvas->graph->wire_count; i++) {
 			const struct fbd_wire *wire = &canvas->graph->wire[i];
@@ -326,6 +335,67 @@ static bool draw_canvas(struct canvas *canvas, const struct pou *pou, const stru
 	return true;
 }
 
+/* ---- values ---- */
+
+/* "Level=10", "=10"; @text if memory is out. */
+static const char *with_value(struct fbd_graph *graph, const char *text, const char *value)
+{
+	const size_t room = strlen(text) + strlen(value) + 2;
+	char *out = arena_alloc(&graph->arena, room);
+
+	if (out)
+		snprintf(out, room, "%s=%s", text, value);
+	return out ? out : text;
+}
+
+/* At the name of what has it. A result without a name has its value as one. */
+static void put_value(struct fbd_graph *graph, int index, const char *value)
+{
+	struct fbd_pin *pin = &graph->pin[index];
+	bool named = false;
+
+	if (pin->operand && strcmp(pin->operand, value) != 0)
+		pin->operand = with_value(graph, pin->operand, value);
+	else if (fbd_pin_shows_value(pin))
+		pin->operand = with_value(graph, "", value);
+	if (pin->operand || !pin->output)
+		return;
+	for (int i = 0; i < graph->wire_count && !named; i++) {
+		struct fbd_wire *wire = &graph->wire[i];
+
+		if (wire->from_pin != index)
+			continue;
+		wire->name = with_value(graph, wire->name ? wire->name : "", value);
+		named = true;
+	}
+}
+
+/* All values first: their texts change the names. */
+static bool look(struct canvas *canvas, struct fbd_graph *graph, int index)
+{
+	const struct draw *draw = canvas->draw;
+	const struct show_options *options = draw->options;
+	const size_t pins = (size_t)graph->pin_count + 1;
+	const char **value;
+	char *text;
+
+	if (!options || !options->pin)
+		return true;
+	text = arena_alloc(&graph->arena, IEC_VALUE_TEXT);
+	canvas->on = arena_alloc(&graph->arena, pins);
+	value = arena_alloc(&graph->arena, pins * sizeof(*value));
+	if (!text || !canvas->on || !value)
+		return false;
+	for (int i = 0; i < graph->pin_count; i++)
+		if (options->pin(options->context, draw->pou, index, graph, i, text, IEC_VALUE_TEXT,
+				 &canvas->on[i]) && *text)
+			value[i] = with_value(graph, "", text) + 1;
+	for (int i = 0; i < graph->pin_count; i++)
+		if (value[i])
+			put_value(graph, i, value[i]);
+	return true;
+}
+
 bool draw_network(struct draw *draw, const struct pou *pou, int index)
 {
 	static const struct fbd_metrics metrics = {
@@ -338,7 +408,7 @@ bool draw_network(struct draw *draw, const struct pou *pou, int index)
 
 	if (!fbd_graph_make(draw->project, pou, index, &graph))
 		return false;
-	good = fbd_plan_make(&graph, &metrics, &canvas.plan);
+	good = look(&canvas, &graph, index) && fbd_plan_make(&graph, &metrics, &canvas.plan);
 	if (good)
 		good = draw_canvas(&canvas, pou, &pou->fbd->network[index]);
 	fbd_plan_free(&canvas.plan);
