@@ -183,6 +183,47 @@ for (['MAX(n, 3) > 4 AND R_EDGE(Go)', 1], ['(MAX(n, 3) > 4) AND R_EDGE(Go)', 1],
 	ok($sure ? $good : !$good && $said =~ /^edge.rung:10: error LD786/m, "$value: " . ($sure ? 'converted' : 'refused')) or diag($said);
 }
 
+# Several coils of one condition are one rung, and stay one as networks and back.
+{
+	spew("$dir/coils.rung", <<'END');
+RUNGBOARD 1
+
+VAR
+  A  AT %IX0.0 : BOOL;
+  B  AT %IX0.1 : BOOL;
+  X  AT %QX0.0 : BOOL;
+  Y  AT %QX0.1 : BOOL;
+  Z  AT %QX0.2 : BOOL;
+  T1 : TON;
+END_VAR
+
+(* above the program *)
+PROGRAM Main LD
+// above the rung
+RUNG "two coils"
+  | NO A | NC B | COIL X |
+  |      |     ^| S Y    |
+RUNG Two "three, behind a branch"
+  | NO A  | NO B | COIL X |
+  | NO X ^|     ^| S Y    |
+  |       |     ^| R Z    |
+RUNG "a branch that is the last"
+  | NO A  | COIL X |
+  | NO B ^| COIL Y |
+RUNG "behind a timer"
+  | NO A | TON T1 PT:=T#1s | COIL X |
+  |      |                ^| COIL Y |
+RUNG
+  | NC B | JMP Two |
+(* at the end *)
+END_PROGRAM
+END
+	my ($good, $said) = back('coils.rung', 'again.rung');
+	ok($good, 'several coils become networks and a ladder again') or diag($said);
+	system "cd $dir && $ladder fmt again.rung";
+	is(slurp("$dir/again.rung"), slurp("$dir/coils.rung"), 'which is the same');
+}
+
 # What a chart's ladders cannot say in another language has the place in the chart.
 {
 	spew("$dir/place.rung", <<'END');

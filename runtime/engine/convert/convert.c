@@ -84,9 +84,12 @@ static bool put_pou(struct acts *acts, int number, const char *text, const struc
 
 	if (!is_known(pou->language, to))
 		return refuse_language(acts, pou, to);
-	return put_heading(sink, text + whole->at, body->at - whole->at,
-			   pou_language_word(pou->language), to) &&
-	       convert_one(acts, pou, to, sink);
+	if (!put_heading(sink, text + whole->at, body->at - whole->at, pou_language_word(pou->language), to) ||
+	    !convert_one(acts, pou, to, sink))
+		return false;
+	if (pou->tail)
+		sink_printf(sink, "%s\n", project_text(acts->project, pou->tail));
+	return true;
 }
 
 /* POUs stand in the text in the order of their places, which need not be that of their numbers. */

@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
 #include "engine/check/infer.h"
 #include "engine/check/mixed.h"
 #include "engine/model/expr_args.h"
@@ -43,7 +44,7 @@ struct ladders {
 	const struct sink *sink;
 	const struct fbd_network *network;
 	bool begun;            /* it has a rung                                */
-	bool skip;             /* the next line stands in the rung before      */
+	int skip;              /* so many lines stand in the rung before       */
 	uint32_t comment;      /* for the next rung: string id                 */
 	uint32_t (*cell)[LIMIT_COLS]; /* string ids                            */
 	bool (*link)[LIMIT_COLS]; /* of the bar behind the cell                 */
@@ -60,7 +61,8 @@ struct box {
 	struct branch branch[LIMIT_ARGS];
 	int branches;
 	const struct path *power;
-	uint32_t behind;       /* the coil behind it: string id; 0: none       */
+	uint32_t behind[WIDE]; /* the coils behind it: string ids              */
+	int coils;
 };
 
 static const char *text_of(const struct ladders *l, uint32_t id)
@@ -220,6 +222,14 @@ static void put_rung(struct ladders *l, const struct path *path, uint32_t first,
 	if (second)
 		set(l, 0, path->width + 1, second);
 	put_rows(l);
+}
+
+/* The rung of a condition with several coils, from column @col on. */
+static void put_coils(struct ladders *l, const uint32_t *coil, int count, int col)
+{
+	for (int i = 0; i < count; i++)
+		set(l, i, col, coil[i]);
+	join(l, 1, count - 1, col);
 }
 
 /* ---- values that are kept aside ---- */
@@ -1037,8 +1047,7 @@ static void put_box(struct ladders *l, struct box *box)
 		fill(l, 0, box->power->width, col);
 	}
 	set(l, 0, col, text);
-	if (box->behind)
-		set(l, 0, col + 1, box->behind);
+	put_coils(l, box->behind, box->coils, col + 1);
 	for (int i = 0, at = 1; i < box->branches; i++) {
 		const struct path *path = box->branch[i].path;
 		char pin[LIMIT_NAME + 8];
@@ -1190,9 +1199,8 @@ static bool is_power_of(struct ladders *l, const struct meaning *instance, const
 	       m->offset == instance->offset + row->pin[out].offset;
 }
 
-/* The coil of the line behind @item, if that stores the power behind the block alone; 0: it does not. */
-static uint32_t coil_behind(struct ladders *l, const struct st_item *item, const struct meaning *instance,
-			    const struct word_row *row)
+/* The coil of a line that stores a BOOL, and the value, which is the root then; 0: it is another line. */
+static uint32_t coil_of(struct ladders *l, const struct st_item *item)
 {
 	const struct expr *expr = l->acts->expr;
 	const struct meaning *target;
@@ -1200,15 +1208,14 @@ static uint32_t coil_behind(struct ladders *l, const struct st_item *item, const
 	struct st_walk walk;
 	struct st_part part;
 
-	if (l->names.item + 1 >= l->network->first + l->network->count || word_first_bool(row, PIN_IN) < 0)
-		return 0;
-	item++;
 	st_begin(&walk, &l->acts->project->names, item);
 	if (item->kind == ST_ASSIGN) {
 		if (!next_part(l, &walk, &part) || walk.stores > 0 || !expr->target || expr->target_points ||
 		    expr->target_tried || expr->target_index >= 0 || expr->target_bit.len)
 			return 0;
 		target = acts_meaning(l->acts, acts_intern(l->acts, expr->target, expr->target_len));
+		if (!target)
+			return 0;
 		operand = text_with_wires(l, expr->target, expr->target_len);
 	} else if (item->kind == ST_SET || item->kind == ST_RESET) {
 		const struct expr_node *place_node;
@@ -1224,11 +1231,139 @@ static uint32_t coil_behind(struct ladders *l, const struct st_item *item, const
 	} else {
 		return 0;
 	}
-	if (!target || target->type != IEC_BOOL || meaning_is_whole(target) || target->through ||
-	    !is_power_of(l, instance, row))
-		return 0;
-	l->skip = true;
-	return cell(l, word, operand)->text;
+	return target->type != IEC_BOOL || meaning_is_whole(target) || target->through ? 0 : cell(l, word, operand)->text;
+}
+
+static void add_comment(struct ladders *l, const char *text, size_t len)
+{
+	struct sink_memory memory;
+
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	if (l->comment)
+		sink_printf(&sink, "%s\n", text_of(l, l->comment));
+	sink_write(&sink, text, len);
+	l->comment = take_text(l, &memory);
+}
+
+static void add_inside(struct ladders *l, const struct st_item *item)
+{
+	size_t len, found;
+	const char *text = item_text(l, item, &len);
+
+	for (size_t at = 0; item->kind != ST_COMMENT && (found = networks_comment(text, len, &at)) > 0; at += found)
+		add_comment(l, text + at, found);
+}
+
+/* The line behind the one that is *by lines below that in work; NULL: there is none. Comments are passed. */
+static const struct st_item *line_behind(const struct ladders *l, int *by)
+{
+	const int end = l->network->first + l->network->count - l->names.item;
+
+	while (++*by < end)
+		if (l->acts->pou->st->item[l->names.item + *by].kind != ST_COMMENT)
+			return &l->acts->pou->st->item[l->names.item + *by];
+	return NULL;
+}
+
+/* So many lines more stand in the rung. Their comments stand above it. */
+static void take_lines(struct ladders *l, int count)
+{
+	for (int i = 1; i <= count; i++) {
+		const struct st_item *item = &l->acts->pou->st->item[l->names.item + i];
+		size_t len;
+		const char *text = item_text(l, item, &len);
+
+		if (item->kind == ST_COMMENT)
+			add_comment(l, text, len);
+		else
+			add_inside(l, item);
+	}
+	l->skip = count;
+}
+
+/* The coils of the lines behind a call that store the power behind the block alone. A row of a pin has no room. */
+static void coils_behind(struct ladders *l, struct box *box, const struct meaning *instance, const struct word_row *row)
+{
+	const struct st_item *item;
+	int by = 0, last = 0;
+
+	while (word_first_bool(row, PIN_IN) >= 0 && box->coils < (box->branches ? 1 : WIDE) &&
+	       (item = line_behind(l, &by)) != NULL) {
+		const uint32_t coil = coil_of(l, item);
+
+		if (!coil || !is_power_of(l, instance, row))
+			break;
+		box->behind[box->coils++] = coil;
+		last = by;
+	}
+	take_lines(l, last);
+}
+
+/* ---- one value for several coils ---- */
+
+/* How many lines of the network read the wire; other uses count as many. */
+static int readers_of(struct ladders *l, const char *name, size_t len)
+{
+	int count = 0;
+
+	for (int i = 0; i < l->network->count; i++) {
+		struct fbd_names walk;
+		struct token token;
+		enum fbd_use use;
+		bool whole;
+
+		fbd_names_begin(&walk, &l->acts->project->names, &l->acts->pou->st->item[l->network->first + i]);
+		while (fbd_names_next(&walk, &token, &use, &whole))
+			if (name_same(token.text, token.len, name, len) && use != FBD_WRITTEN)
+				count += use == FBD_READ && whole ? 1 : LIMIT_ROWS;
+	}
+	return count;
+}
+
+/* Wire := value, and lines below that store the wire alone, which nothing else reads: one rung. */
+static bool share(struct ladders *l, const struct st_item *item)
+{
+	const struct expr *expr = l->acts->expr;
+	const struct st_item *reader;
+	const struct path *path;
+	uint32_t coil[WIDE];
+	struct st_walk walk;
+	struct st_part part;
+	const char *wire;
+	size_t len;
+	int count = 0, by = 0, last = 0;
+
+	st_begin(&walk, &l->acts->project->names, item);
+	if (!next_part(l, &walk, &part) || walk.stores > 0 || !expr->target || expr->target_points || expr->target_tried ||
+	    expr->target_index >= 0 || expr->target_bit.len || !is_drawn(l, expr->root))
+		return false;
+	wire = expr->target;
+	len = expr->target_len;
+	if (fbd_wire(&l->acts->project->names, l->acts->pou, l->names.network, wire, len) < 0)
+		return false;
+	while (count < WIDE && (reader = line_behind(l, &by)) != NULL) {
+		const uint32_t one = coil_of(l, reader);
+		const struct expr_node *value = node_of(l, expr->root);
+
+		if (!one || value->op != EXPR_NAME || !name_same(value->text, value->len, wire, len))
+			break;
+		coil[count++] = one;
+		last = by;
+	}
+	if (count < 2 || readers_of(l, wire, len) != count)
+		return false;
+	st_begin(&walk, &l->acts->project->names, item);
+	if (!next_part(l, &walk, &part))
+		return false;
+	path = path_of(l, expr->root, false);
+	take_lines(l, last);
+	heading(l);
+	place(l, path, 0, 0);
+	put_coils(l, coil, count, path->width);
+	put_rows(l);
+	return true;
 }
 
 static void call(struct ladders *l, const struct st_item *item)
@@ -1271,7 +1406,7 @@ static void call(struct ladders *l, const struct st_item *item)
 		put_text(l, node->text, node->len, &sink);
 	}
 	block_parts(l, box, item, row, m, true);
-	box->behind = coil_behind(l, item, m, row);
+	coils_behind(l, box, m, row);
 	put_box(l, box);
 }
 
@@ -1363,7 +1498,7 @@ static bool function(struct ladders *l, const struct meaning *target, const char
 			sink_text(&sink, " ENO=>");
 			put_text(l, place_node->text, place_node->len, &sink);
 		} else {
-			box->behind = cell(l, "COIL", name_text(l, place_node))->text;
+			box->behind[box->coils++] = cell(l, "COIL", name_text(l, place_node))->text;
 		}
 	}
 	put_box(l, box);
@@ -1461,31 +1596,19 @@ static void assign(struct ladders *l, const struct st_item *item)
 
 /* ---- networks ---- */
 
-static void add_comment(struct ladders *l, const char *text, size_t len)
-{
-	struct sink_memory memory;
-
-	sink_memory_init(&memory);
-	const struct sink sink = sink_to_memory(&memory);
-
-	if (l->comment)
-		sink_printf(&sink, "%s\n", text_of(l, l->comment));
-	sink_write(&sink, text, len);
-	l->comment = take_text(l, &memory);
-}
-
 static void put_item(struct ladders *l, const struct st_item *item)
 {
-	const char *text;
 	size_t len;
+	const char *text = item_text(l, item, &len);
 
+	add_inside(l, item);
 	switch ((enum st_kind)item->kind) {
 	case ST_COMMENT:
-		text = item_text(l, item, &len);
 		add_comment(l, text, len);
 		break;
 	case ST_ASSIGN:
-		assign(l, item);
+		if (!share(l, item))
+			assign(l, item);
 		break;
 	case ST_CALL:
 		call(l, item);
@@ -1574,7 +1697,7 @@ static void put_network(struct ladders *l, int number)
 		for (int i = 0; i < l->network->count; i++) {
 			l->names.item = l->network->first + i;
 			if (l->skip) {
-				l->skip = false;
+				l->skip--;
 				continue;
 			}
 			put_item(l, &acts->pou->st->item[l->names.item]);

@@ -315,6 +315,54 @@ void networks_statement(struct networks *n, const struct st_item *item, const st
 	sink_text(line, value ? "END_IF;\n" : "");
 }
 
+static size_t quoted(const char *text, size_t len)
+{
+	size_t at = 1;
+
+	while (at < len && text[at] != text[0])
+		at += text[at] == '$' ? 2 : 1;
+	return at < len ? at + 1 : len;
+}
+
+static size_t comment_length(const char *text, size_t len)
+{
+	const char *end;
+
+	if (len < 2 || (memcmp(text, "(*", 2) != 0 && memcmp(text, "//", 2) != 0))
+		return 0;
+	if (*text == '/') {
+		end = memchr(text, '\n', len);
+		return end ? (size_t)(end - text) : len;
+	}
+	for (size_t at = 2, depth = 1; at + 1 < len; at++) {
+		depth += memcmp(text + at, "(*", 2) == 0;
+		if (memcmp(text + at, "*)", 2) == 0 && --depth == 0)
+			return at + 2;
+	}
+	return len;
+}
+
+size_t networks_comment(const char *text, size_t len, size_t *at)
+{
+	size_t found = 0;
+
+	while (*at < len && !(found = comment_length(text + *at, len - *at)))
+		*at += text[*at] == '\'' || text[*at] == '"' ? quoted(text + *at, len - *at) : 1;
+	return found;
+}
+
+/* Comments inside of a line stand above it: its words are written anew. */
+static void put_inside(struct networks *n, const struct st_item *item)
+{
+	const char *text = text_of(n, item->text);
+	size_t len = names_len(&n->acts->project->names, item->text), found;
+
+	for (size_t at = 0; item->kind != ST_COMMENT && (found = networks_comment(text, len, &at)) > 0; at += found) {
+		sink_write(n->sink, text + at, found);
+		sink_text(n->sink, "\n");
+	}
+}
+
 static void put_lines(struct networks *n, const struct fbd_network *network)
 {
 	const struct pou *pou = n->acts->pou;
@@ -327,6 +375,7 @@ static void put_lines(struct networks *n, const struct fbd_network *network)
 		const struct sink to_line = sink_to_memory(&line), to_before = sink_to_memory(&before);
 
 		n->item = network->first + i;
+		put_inside(n, &pou->st->item[n->item]);
 		networks_statement(n, &pou->st->item[n->item], &to_line, &to_before);
 		sink_text(n->sink, sink_memory_text(&before));
 		sink_text(n->sink, sink_memory_text(&line));

@@ -35,6 +35,9 @@ void networks_text(struct networks *n, const char *text, size_t len, const struc
 /** networks_statement - an item as a statement. */
 void networks_statement(struct networks *n, const struct st_item *item, const struct sink *line,
 			const struct sink *before);
+/** networks_comment - the next comment inside of a line, from byte *@at of its text on; gets its begin there. The
+ * length; 0: there is none. */
+size_t networks_comment(const char *text, size_t len, size_t *at);
 /** networks_kept - the next wire that PREVIOUS names; *@at: 0 at first. False: there is none. */
 bool networks_kept(struct networks *n, int *at, uint32_t *before, uint32_t *wire, enum iec_type *type);
 /**
