@@ -1067,6 +1067,13 @@ static void add_columns(LadderWatchView *view)
 	}
 }
 
+void ladder_watch_view_show(LadderWatchView *view, const char *name)
+{
+	g_free(view->chart_name);
+	view->chart_name = g_strdup(name);
+	refresh(view);
+}
+
 /* ---- the widget ---- */
 
 static void chart_chosen(GtkDropDown *drop, GParamSpec *spec, LadderWatchView *view)

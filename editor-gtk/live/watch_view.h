@@ -19,5 +19,7 @@ GtkWidget *ladder_watch_view_new(LadderDocument *document, LadderSim *sim);
 /** ladder_watch_view_add - adds rows for the names of a line (watch_names.h) behind the selected
  * row; makes a chart if there is none. False: nothing was added. */
 bool ladder_watch_view_add(LadderWatchView *view, const char *line);
+/** ladder_watch_view_show - brings a chart of the project to the front, by its name in the file. */
+void ladder_watch_view_show(LadderWatchView *view, const char *name);
 
 #endif

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/row_move.h"
+#include "editor-gtk/kit/settings.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -235,6 +236,10 @@ static gboolean go(gpointer data)
 					   row->rung, -1, -1);
 	else if (row->kind == ROW_TEXT)
 		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
+	else if (row->kind == ROW_CHART)
+		gtk_widget_activate_action(tree->list, "win.show-chart", "s", row->path);
+	else if (row->kind == ROW_BOARD)
+		gtk_widget_activate_action(tree->list, "win.connect-board", "s", row->path);
 	else if (row->kind == ROW_SYMBOLS)
 		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
 	else if (row->kind == ROW_TASKS || row->kind == ROW_TASK)
@@ -906,6 +911,8 @@ static void tree_free(gpointer pointer)
 	if (tree->sim)
 		g_signal_handlers_disconnect_by_data(tree->sim, tree);
 	g_clear_object(&tree->sim);
+	if (settings_get())
+		g_signal_handlers_disconnect_by_data(settings_get(), tree);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);
@@ -1020,6 +1027,8 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 				 tree);
 	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow_later), tree);
+	if (settings_get())
+		g_signal_connect_swapped(settings_get(), "changed::boards", G_CALLBACK(refill), tree);
 	follow(tree);
 	return box;
 }

@@ -11,6 +11,8 @@
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/settings.h"
+#include "editor-gtk/live/watch.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include "engine/base/name.h"
@@ -348,6 +350,36 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 		}
 }
 
+static void add_charts(GListStore *root, LadderDocument *document)
+{
+	GPtrArray *charts = watch_list_of(document);
+	LadderTreeRow *heading = charts->len ? add_heading(root, _("Status charts")) : NULL;
+
+	for (guint i = 0; i < charts->len; i++) {
+		const struct watch *chart = charts->pdata[i];
+		LadderTreeRow *row = add_row(heading->rows, ROW_CHART,
+			*chart->name ? chart->name : _("Status chart"),
+			g_strdup_printf("%u", chart->lines->len));
+
+		row->path = g_strdup(chart->name);
+	}
+	g_ptr_array_unref(charts);
+}
+
+/* Boards that were connected, the newest first. */
+static void add_boards(GListStore *root)
+{
+	char **boards = settings_get() ? g_settings_get_strv(settings_get(), "boards") : NULL;
+	LadderTreeRow *heading = boards && *boards ? add_heading(root, _("Boards")) : NULL;
+
+	for (int i = 0; heading && boards[i]; i++) {
+		LadderTreeRow *row = add_row(heading->rows, ROW_BOARD, boards[i], NULL);
+
+		row->path = g_strdup(boards[i]);
+	}
+	g_strfreev(boards);
+}
+
 static void add_all(GListStore *root, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
@@ -362,10 +394,12 @@ static void add_all(GListStore *root, LadderDocument *document)
 	add_types(root, project);
 	add_row(root, ROW_ADDRESSES, _("Address map"), NULL);
 	add_bookmarks(root, document);
+	add_charts(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);
 	add_texts(root, document, _("I/O maps"), ".io", true);
 	add_texts(root, document, _("Other I/O maps"), ".io", false);
 	add_files(root, project);
+	add_boards(root);
 }
 
 /* ---- what became of them ---- */

@@ -14,14 +14,15 @@ G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
 
 enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
 		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT, ROW_TASKS, ROW_TASK, ROW_TYPES,
-		ROW_ADDRESSES, ROW_RUNS };
+		ROW_ADDRESSES, ROW_RUNS, ROW_CHART, ROW_BOARD };
 
 struct _LadderTreeRow {
 	GObject parent_instance;
 	enum row_kind kind;
 	int pou, rung;      /* pou of a STRUCTURE: its index                   */
 	int what;           /* TASK, RUNS (a program below one): enum task_what */
-	char *text, *note, *path;
+	char *text, *note;
+	char *path;         /* TEXT: file; CHART: name in the project; BOARD: where it is */
 	bool parent;        /* it has children                                 */
 	bool missing;       /* the board runs without it as it is              */
 	GListStore *rows;   /* the children, once asked for                    */

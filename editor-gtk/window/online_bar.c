@@ -352,7 +352,7 @@ static void order(struct online_bar *bar, enum mode_wish wish)
 
 /* ---- connecting ---- */
 
-static void online_bar_connect(struct online_bar *bar, const char *where)
+void online_bar_connect(struct online_bar *bar, const char *where)
 {
 	char *why = NULL;
 

@@ -722,6 +722,10 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 		scenarios_expect(&window->scenarios, text);
 	else if (strcmp(name, "win.watch-value") == 0)
 		names_watch_this(&window->core, text);
+	else if (strcmp(name, "win.show-chart") == 0)
+		ladder_watch_view_show(LADDER_WATCH_VIEW(below_show(&window->below, "watch")), text);
+	else if (strcmp(name, "win.connect-board") == 0)
+		online_bar_connect(&window->online_bar, text);
 	else if (strcmp(name, "win.show-panel") == 0)
 		below_show(&window->below, text);
 	else if (strcmp(name, "win.show-task") == 0)
@@ -826,6 +830,7 @@ static void install_actions(GtkWidgetClass *class)
 {
 	static const char *const on_text[] = {
 		"win.show-task", "win.rename-task", "win.delete-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
+		"win.show-chart", "win.connect-board",
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
 	static const char *const on_pou[] = {

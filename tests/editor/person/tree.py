@@ -56,6 +56,31 @@ def bookmarks(screen):
     assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
 
 
+def charts_and_boards(screen):
+    """status charts and boards of before stand in the tree; Enter opens a chart, a double click too, and a board is asked"""
+    charts = 'VIEW\n  status-chart Inputs\n    watch auto %IX0.0\n    watch auto %IX0.1\n  status-chart Lamps\n    watch auto %QX0.2\nEND_VIEW\n'
+    settings = os.path.join(screen.home, '.config', 'glib-2.0', 'settings')
+    os.makedirs(settings)
+    with open(os.path.join(settings, 'keyfile'), 'w') as out:
+        out.write("[org/rungboard/Editor]\nboards=['unix:/nowhere/board']\n")
+    path = new_file(screen, TEXT + '\n' + charts)
+    editor = Editor(screen, path, GSETTINGS_BACKEND='keyfile', XDG_CONFIG_HOME=os.path.join(screen.home, '.config'))
+    editor.find('Status charts', 'label')
+    editor.find('Boards', 'label')
+    editor.click(editor.find('Lamps', 'label'), count=2)
+    until(lambda: [node for node in editor.all('New value') if node.name.startswith('%QX0.2')], 'the chart of the lamps')
+    editor.shot('tree-charts')
+    editor.click(editor.find('Inputs', 'label'))
+    editor.keys('Return')
+    until(lambda: [node for node in editor.all('New value') if node.name.startswith('%IX0.1')], 'the chart of the inputs')
+    assert not [node for node in editor.all('New value') if node.name.startswith('%QX0.2')]
+    assert editor.save(path) == TEXT + '\n' + charts if editor.all('not saved') else open(path).read() == TEXT + '\n' + charts
+    editor.click(editor.find('unix:/nowhere/board', 'label'), count=2)
+    editor.says('/nowhere/board')
+    until(lambda: [node for node in editor.all('nowhere') if 'unix:' not in node.name], 'why it does not answer')
+    editor.shot('tree-board')
+
+
 def by_name(screen):
     """commands of the tree's menu are found by name, too; impossible ones say why; a bookmark shows rung and title"""
     path = new_file(screen, TEXT.replace('RUNG\n  | NO %IX0.1', 'RUNG "Washing is over, all of it is dry"\n  | NO %IX0.1'))
@@ -886,4 +911,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, pins_moved, declares, to_file, to_project, beside])
+main([bookmarks, charts_and_boards, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, pins_moved, declares, to_file, to_project, beside])
