@@ -996,12 +996,12 @@ static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
 	}
 }
 
-/* Puts a comment on paper that did not fit at @x beside its box. */
+/* Puts a comment on paper that did not fit at @at beside its box. */
 static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
-			const char *comment, float x, bool *any)
+			const char *comment, graphene_point_t at, bool *any)
 {
 	const float room = fminf(SFC_BOUND,
-			sfc_sheet_room(chart, chart->layout->shape[shape].lane, x));
+			sfc_sheet_room(chart, chart->layout->shape[shape].lane, at.x, at.y));
 	char *line;
 
 	if (!*comment || lettering_fit(pages->lettering, LETTER_COMMENT, comment, -1,
@@ -1022,12 +1022,13 @@ static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
 
 	for (int i = 0; i < chart->layout->shape_count; i++)
 		put_comment(pages, chart, i, chart->comment[i],
-			    sfc_sheet_comment(chart, i).x, &any);
+			    sfc_sheet_comment(chart, i), &any);
 	for (int i = 0; i < sfc->use_count; i++) {
 		const graphene_rect_t use = sfc_sheet_use(chart, i);
 
 		put_comment(pages, chart, sfc->use[i].step, chart->use_comment[i],
-			    use.origin.x + use.size.width + SFC_APART, &any);
+			    GRAPHENE_POINT_INIT(use.origin.x + use.size.width + SFC_APART,
+						use.origin.y + use.size.height / 2), &any);
 	}
 	pages->y += any ? PAGE_AIR : 0;
 }

@@ -219,7 +219,7 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 /* Draws a comment, cut to the room it has. */
 static void draw_aside(const struct nib *nib, int shape, const char *text, float x, float y)
 {
-	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x) -
+	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x, y) -
 			   (nib->compared ? SIGN_ROOM : 0);
 
 	if (*text && room > SFC_APART)

@@ -7,6 +7,7 @@
 #include "engine/show/sfc_words.h"
 
 #include <glib.h>
+#include <math.h>
 
 #define LEAST_HALF 36  /* px: half of a box                                     */
 #define BOX_SIDE   14  /* px beside the name in a box                           */
@@ -198,6 +199,49 @@ static void find_twins(struct sfc_sheet *sheet)
 	}
 }
 
+/* Are shapes or wires of a lane in these rows? */
+static bool is_taken(const struct sfc_layout *layout, int lane, int first, int last)
+{
+	for (int i = 0; i < layout->shape_count; i++)
+		if (layout->shape[i].lane == lane && layout->shape[i].top <= last &&
+		    layout->shape[i].bottom >= first)
+			return true;
+	for (int i = 0; i < layout->wire_count; i++) {
+		const struct sfc_wire *wire = &layout->wire[i];
+
+		if (MIN(wire->lane, wire->end_lane) <= lane &&
+		    MAX(wire->lane, wire->end_lane) >= lane &&
+		    MIN(wire->row, wire->end_row) <= last && MAX(wire->row, wire->end_row) >= first)
+			return true;
+	}
+	return false;
+}
+
+/* The first lane right of @lane that has something at the height @y; the number of lanes: none. */
+static int next_lane(const struct sfc_sheet *sheet, int lane, float y)
+{
+	const float row = (y - SFC_EDGE) / SFC_ROW;
+	int next = lane + 1;
+
+	while (next < sheet->layout->lanes &&
+	       !is_taken(sheet->layout, next, (int)floorf(row), (int)ceilf(row)))
+		next++;
+	return next;
+}
+
+/* Comments that nothing stands beside make the chart wider. */
+static void widen(struct sfc_sheet *sheet)
+{
+	for (int i = 0; i < sheet->layout->shape_count; i++) {
+		const graphene_point_t at = sfc_sheet_comment(sheet, i);
+
+		if (*sheet->comment[i] && next_lane(sheet, sheet->layout->shape[i].lane, at.y) ==
+		    sheet->layout->lanes)
+			sheet->width = MAX(sheet->width, SFC_EDGE + at.x +
+					   width_of(sheet, LETTER_COMMENT, sheet->comment[i]));
+	}
+}
+
 struct sfc_sheet *sfc_sheet_new(const struct project *project, const struct pou *pou,
 				struct lettering *lettering)
 {
@@ -213,6 +257,7 @@ struct sfc_sheet *sfc_sheet_new(const struct project *project, const struct pou 
 	sheet->table = g_new0(struct sfc_table, pou->sfc->step_count + 1);
 	make_texts(sheet);
 	measure(sheet);
+	widen(sheet);
 	find_twins(sheet);
 	return sheet;
 }
@@ -271,12 +316,13 @@ graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape)
 		box.origin.y + box.size.height / 2);
 }
 
-float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x)
+float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x, float y)
 {
-	const struct sfc_lane *next = &sheet->lane[lane + 1];
+	const int next = next_lane(sheet, lane, y);
 
-	return lane == sheet->layout->lanes - 1 ? MAX(MIN(SFC_BOUND, sheet->width - x), 0) :
-	       MAX(next->x - MAX(next->half, SFC_BAR) - 10 - x, 0);
+	if (next == sheet->layout->lanes)
+		return MAX(MIN(SFC_BOUND, sheet->width - x), 0);
+	return MAX(sheet->lane[next].x - MAX(sheet->lane[next].half, SFC_BAR) - 10 - x, 0);
 }
 
 graphene_rect_t sfc_sheet_use(const struct sfc_sheet *sheet, int use)

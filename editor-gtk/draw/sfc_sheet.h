@@ -54,8 +54,8 @@ void sfc_sheet_free(struct sfc_sheet *sheet);
 /** sfc_sheet_comment - where the comment of step or transition @shape begins: x, and the
  * middle of its line. */
 graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape);
-/** sfc_sheet_room - px from @x to the lane right of @lane. */
-float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x);
+/** sfc_sheet_room - px from @x to the next lane right of @lane that has something at the height @y. */
+float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x, float y);
 /** sfc_sheet_y - the middle of a row. */
 float sfc_sheet_y(int row);
 /** sfc_sheet_box - of a shape: the box of a step, bar and text of a transition, arrow

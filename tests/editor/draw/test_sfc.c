@@ -238,6 +238,36 @@ static bool has_text(LadderDocument *document, const char *want)
 	return has;
 }
 
+/* A comment has the room up to the next thing at its height, not only up to the next branch. */
+static void check_comment(void)
+{
+	static const char text[] = "RUNGBOARD 1\n\nPROGRAM P SFC\n"
+		"  INITIAL_STEP S0: (* this comment stands above the branches and has room "
+		"there *)\n  END_STEP\n\n"
+		"  STEP S1:\n  END_STEP\n\n  STEP S2:\n  END_STEP\n\n"
+		"  TRANSITION FROM S0 TO S1 := I0.0; END_TRANSITION\n\n"
+		"  TRANSITION FROM S0 TO S2 := I0.1; END_TRANSITION\n\n"
+		"  TRANSITION FROM S1 TO S0 := I0.2; END_TRANSITION\n\n"
+		"  TRANSITION FROM S2 TO S0 := I0.3; END_TRANSITION\nEND_PROGRAM\n";
+	LadderDocument *document = ladder_document_new();
+	const struct project *project;
+	struct sfc_sheet *sheet;
+	struct picture picture;
+	char *lines;
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	project = ladder_document_project(document);
+	sheet = sfc_sheet_new(project, &project->pou[0], lettering);
+	draw(sheet, NULL, &picture);
+	lines = picture_lines(&picture);
+	CHECK_AS(strstr(lines, "above the branches") != NULL, "a comment above branches is not cut");
+	CHECK(count_faults(&picture, sheet) == 0);
+	g_free(lines);
+	picture_clear(&picture);
+	sfc_sheet_free(sheet);
+	g_object_unref(document);
+}
+
 static void check_bodies(void)
 {
 	LadderDocument *document = ladder_document_new();
@@ -278,6 +308,7 @@ int main(void)
 	check_marked("tests/golden/show-sfc-ways/main.rung");
 	check_marked("ladders/sequence-s0-s8.rung");
 	check_marked("ladders/washing-machine.rung");
+	check_comment();
 	check_bodies();
 	lettering_free(lettering);
 	return tap_done();
