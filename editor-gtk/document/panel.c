@@ -586,7 +586,7 @@ static void fit(struct panel_list *list)
 			continue;
 		each->set = wish_of(each) - less + grown;
 		if (each->set != now)
-			gtk_column_view_column_set_fixed_width(each->column, each->set);
+			list_set_column_width(each->column, each->set);
 	}
 }
 

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -407,7 +408,7 @@ void iomap_live_add(struct iomap_live *live, struct panel_list *list)
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), live);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), live);
 	column = panel_list_add(list, _("Value"), IOMAP_VALUE, PANEL_LIVE, 104, factory);
-	gtk_column_view_column_set_visible(column, FALSE);
+	list_show_column(column, false);
 	g_ptr_array_add(live->columns, column);
 }
 
@@ -432,7 +433,7 @@ static void state_changed(GObject *owner)
 	if (!live->cells)
 		return; /* the owner is disposed */
 	for (guint i = 0; i < live->columns->len; i++)
-		gtk_column_view_column_set_visible(live->columns->pdata[i], on);
+		list_show_column(live->columns->pdata[i], on);
 	if (!on && live->test)
 		gtk_popover_popdown(GTK_POPOVER(live->test));
 	show_all(live);

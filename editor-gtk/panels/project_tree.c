@@ -863,6 +863,22 @@ static GtkWidget *text_of(GtkListItem *item)
 		GTK_TREE_EXPANDER(expander)));
 }
 
+/* The width of a text in average characters, as GTK counts: narrow letters leave their room to the note. */
+static int chars_wide(GtkWidget *label, const char *text)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(label, text);
+	PangoFontMetrics *metrics = pango_context_get_metrics(pango_layout_get_context(layout),
+							      NULL, NULL);
+	const int each = MAX(pango_font_metrics_get_approximate_char_width(metrics),
+			     pango_font_metrics_get_approximate_digit_width(metrics));
+	int width;
+
+	pango_layout_get_size(layout, &width, NULL);
+	pango_font_metrics_unref(metrics);
+	g_object_unref(layout);
+	return (width + each - 1) / MAX(each, 1);
+}
+
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	GtkTreeListRow *list_row = gtk_list_item_get_item(item);
@@ -874,9 +890,9 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)),
 				       list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
-	gtk_label_set_width_chars(GTK_LABEL(text), MIN((int)g_utf8_strlen(row->text, -1),
+	gtk_label_set_width_chars(GTK_LABEL(text), MIN(chars_wide(text, row->text),
 						       place ? TITLE_WIDE : TEXT_WIDE));
-	gtk_label_set_width_chars(GTK_LABEL(note), place ? MIN((int)g_utf8_strlen(row->note, -1),
+	gtk_label_set_width_chars(GTK_LABEL(note), place ? MIN(chars_wide(note, row->note),
 							       PLACE_WIDE) : -1);
 	show_note(row, GTK_LABEL(note));
 	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);

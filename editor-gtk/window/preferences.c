@@ -83,7 +83,7 @@ static void add_looks(AdwPreferencesPage *page)
 
 	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);
 	add_choice(group, "contrast", _("Contrast"),
-		   _("High: stronger colours, thicker lines, edges around every button"), contrast);
+		   _("Stronger colours, thicker lines, edges"), contrast);
 	add_choice(group, "power", _("Colour of power"),
 		   _("Power is also drawn thicker, so colour is not needed to see it"), power);
 	add_choice(group, "show", _("Above an element"), NULL, show);

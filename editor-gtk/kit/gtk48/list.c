@@ -52,6 +52,14 @@ int list_column_width(GtkColumnViewColumn *column)
 	       GPOINTER_TO_INT(g_object_get_data(G_OBJECT(column), "width"));
 }
 
+void list_set_column_width(GtkColumnViewColumn *column, int width)
+{
+	if (gtk_column_view_column_get_visible(column))
+		gtk_column_view_column_set_fixed_width(column, width);
+	else /* GTK would leave room for it */
+		g_object_set_data(G_OBJECT(column), "width", GINT_TO_POINTER(width));
+}
+
 void list_show_column(GtkColumnViewColumn *column, bool shown)
 {
 	const int width = gtk_column_view_column_get_fixed_width(column);

@@ -39,6 +39,8 @@ void list_drop_row(GtkTreeExpander *expander);
 void list_show_column(GtkColumnViewColumn *column, bool shown);
 /** list_column_width - its fixed width, also while list_show_column() hides it. */
 int list_column_width(GtkColumnViewColumn *column);
+/** list_set_column_width - sets it; of a hidden column for when it is shown again. */
+void list_set_column_width(GtkColumnViewColumn *column, int width);
 /** list_tab_stop_new - a container in which Tab leaves @child, a list, and arrows go from row to
  * row. */
 GtkWidget *list_tab_stop_new(GtkWidget *child);

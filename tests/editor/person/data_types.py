@@ -634,6 +634,20 @@ END_PROGRAM
 '''
 
 
+def wide(screen):
+    """the members of a structure take the whole width of the page: a hidden column takes none of it"""
+    editor = Editor(screen, new_file(screen, PROGRAM))
+    editor.command('Data types')
+    row = until(lambda: [node for node in editor.all('Low, INT', 'table row') if node.box()[2] > 0], 'the row of Low')[0]
+    left, _, width, _ = editor.place()
+
+    def free():
+        x, _, wide, _ = editor.place(row)
+        return left + width - x - wide
+    editor.shot('types-wide')
+    until(lambda: free() <= 24, 'the row to end at the edge: %d px are free' % free())
+
+
 def addresses(screen):
     """the map names each bit; arrows and Enter go to a symbol or to the uses; an edit is shown at once; shared memory alone"""
     path = new_file(screen, MEMORY)
@@ -670,4 +684,4 @@ def addresses(screen):
     check(path)
 
 
-main([structure, completed, everywhere, array, keys_alone, enumeration, others, of_all_kinds, modes, addresses])
+main([structure, completed, everywhere, array, keys_alone, enumeration, others, of_all_kinds, modes, wide, addresses])

@@ -81,6 +81,17 @@ def charts_and_boards(screen):
     editor.shot('tree-board')
 
 
+def notes(screen):
+    """what stands beside a name is not cut while there is room between them"""
+    text = 'RUNGBOARD 1\n' + ''.join('\nPROGRAM %s LD\n%sEND_PROGRAM\n' % (name, 'RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n' * 15)
+                                    for name in ('Ii', 'illili', 'Silillill'))
+    editor = Editor(screen, new_file(screen, text.replace('COIL %QX0.0', 'S %QX0.0')), LANGUAGE='de')
+    until(lambda: len(editor.all('15 Strompfade', 'label')) == 3, 'the notes')
+    widths = until(lambda: [node.box()[2] for node in editor.all('15 Strompfade', 'label')], 'their widths')
+    editor.shot('tree-notes')
+    assert max(widths) - min(widths) <= 2, widths
+
+
 def by_name(screen):
     """commands of the tree's menu are found by name, too; impossible ones say why; a bookmark shows rung and title"""
     path = new_file(screen, TEXT.replace('RUNG\n  | NO %IX0.1', 'RUNG "Washing is over, all of it is dry"\n  | NO %IX0.1'))
@@ -911,4 +922,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, charts_and_boards, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, pins_moved, declares, to_file, to_project, beside])
+main([bookmarks, charts_and_boards, notes, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, pins_moved, declares, to_file, to_project, beside])
