@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import ROOT, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -636,9 +636,9 @@ END_PROGRAM
 
 def wide(screen):
     """the members of a structure take the whole width of the page: a hidden column takes none of it"""
-    editor = Editor(screen, new_file(screen, PROGRAM))
+    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'cement-plant', 'cement-plant.rung'))
     editor.command('Data types')
-    row = until(lambda: [node for node in editor.all('Low, INT', 'table row') if node.box()[2] > 0], 'the row of Low')[0]
+    row = until(lambda: [node for node in editor.all('Total, REAL', 'table row') if node.box()[2] > 0], 'the row of Total')[0]
     left, _, width, _ = editor.place()
 
     def free():
@@ -646,6 +646,9 @@ def wide(screen):
         return left + width - x - wide
     editor.shot('types-wide')
     until(lambda: free() <= 24, 'the row to end at the edge: %d px are free' % free())
+
+
+wide.size = '1024x700x24'
 
 
 def addresses(screen):

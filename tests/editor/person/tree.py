@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """tree - the project's tree by keyboard and pointer: bookmarks, structure, names, files beside the project."""
+import gettext
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import BUILD, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 from outcome import drafts  # noqa: E402
 
 TEXT = '''RUNGBOARD 1
@@ -81,11 +82,22 @@ def charts_and_boards(screen):
     editor.shot('tree-board')
 
 
+class German(Editor):
+    """The same, with the texts to look for in German."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['de'])
+        super().__init__(screen, *files, LANGUAGE='de', **env)
+
+    def shown_as(self, text):
+        return self.said.gettext(text)
+
+
 def notes(screen):
     """what stands beside a name is not cut while there is room between them"""
     text = 'RUNGBOARD 1\n' + ''.join('\nPROGRAM %s LD\n%sEND_PROGRAM\n' % (name, 'RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n' * 15)
                                     for name in ('Ii', 'illili', 'Silillill'))
-    editor = Editor(screen, new_file(screen, text.replace('COIL %QX0.0', 'S %QX0.0')), LANGUAGE='de')
+    editor = German(screen, new_file(screen, text.replace('COIL %QX0.0', 'S %QX0.0')))
     until(lambda: len(editor.all('15 Strompfade', 'label')) == 3, 'the notes')
     widths = until(lambda: [node.box()[2] for node in editor.all('15 Strompfade', 'label')], 'their widths')
     editor.shot('tree-notes')
