@@ -4,6 +4,7 @@
  * drivers pwm, w1 and hwmon with files in place of the kernel's, and what can go wrong with them.
  */
 #include "hal/channel_cell.h"
+#include "hal/group.h"
 #include "hal/sysfs.h"
 #include "tests/hal/field.h"
 
@@ -780,6 +781,173 @@ static void test_denied(void)
 	field_end(&f);
 }
 
+/* ---- files that are not as they should be ---- */
+
+static bool stop(void *context, const char *name)
+{
+	(void)name;
+	++*(int *)context;
+	return false;
+}
+
+static void test_files(void)
+{
+	static const struct { const char *text; bool good; double number; } numbers[] = {
+		{ "1", true, 1 }, { "-0.5", true, -0.5 }, { "+3 \t\n", true, 3 }, { ".5", true, 0.5 }, { "7.", true, 7 },
+		{ "", false, 0 }, { "-", false, 0 }, { ".", false, 0 }, { "1.2.3", false, 0 }, { "12x", false, 0 },
+		{ "x12", false, 0 }, { "123456789012345678", true, 123456789012345678.0 },
+		{ "1234567890123456789", false, 0 }, { "0.12345678901234567890", true, 0.123456789012345678 },
+	};
+	char text[SYSFS_TEXT], longest[2 * SYSFS_TEXT], known[40] = "", group[40];
+	double number;
+	int visits = 0;
+
+	memset(longest, '7', sizeof(longest) - 1);
+	longest[sizeof(longest) - 1] = '\0';
+	sys_put("odd/long", longest);
+	sys_put("odd/empty", "");
+	CHECK(sysfs_read(sys_path("odd/none"), text, sizeof(text)) == -ENOENT && !*text);
+	CHECK(sysfs_read(sys_path("odd"), text, sizeof(text)) == -EISDIR && !*text);
+	CHECK(sysfs_read(sys_path("odd/long"), text, sizeof(text)) == -EMSGSIZE && strlen(text) < sizeof(text));
+	CHECK(sysfs_read(sys_path("odd/empty"), text, sizeof(text)) == 0 && !*text);
+	CHECK(sysfs_write(sys_path("odd/none"), "1") == -ENOENT && sysfs_write("/dev/full", "1") == -ENOSPC);
+	CHECK(sysfs_each(sys_path("none"), stop, &visits) == -ENOENT && visits == 0);
+	CHECK_AS(sysfs_each(sys_path("odd"), stop, &visits) == 0 && visits == 1, "a visit may end a search");
+	CHECK(!sysfs_path(text, 8, "folder", "name", "") && sysfs_path(text, sizeof(text), "a", "", "/b"));
+	CHECK_TEXT(text, "a/b");
+	for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); i++)
+		CHECK_AS(sysfs_number(numbers[i].text, &number) == numbers[i].good &&
+			 (!numbers[i].good || near(number, numbers[i].number)), numbers[i].text);
+	CHECK(!sysfs_read_number(sys_path("odd/empty"), &number) && !sysfs_read_number(sys_path("odd/none"), &number));
+	CHECK(sysfs_print(INT64_MIN, text) == 20 && !strcmp(text, "-9223372036854775808"));
+	for (int i = 0; i < 9; i++)
+		device_known(known, sizeof(known), "28-000001");
+	CHECK_TEXT(known, "28-000001, 28-000001, 28-000001, ...");
+	group_print(0, group, sizeof(group));
+	CHECK_TEXT(group, "(root)");
+	group_print(4000000000u, group, sizeof(group));
+	CHECK_TEXT(group, "(4000000000)");
+	sys_remove("odd");
+}
+
+/* What a driver says about a point. */
+static void finds(const struct device_driver *driver, const char *device, const char *name, uint32_t number,
+		  bool output, enum diag_id want)
+{
+	struct device_search search = { .sys = field_sys };
+	const struct io_channel channel = { .device = device, .name = name, .number = number, .period_ns = 20000000 };
+	const struct io_point point = { .channel = &channel, .output = output };
+	struct device found = { .scale = 1 };
+	struct trouble why = { .id = DIAG_COUNT };
+	char as[100];
+
+	snprintf(as, sizeof(as), "%s %s %u", device, name, number);
+	if (!CHECK_AS(driver->find(&search, &point, &found, &why) == (want == DIAG_COUNT) && why.id == want, as))
+		printf("# %s: %s\n", diag_code(why.id), why.text);
+}
+
+static void test_find(void)
+{
+	char longest[2 * SYSFS_TEXT];
+
+	memset(longest, 'n', sizeof(longest) - 1);
+	longest[sizeof(longest) - 1] = '\0';
+	sys_remove("class");
+	sys_remove("bus");
+	finds(&device_hwmon, "fan", "pwm1", 0, true, DIAG_IO_NO_DEVICE);
+	finds(&device_pwm, "pwmchip0", "", 0, true, DIAG_IO_NO_DEVICE);
+	finds(&device_w1, "28-1", "", 0, false, DIAG_IO_NO_DEVICE);
+	sys_put("class/hwmon/hwmon0/temp1_input", "1");
+	sys_put("class/hwmon/hwmon1/name", longest);
+	finds(&device_hwmon, "hwmon0", "temp1", 0, false, DIAG_IO_NO_DEVICE);
+	finds(&device_hwmon, "hwmon1", "temp1", 0, false, DIAG_IO_NO_DEVICE);
+	sys_put("class/hwmon/hwmon2/name", "chip\n");
+	sys_put("class/hwmon/hwmon2/temp1_input", "1");
+	finds(&device_hwmon, "chip", "temp1", 0, false, DIAG_COUNT);
+	finds(&device_hwmon, "chip", "temp1", 0, true, DIAG_IO_ONLY_INPUT);
+	finds(&device_hwmon, "chip", "temp2", 0, false, DIAG_IO_NO_CHANNEL);
+	finds(&device_hwmon, "chip", "temp", 0, false, DIAG_IO_NO_CHANNEL);
+	finds(&device_hwmon, "chip", "temp1x", 0, false, DIAG_IO_NO_CHANNEL);
+	finds(&device_hwmon, "chip", "heat1", 0, false, DIAG_IO_NO_CHANNEL);
+	sys_put("class/pwm/other/npwm", "2");
+	sys_put("class/pwm/pwmchip1/export", "");
+	finds(&device_pwm, "other", "", 0, true, DIAG_IO_NO_DEVICE);
+	finds(&device_pwm, "pwmchip1", "", 0, true, DIAG_IO_NO_CHANNEL);
+	sys_put("class/pwm/pwmchip1/npwm", "2");
+	finds(&device_pwm, "pwmchip1", "", 1, true, DIAG_COUNT);
+	finds(&device_pwm, "pwmchip1", "", 2, true, DIAG_IO_NO_CHANNEL);
+	finds(&device_pwm, "pwmchip1", "", 1, false, DIAG_IO_ONLY_OUTPUT);
+	sys_remove("class/pwm/pwmchip1/export");
+	finds(&device_pwm, "pwmchip1", "", 1, true, DIAG_IO_DEVICE_DENIED);
+	sys_put("class/pwm/pwmchip1/device/name", "pca9685");
+	sys_put("class/pwm/pwmchip2/device/name", "pca9685");
+	finds(&device_pwm, "pca9685", "", 1, true, DIAG_IO_DEVICE_TWICE);
+	mkdir(sys_path("bus"), 0755);
+	sys_put("bus/w1/devices/28-1/id", "x");
+	finds(&device_w1, "28-1", "", 0, false, DIAG_IO_NO_CHANNEL);
+	finds(&device_w1, "28-1", "", 0, true, DIAG_IO_ONLY_INPUT);
+	finds(&device_w1, "../devices/28-1", "", 0, false, DIAG_IO_NO_DEVICE);
+	sys_put("bus/w1/devices/28-1/w1_slave", "x");
+	finds(&device_w1, "28-1", "", 0, false, DIAG_COUNT);
+}
+
+/* An output whose files are not as the kernel makes them: which of them is named. @without: removed; @folder: there
+ * is a folder in its place. */
+static void takes(const struct device_driver *driver, const char *device, const char *path, const char *name,
+		  const char *without, const char *folder, const char *want)
+{
+	const struct io_channel channel = { .device = device, .name = name, .number = 1, .period_ns = 20000000,
+					    .type = IEC_INT };
+	const struct io_point point = { .channel = &channel, .output = true, .active_low = true };
+	struct device out = { .scale = 1, .home = (uint32_t)strlen(sys_path(CHIP)) };
+	struct trouble why = { .id = DIAG_COUNT };
+
+	make_chip();
+	if (*without)
+		sys_remove(without);
+	if (*folder) {
+		sys_remove(folder);
+		mkdir(sys_path(folder), 0755);
+	}
+	snprintf(out.path, sizeof(out.path), "%s", sys_path(path));
+	if (!CHECK_AS(driver->take(&out, &point, 5, &why) == !*want && (!*want || strstr(why.text, want)), *want ? want : path))
+		printf("# %s\n", why.text);
+}
+
+static void test_take(void)
+{
+	static const char duty_cycle[] = CHIP "/pwm1/duty_cycle";
+
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", "", "", "");
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", CHIP "/pwm1", CHIP "/export", "pwmchip0 export");
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", CHIP "/pwm1", "", "pwm1/duty_cycle"); /* nothing is made */
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", "", CHIP "/pwm1/polarity", "pwmchip0 polarity");
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", CHIP "/pwm1/period", "", "pwmchip0 period");
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", "", duty_cycle, "pwmchip0 duty_cycle");
+	takes(&device_pwm, "pwmchip0", duty_cycle, "", CHIP "/pwm1/enable", "", "pwmchip0 enable");
+	sys_put("class/hwmon/hwmon2/pwm1", "0");
+	takes(&device_hwmon, "fan", "class/hwmon/hwmon2/pwm1", "pwm1", "", "", "");
+	takes(&device_hwmon, "fan", "class/hwmon/hwmon2/pwm1", "pwm1", "", "class/hwmon/hwmon2/pwm1_enable", "fan pwm1_enable");
+}
+
+static void test_w1_texts(void)
+{
+	static const struct { const char *text; double last; bool has_last, good; } rows[] = {
+		{ "21437", 0, false, true }, { "2b : crc=a1 YES\n2b t=21437", 0, false, true },
+		{ "2b : crc=a1 NO\n2b t=21437", 0, false, false }, { "2b : crc=a1 YES\n", 0, false, false },
+		{ "2b : crc=a1 YES\n2b t=x", 0, false, false }, { "", 0, false, false }, { "85000", 0, false, false },
+		{ "85000", 84500, true, true }, { "85000", 86900, true, true }, { "85000", 10000, true, false },
+		{ "85000", 90000, true, false }, { "84999", 0, false, true },
+	};
+
+	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+		const struct device device = { .last = rows[i].last, .has_last = rows[i].has_last };
+		double number;
+
+		CHECK_AS(device_w1.parse(&device, rows[i].text, &number) == rows[i].good, rows[i].text);
+	}
+}
+
 /* ---- the list ---- */
 
 static char seen[2000];
@@ -808,9 +976,17 @@ static void test_list(void)
 	sys_put("class/hwmon/hwmon1/name", "ina219\n");
 	sys_put("class/hwmon/hwmon1/in1_input", "11984\n");
 	sys_put("class/hwmon/hwmon1/in1_label", "VIN\n");
+	/* what is no device, and devices without a value */
+	sys_put("class/hwmon/hwmon3/in1_input", "1\n");
+	sys_put("class/hwmon/hwmon1/in2_input", "nonsense\n");
+	sys_put("class/pwm/other/npwm", "1\n");
+	sys_put("class/pwm/pwmchip1/pwm0/period", "0\n");
+	sys_put("class/pwm/pwmchip2345678901234567890123456789012345678/npwm", "1\n");
+	sys_put("bus/w1/devices/28-3/id", "x");
 	channels_list(field_sys, see, NULL);
 	CHECK_TEXT(seen, "pwm pwmchip0/ 0 out -1\npwm pwmchip0/ 1 out 50000\n"
-		   "w1 28-1/  in 20000\nw1 28-2/  in -1\nhwmon ina219/hwmon1 in1 in 11984\n");
+		   "w1 28-1/  in 20000\nw1 28-2/  in -1\n"
+		   "hwmon ina219/hwmon1 in1 in 11984\nhwmon ina219/hwmon1 in2 in -1\n");
 }
 
 int main(void)
@@ -837,6 +1013,10 @@ int main(void)
 	test_hwmon();
 	test_errors();
 	test_denied();
+	test_files();
+	test_find();
+	test_take();
+	test_w1_texts();
 	test_list();
 	sys_remove("");
 	return tap_done();
