@@ -909,7 +909,7 @@ static void takes(const struct device_driver *driver, const char *device, const 
 		sys_remove(folder);
 		mkdir(sys_path(folder), 0755);
 	}
-	snprintf(out.path, sizeof(out.path), "%s", sys_path(path));
+	snprintf(out.path, sizeof(out.path), "%.*s", (int)sizeof(out.path) - 1, sys_path(path));
 	if (!CHECK_AS(driver->take(&out, &point, 5, &why) == !*want && (!*want || strstr(why.text, want)), *want ? want : path))
 		printf("# %s\n", why.text);
 }
