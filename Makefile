@@ -31,7 +31,8 @@ LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
 # What -Os does not do by itself: 2 % of a small ladderd.
 LEAN     += $(SMALL:1=-fno-inline-functions-called-once -fno-schedule-insns2 -fno-reorder-blocks)
 # A static program has a fixed address; without MMU (SMALL=1) it can be loaded anywhere.
-LEAN     += $(if $(filter 1,$(STATIC)),$(if $(filter 1,$(SMALL)),,-fno-pie))
+# There what starts it adds its place to addresses, and looks up no names: a linker for RISC-V keeps some of those that are not hidden.
+LEAN     += $(if $(filter 1,$(STATIC)),$(if $(filter 1,$(SMALL)),-fvisibility=hidden,-fno-pie))
 LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code -Wl,--as-needed
 # Tables of names have many pointers; packed, their relocations take 1 KB instead of 60.
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
