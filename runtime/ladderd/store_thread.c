@@ -59,7 +59,8 @@ struct store {
 	pthread_t thread;
 	bool runs;
 	int wake;
-	_Atomic bool hurry, stop;
+	_Atomic bool stop;
+	_Atomic int hurry; /* no bool: RISC-V exchanges no single byte     */
 	_Atomic uint32_t seq, writes, failures;
 	_Atomic int error;     /* of the last write; 0: it is on the disk    */
 	_Atomic uint32_t since_ms; /* of the write that goes on, | 1; 0: none */
@@ -142,7 +143,7 @@ static void wake(struct store *store)
 
 void store_hurry(struct store *store)
 {
-	atomic_store(&store->hurry, true);
+	atomic_store(&store->hurry, 1);
 	wake(store);
 }
 
@@ -259,7 +260,7 @@ static void *write_values(void *argument)
 		    read(store->wake, &count, sizeof(count)) < 0)
 			count = 0;
 		stop = atomic_load(&store->stop);
-		step(store, atomic_exchange(&store->hurry, false) || stop);
+		step(store, atomic_exchange(&store->hurry, 0) != 0 || stop);
 	}
 	return NULL;
 }
