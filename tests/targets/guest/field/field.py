@@ -384,7 +384,10 @@ def main():
     subprocess.run(['ip', 'link', 'set', 'lo', 'up'], check=True)
     tests = {name[5:]: test for name, test in globals().items() if name.startswith('test_')}
     if len(sys.argv) > 3:
-        tests = {name: test for name, test in tests.items() if name == sys.argv[3]}
+        tests = {name: test for name, test in tests.items() if name in (sys.argv[3], sys.argv[3].replace('test_', '', 1))}
+        if not tests:
+            print('1..1\nnot ok 1 - field: there is no test ' + sys.argv[3])
+            return True
     print(f'1..{len(tests)}', flush=True)
     failed = 0
     for number, (name, test) in enumerate(tests.items(), 1):
