@@ -123,9 +123,70 @@ static void test_heights(void)
 	CHECK_AS(most <= 20, "no menu of the main menu has more than 20 rows");
 }
 
+/* Keys that people of these editors know; an action, or a word that is inserted. */
+static const struct { enum key_scheme scheme; const char *key, *does; } known_keys[] = {
+	{ SCHEME_GXWORKS, "F5", "contact" }, { SCHEME_GXWORKS, "<Shift>F5", "parallel" },
+	{ SCHEME_GXWORKS, "F6", "contact_not" }, { SCHEME_GXWORKS, "<Shift>F6", "parallel_not" },
+	{ SCHEME_GXWORKS, "F7", "coil" }, { SCHEME_GXWORKS, "F8", "block" },
+	{ SCHEME_GXWORKS, "F9", "wire_here" }, { SCHEME_GXWORKS, "<Shift>F9", "link_here" },
+	{ SCHEME_GXWORKS, "<Control>F9", "delete" }, { SCHEME_GXWORKS, "<Control>F10", "delete" },
+	{ SCHEME_GXWORKS, "F4", "next_problem" }, { SCHEME_GXWORKS, "F3", "sim_mode" },
+	{ SCHEME_GXWORKS, "<Control>F3", "find_next" },
+	{ SCHEME_LDMICRO, "c", "contact" }, { SCHEME_LDMICRO, "l", "coil" },
+	{ SCHEME_LDMICRO, "n", "negate" }, { SCHEME_LDMICRO, "s", "S" }, { SCHEME_LDMICRO, "r", "R" },
+	{ SCHEME_LDMICRO, "e", "R" }, { SCHEME_LDMICRO, "o", "TON" }, { SCHEME_LDMICRO, "f", "TOF" },
+	{ SCHEME_LDMICRO, "t", "TONR" }, { SCHEME_LDMICRO, "u", "CTU" }, { SCHEME_LDMICRO, "i", "CTD" },
+	{ SCHEME_LDMICRO, "slash", "P" }, { SCHEME_LDMICRO, "backslash", "N" },
+	{ SCHEME_LDMICRO, "m", "MOVE" }, { SCHEME_LDMICRO, "plus", "ADD" },
+	{ SCHEME_LDMICRO, "minus", "SUB" }, { SCHEME_LDMICRO, "asterisk", "MUL" },
+	{ SCHEME_LDMICRO, "d", "DIV" }, { SCHEME_LDMICRO, "equal", "EQ" },
+	{ SCHEME_LDMICRO, "exclam", "NE" }, { SCHEME_LDMICRO, "greater", "GT" },
+	{ SCHEME_LDMICRO, "period", "GE" }, { SCHEME_LDMICRO, "less", "LT" },
+	{ SCHEME_LDMICRO, "comma", "LE" }, { SCHEME_LDMICRO, "semicolon", "comment" },
+	{ SCHEME_LDMICRO, "<Shift>6", "rung_above" }, { SCHEME_LDMICRO, "<Shift>v", "rung_below" },
+	{ SCHEME_LDMICRO, "<Alt>Up", "rung_up" }, { SCHEME_LDMICRO, "<Alt>Down", "rung_down" },
+	{ SCHEME_LDMICRO, "<Control>d", "rung_duplicate" },
+	{ SCHEME_LDMICRO, "<Shift>Return", "delete" }, { SCHEME_LDMICRO, "<Control>Return", "wire_here" },
+	{ SCHEME_MICROWIN, "F4", "contact" }, { SCHEME_MICROWIN, "F6", "coil" },
+	{ SCHEME_MICROWIN, "F9", "block" }, { SCHEME_MICROWIN, "<Control>y", "show_as" },
+};
+
+static bool has_key(const char *keys, const char *key)
+{
+	char **each = g_strsplit(keys, "|", -1);
+	const bool has = g_strv_contains((const char *const *)each, key);
+
+	g_strfreev(each);
+	return has;
+}
+
+static void test_known_keys(void)
+{
+	for (size_t i = 0; i < sizeof(known_keys) / sizeof(*known_keys); i++) {
+		const enum key_scheme scheme = known_keys[i].scheme;
+		const char *word, *keys;
+		bool found = false;
+
+		for (int v = 0; v < VERB_COUNT; v++) {
+			char *of = verb_keys_of((enum verb)v, scheme);
+			const char *action = verb_row((enum verb)v)->action;
+
+			if (works_in((enum verb)v, VERB_SHEET) && has_key(of, known_keys[i].key))
+				found |= !strcmp(strchr(action, '.') ? strchr(action, '.') + 1 : action,
+						 known_keys[i].does);
+			g_free(of);
+		}
+		for (int p = 0; key_scheme_put(scheme, p, &word, &keys); p++)
+			found |= has_key(keys, known_keys[i].key) && !strcmp(word, known_keys[i].does);
+		CHECK_AS(found, known_keys[i].key);
+	}
+}
+
 int main(void)
 {
 	char *label;
+
+	test_known_keys();
 
 	for (int i = 0; i < KEY_SCHEMES; i++) {
 		test_scheme((enum key_scheme)i, VERB_CHART);
