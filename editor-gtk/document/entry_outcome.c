@@ -63,7 +63,7 @@ static void tell_wrong(GString *out, LadderDocument *document, int pou,
 	char *what = line ? g_strdup_printf(_("%s, line %d"), entry->what, line) :
 			    g_strdup(entry->what);
 
-	g_string_append_printf(out, _(entry->why), what);
+	g_string_append_printf(out, _(entry->why), what, entry->instead);
 	g_free(what);
 }
 

@@ -57,6 +57,7 @@ struct entry {
 	const char *why;          /* N_() text, with %s where @what belongs if that is
 				     not empty; NULL: nothing is wrong         */
 	char what[ENTRY_NAME];
+	char instead[40];         /* what a second %s of @why says: what to write */
 	const struct var *known;  /* the variable whose declaration @why is about;
 				     borrowed from the project; NULL: none     */
 };

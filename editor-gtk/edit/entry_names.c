@@ -267,6 +267,33 @@ static void take_address(const struct entry_place *place, const char *text, size
 		 (int)(len - head), text + head);
 }
 
+/* A name that another tool sets by itself, and that would be an ordinary bit, or a new name, here: it
+ * is not taken in silence. A variable at its address is meant otherwise. */
+static bool find_special(const struct entry_place *place, const char *text, size_t len,
+			 struct entry_target *out)
+{
+	const struct pou *pou = entry_pou(place);
+	const bool addressed = iec_addr_parse(text, len, &out->addr) == ADDR_OK;
+	struct dialect_special special;
+
+	if (!dialect_special(text, len, &special) ||
+	    (addressed && ((pou && var_on(&pou->vars, out->addr)) ||
+			   var_on(&place->project->globals, out->addr)))) {
+		out->addr = (struct iec_addr){ .area = AREA_NONE };
+		return false;
+	}
+	snprintf(out->instead, sizeof(out->instead), "%s", special.ours);
+	if (!*special.ours && addressed)
+		iec_addr_print(out->addr, out->instead, sizeof(out->instead));
+	fail(out, *special.ours ? N_("“%s” is set by other controllers themselves: write %s, which is the same here") :
+	     addressed && out->addr.area == AREA_SM ? N_("“%s” has another meaning in other controllers: "
+			    "write %s if the one of Rungboard is meant") :
+	     addressed ? N_("“%s” is set by other controllers themselves, but by nothing here: "
+			    "write %s if an ordinary address is meant") :
+	     N_("“%s” is set by other controllers themselves, and nothing here does that"));
+	return true;
+}
+
 /* ---- blocks, words and steps of other dialects ---- */
 
 /* The variable called @stem, or @stem and more behind a _; else the step of that name. NULL: none. */
@@ -367,6 +394,8 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		return;
 	len = tighten(typed, len, text);
 	memcpy(out->text, text, len);
+	if (!entry_var_find(place, text, len, NULL) && find_special(place, text, len, out))
+		return;
 	if (*text == '%' && take_foreign(place, text, len, out))
 		return;
 	while (head < len && text[head] != '.' && text[head] != '[')

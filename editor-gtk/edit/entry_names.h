@@ -34,6 +34,7 @@ struct entry_target {
 	struct dialect foreign;  /* of a new name that has a meaning in another tool; name "":
 				    it has none                                */
 	const char *why;         /* N_() text                                  */
+	char instead[40];        /* of a second %s in @why                     */
 	char text[ENTRY_TEXT];   /* canonical                                  */
 };
 

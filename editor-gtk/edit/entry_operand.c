@@ -723,9 +723,11 @@ bool entry_operand(const struct entry_place *place, const char *text, size_t len
 		len = name;
 	}
 	entry_target_find(place, text, len, out);
-	if (out->means == MEANS_WRONG || out->means == MEANS_NOTHING)
+	if (out->means == MEANS_WRONG || out->means == MEANS_NOTHING) {
+		snprintf(entry->instead, sizeof(entry->instead), "%s", out->instead);
 		return entry_wrong(entry, out->why ? out->why : N_("“%s” is not an operand"),
 				   text, len);
+	}
 	if (out->means == MEANS_NEW_PIN || (out->means == MEANS_NEW && name == 0 &&
 					    is_foreign(place, fit, out)))
 		return out->foreign.kind == DIALECT_WORD ? take_number(place, fit, out, entry) :

@@ -12,6 +12,7 @@
 #include "engine/check/attempt.h"
 #include "engine/check/generic.h"
 #include "engine/check/split.h"
+#include "engine/model/dialect.h"
 #include "engine/model/named.h"
 #include "engine/model/advice.h"
 #include "engine/model/args.h"
@@ -129,6 +130,22 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 	operand_report(c, better != DIAG_COUNT ? better : why, at, text);
 }
 
+/* M8000: an address without a variable that other tools set by themselves. */
+static void said_special(struct operand_check *c, struct operand_spot at, const char *name,
+			 const struct meaning *m)
+{
+	struct dialect_special special;
+	char text[LIMIT_PARTS], address[40];
+
+	if (m->kind != MEANING_ADDRESS || m->var || m->addr.area == AREA_SM || *name == '%' ||
+	    !dialect_special(name, strlen(name), &special))
+		return;
+	iec_addr_print(m->addr, address, sizeof(address));
+	snprintf(text, sizeof(text), "%.40s" DIAG_AND "%s" DIAG_AND "%s", name, special.tool,
+		 *special.ours ? special.ours : address);
+	operand_report(c, DIAG_SET_BY_OTHERS, at, text);
+}
+
 /* The meaning of @id, or NULL after a diagnostic. */
 static const struct meaning *operand_find(struct operand_check *c, struct operand_spot at,
 				  uint32_t id)
@@ -144,6 +161,8 @@ static const struct meaning *operand_find(struct operand_check *c, struct operan
 		operand_report(c, DIAG_SFC_TRANSITION, at, project_text(c->project, id));
 	else
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
+	if (m)
+		said_special(c, at, project_text(c->project, id), m);
 	return m;
 }
 

@@ -232,6 +232,49 @@ static bool find_own_pin(const struct parts *parts, struct dialect *out)
 	return out->pin;
 }
 
+/* ---- what other tools set by themselves ---- */
+
+/* One name. */
+static const struct { const char *name, *tool, *ours; } special_names[] = {
+	{ "M8000", "GX Works", "SYS_ALWAYS_ON" }, { "M8002", "GX Works", "SYS_FIRST_SCAN" },
+	{ "M8012", "GX Works", "SYS_CLOCK_100MS" }, { "M8013", "GX Works", "SYS_CLOCK_1S" },
+	{ "M8014", "GX Works", "SYS_CLOCK_1MIN" },
+	{ "SM400", "GX Works", "SYS_ALWAYS_ON" }, { "SM402", "GX Works", "SYS_FIRST_SCAN" },
+	{ "SM410", "GX Works", "SYS_CLOCK_100MS" }, { "SM412", "GX Works", "SYS_CLOCK_1S" },
+	{ "SM0.3", "STEP 7-Micro/WIN", "" }, { "SM0.6", "STEP 7-Micro/WIN", "" },
+	{ "SM0.7", "STEP 7-Micro/WIN", "" }, { "SM1.0", "STEP 7-Micro/WIN", "" },
+	{ "SM1.1", "STEP 7-Micro/WIN", "" }, { "SM1.2", "STEP 7-Micro/WIN", "" },
+	{ "%S0", "ClassicLadder", "SYS_CLOCK_1S" }, { "%S4", "ClassicLadder", "SYS_FIRST_SCAN" },
+	{ "%S7", "ClassicLadder", "SYS_MATH_ERROR" },
+};
+
+/* A head and a number without a dot. */
+static const struct { const char *head; int low, high; const char *tool; } special_ranges[] = {
+	{ "M", 8000, 8511, "GX Works" }, { "D", 8000, 8511, "GX Works" },
+	{ "SM", 0, 9999, "GX Works" }, { "SD", 0, 9999, "GX Works" },
+	{ "%S", 0, 255, "ClassicLadder" }, { "%SW", 0, 255, "ClassicLadder" },
+};
+
+bool dialect_special(const char *text, size_t len, struct dialect_special *out)
+{
+	for (size_t i = 0; i < COUNT(special_names); i++)
+		if (ascii_is(special_names[i].name, text, len)) {
+			*out = (struct dialect_special){ special_names[i].tool, special_names[i].ours };
+			return true;
+		}
+	for (size_t i = 0; i < COUNT(special_ranges); i++) {
+		const size_t head = ascii_prefix(special_ranges[i].head, text, len);
+		const char *at = text + head;
+		const int value = head ? number(&at, text + len, 10) : -1;
+
+		if (value >= special_ranges[i].low && value <= special_ranges[i].high && at == text + len) {
+			*out = (struct dialect_special){ special_ranges[i].tool, "" };
+			return true;
+		}
+	}
+	return false;
+}
+
 static bool find(const char *text, size_t len, int index, struct dialect *out)
 {
 	struct parts parts;

@@ -28,6 +28,17 @@ struct dialect {
 	char name[24];          /* "TM0"; an import of ClassicLadder adds _ and the symbol */
 };
 
+/* A bit or word that another tool sets by itself, such as the first scan. */
+struct dialect_special {
+	const char *tool;     /* "GX Works"; lives for ever                      */
+	const char *ours;     /* the word that has this meaning here, "SYS_FIRST_SCAN"; "": none */
+};
+
+/** dialect_special - whether @text is such a name, also if it is an address here, where it would be
+ * an ordinary bit: M8000, SM400, %S0, SM0.6. Addresses that mean the same here are none: SM0.0.
+ * Owns: nothing. Scan-safe: yes. */
+bool dialect_special(const char *text, size_t len, struct dialect_special *out);
+
 /**
  * dialect_find - the meaning of a name in another tool
  * @index: 0; and on for the other names that a step can have here
