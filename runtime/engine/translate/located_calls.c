@@ -26,6 +26,7 @@ struct copied {
 	uint32_t from, to;   /* operands: at an address, the copy              */
 	bool takes, gives_back; /* before the call, after it                */
 	bool computed, reads; /* by an index that may lead nowhere             */
+	uint32_t late;       /* of a value: a temporary for it until the copies are back; 0: it is stored at once */
 };
 
 struct located {
@@ -323,6 +324,28 @@ static uint32_t eno_of(struct located *l, int at, int end)
 	return 0;
 }
 
+/* Values that the call stores where copies come back, such as `Row[i] := Turn(Row)`: they are stored behind the copies. */
+static void find_late(struct located *l, const struct word_row *row, int at, int end, struct copied *copy)
+{
+	for (int i = at + 1; i < end; i++) {
+		const struct il_line *arg = &l->from->line[i];
+		const struct meaning *m = arg->kind == IL_ARG_OUT && !copy[i - at - 1].from && pin_of(l, row, arg) ?
+					  meaning_at(l, arg->operand) : NULL;
+		bool meets = false;
+
+		for (int k = 0; m && k < end - at - 1; k++) {
+			const struct meaning *back = copy[k].gives_back ? meaning_at(l, copy[k].from) : NULL;
+
+			meets |= back && back->addr.area == m->addr.area;
+		}
+		if (!meets || m->addr.area == AREA_NONE || meaning_is_whole(m) || m->type == IEC_NONE)
+			continue;
+		copy[i - at - 1].late = m->type == IEC_BOOL ? temps_bool(l->temps) : temps_number(l->temps, m->type);
+		copy[i - at - 1].computed = meaning_is_indexed(m);
+		l->failed |= !copy[i - at - 1].late;
+	}
+}
+
 /* The call itself. @done: gets whether it was computed; 0: nobody asks. */
 static void call_again(struct located *l, int at, int end, const struct copied *copy, uint32_t condition,
 		       uint32_t good, uint32_t done)
@@ -346,6 +369,8 @@ static void call_again(struct located *l, int at, int end, const struct copied *
 			continue;
 		if (copy[i - at - 1].from)
 			arg.operand = copy[i - at - 1].to;
+		if (copy[i - at - 1].late)
+			arg.operand = copy[i - at - 1].late;
 		add_line(l, arg);
 	}
 	if (!done)
@@ -366,7 +391,7 @@ static void copy_call(struct located *l, int at, int end, const struct copied *c
 
 	keep_condition(l, call, condition);
 	for (int i = 0; i < end - at - 1; i++) {
-		if (copy[i].from && copy[i].reads && !good)
+		if (((copy[i].from && copy[i].reads) || (copy[i].late && copy[i].computed)) && !good)
 			good = temps_bool(l->temps);
 		if (copy[i].from && copy[i].gives_back && !done)
 			done = temps_bool(l->temps);
@@ -376,10 +401,16 @@ static void copy_call(struct located *l, int at, int end, const struct copied *c
 	for (int i = 0; i < end - at - 1; i++)
 		if (copy[i].from && copy[i].takes)
 			move_parts(l, copy[i].from, copy[i].to, copy[i].reads ? good : 0);
+	for (int i = 0; i < end - at - 1; i++)
+		if (copy[i].late && copy[i].computed) /* if it leads nowhere, nothing is called */
+			add_move(l, l->from->line[at + 1 + i].operand, copy[i].late, good);
 	call_again(l, at, end, copy, condition, good, done);
 	for (int i = 0; i < end - at - 1; i++)
 		if (copy[i].from && copy[i].gives_back)
 			move_parts(l, copy[i].to, copy[i].from, copy[i].computed ? begin_chain(l, done) : done);
+	for (int i = 0; i < end - at - 1; i++)
+		if (copy[i].late)
+			add_move(l, copy[i].late, l->from->line[at + 1 + i].operand, begin_chain(l, done));
 }
 
 /* ---- MOVE ---- */
@@ -490,6 +521,7 @@ static void copy_lines(struct located *l)
 		for (int k = i + 1; k < end && row; k++)
 			any |= begin_copy(l, row, &from->line[k], &copy[k - i - 1]);
 		if (any) {
+			find_late(l, row, i, end, copy);
 			copy_call(l, i, end, copy);
 			i = end - 1;
 		} else if (copy_move(l, i, end)) {
@@ -523,6 +555,8 @@ bool located_calls(struct translation *translation, struct unit *unit, struct il
 	if (!l.left || !l.right)
 		return false;
 	unit->temps->bools = unit->temps->bool_count; /* the others are in use */
+	for (int i = 0; i < IEC_TYPE_COUNT; i++)
+		unit->temps->numbers[i] = unit->temps->number_count[i];
 	for (int i = 0; i < unit->temps->whole_count; i++)
 		unit->temps->whole[i].used = true;
 	copy_lines(&l);
