@@ -386,10 +386,16 @@ static char *next_keys(LadderCanvas *canvas)
 		{ VERB_enter, VERB_pin_negate, VERB_pin_link, VERB_box_block },
 	};
 	GString *text = g_string_new(NULL);
+	char *keys;
 	int kind;
 
 	fbd_fresh(view);
 	kind = view->cursor.pin >= 0 ? 2 : view->cursor.box >= 0 ? 1 : 0;
+	if (canvas_is_live(canvas) && fbd_live_place(view, view->cursor).type == IEC_BOOL) {
+		keys = verb_keys_label(VERB_cycle);
+		g_string_append_printf(text, "%s: %s", keys, _("Toggle"));
+		g_free(keys);
+	}
 	for (int i = 0; i < 4 && verbs[kind][i] != VERB_COUNT; i++)
 		verb_tell(text, verbs[kind][i]);
 	return g_string_free(text, FALSE);
@@ -478,6 +484,28 @@ static bool escape(LadderFbdView *view)
 	return any;
 }
 
+/* A BOOL of the running program becomes the other value, as on the sheet of a ladder. False: none is here. */
+static bool toggle(LadderFbdView *view)
+{
+	LadderSim *sim = view->canvas->sim;
+	const struct location at = canvas_is_live(LADDER_CANVAS(view)) ? fbd_live_place(view, view->cursor) :
+				   (struct location){ .type = IEC_NONE };
+	const char *why = at.type == IEC_BOOL ? ladder_sim_why_not(sim, SIM_WISH_SET) : NULL;
+	union iec_value value;
+
+	if (at.type != IEC_BOOL || at.constant)
+		return false;
+	if (why) {
+		canvas_refuse(LADDER_CANVAS(view), _("Toggle"), why);
+		return true;
+	}
+	canvas_acts(LADDER_CANVAS(view), at, _("Toggle"));
+	value = live_value_get(sim, false, at);
+	value.i = !value.i;
+	live_value_set(sim, false, at, value);
+	return true;
+}
+
 static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 {
 	LadderFbdView *view = LADDER_FBD_VIEW(canvas);
@@ -487,6 +515,7 @@ static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 	if (view->count == 0 || state & (GDK_CONTROL_MASK | GDK_ALT_MASK))
 		return false;
 	switch (key) {
+	case GDK_KEY_space: return toggle(view);
 	case GDK_KEY_Up: case GDK_KEY_KP_Up: fbd_step(view, 0, -1, extend); return true;
 	case GDK_KEY_Down: case GDK_KEY_KP_Down: fbd_step(view, 0, 1, extend); return true;
 	case GDK_KEY_Left: case GDK_KEY_KP_Left: fbd_step(view, -1, 0, extend); return true;

@@ -248,8 +248,9 @@ def live(screen):
     says(editor, '“Main” as FBD, read-only')
     cell(editor, 'OR, output 1: wire, FALSE')  # no variable has this value
     cell(editor, '>, output 1: wire, FALSE')
-    start = until(lambda: [node for node in editor.all('Start', 'check box') if node.box()[2] > 0], 'the panel')[0]
-    editor.click(start)
+    editor.click(cell(editor, 'OR, input 1: Start, FALSE'))
+    editor.says('Space: Toggle')
+    editor.keys('space')
     cell(editor, 'OR, input 1: Start, TRUE')
     editor.keys('ctrl+t')
     cell(editor, 'OR, output 1: wire, TRUE')
