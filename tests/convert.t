@@ -195,6 +195,8 @@ VAR
   Y  AT %QX0.1 : BOOL;
   Z  AT %QX0.2 : BOOL;
   T1 : TON;
+  T2 : TON;
+  N  : INT;
 END_VAR
 
 (* above the program *)
@@ -213,6 +215,9 @@ RUNG "a branch that is the last"
 RUNG "behind a timer"
   | NO A | TON T1 PT:=T#1s | COIL X |
   |      |                ^| COIL Y |
+RUNG "contacts behind a timer"
+  | NO A  | TON T2 PT:=T#1s | NO B       | NC A | COIL X |
+  | NO B ^|                ^| [ N > 5 ] ^|
 RUNG
   | NC B | JMP Two |
 (* at the end *)

@@ -61,6 +61,7 @@ struct box {
 	struct branch branch[LIMIT_ARGS];
 	int branches;
 	const struct path *power;
+	const struct path *after; /* between the box and its coil; NULL: nothing */
 	uint32_t behind[WIDE]; /* the coils behind it: string ids              */
 	int coils;
 };
@@ -1047,7 +1048,9 @@ static void put_box(struct ladders *l, struct box *box)
 		fill(l, 0, box->power->width, col);
 	}
 	set(l, 0, col, text);
-	put_coils(l, box->behind, box->coils, col + 1);
+	if (box->after)
+		place(l, box->after, 0, col + 1);
+	put_coils(l, box->behind, box->coils, col + 1 + (box->after ? box->after->width : 0));
 	for (int i = 0, at = 1; i < box->branches; i++) {
 		const struct path *path = box->branch[i].path;
 		char pin[LIMIT_NAME + 8];
@@ -1189,14 +1192,54 @@ static bool block_parts(struct ladders *l, struct box *box, const struct st_item
 }
 
 /* Is the expression the first Boolean output of @instance? */
-static bool is_power_of(struct ladders *l, const struct meaning *instance, const struct word_row *row)
+static bool is_power_of(struct ladders *l, int at, const struct meaning *instance, const struct word_row *row)
 {
-	const struct expr_node *node = node_of(l, l->acts->expr->root);
+	const struct expr_node *node = node_of(l, at);
 	const struct meaning *m = node->op == EXPR_NAME ? meaning_of(l, node) : NULL;
 	const int out = word_first_bool(row, PIN_OUT);
 
 	return m && out >= 0 && m->kind == MEANING_PIN && !m->opens && m->var == instance->var && m->pin == out &&
 	       m->offset == instance->offset + row->pin[out].offset;
+}
+
+/* Contacts and comparisons: they need no rung before. */
+static bool is_contacts(struct ladders *l, int at)
+{
+	const struct expr_node *node = node_of(l, at);
+
+	switch (node->op) {
+	case EXPR_NAME: case EXPR_BIT: case EXPR_LITERAL:
+		return true;
+	case EXPR_NOT:
+		return is_contacts(l, node->left);
+	case EXPR_AND: case EXPR_OR:
+		return !node->lazy && is_contacts(l, node->left) && is_contacts(l, node->right);
+	case EXPR_FN:
+		return prints(l, at, true);
+	case EXPR_XOR: case EXPR_CALL: case EXPR_NEG: case EXPR_INDEX: case EXPR_ARG:
+		break;
+	}
+	return false;
+}
+
+/* Delay.Q AND … of the power behind the block. */
+static bool goes_on(struct ladders *l, int at, const struct meaning *instance, const struct word_row *row)
+{
+	const struct expr_node *node = node_of(l, at);
+
+	return node->op == EXPR_AND && !node->lazy && is_contacts(l, node->right) &&
+	       (is_power_of(l, node->left, instance, row) || goes_on(l, node->left, instance, row));
+}
+
+/* The path of that without the power. */
+static const struct path *path_behind(struct ladders *l, int at, const struct meaning *instance, const struct word_row *row)
+{
+	const struct expr_node *node = node_of(l, at);
+	const struct path *first = is_power_of(l, node->left, instance, row) ? NULL :
+				   path_behind(l, node->left, instance, row);
+	const struct path *second = path_of(l, node->right, false);
+
+	return first ? both(l, PATH_SERIES, first, second) : second;
 }
 
 /* The coil of a line that stores a BOOL, and the value, which is the root then; 0: it is another line. */
@@ -1292,11 +1335,17 @@ static void coils_behind(struct ladders *l, struct box *box, const struct meanin
 	while (word_first_bool(row, PIN_IN) >= 0 && box->coils < (box->branches ? 1 : WIDE) &&
 	       (item = line_behind(l, &by)) != NULL) {
 		const uint32_t coil = coil_of(l, item);
+		const int root = l->acts->expr->root;
+		const bool more = coil && !box->coils && !box->branches && is_drawn(l, root) && goes_on(l, root, instance, row);
 
-		if (!coil || !is_power_of(l, instance, row))
+		if (!coil || (!more && !is_power_of(l, root, instance, row)))
 			break;
+		if (more)
+			box->after = path_behind(l, root, instance, row);
 		box->behind[box->coils++] = coil;
 		last = by;
+		if (more)
+			break;
 	}
 	take_lines(l, last);
 }
