@@ -111,7 +111,7 @@ def by_name(screen):
     editor.keys('Down', 'ctrl+b')
     rung = editor.find('Main 2', 'label')
     title = editor.find('Washing is over, all of it is dry', 'label')
-    until(lambda: editor.place(title)[2] > 80 and editor.place(rung)[2] > 40 and
+    until(lambda: editor.place(title)[2] > 80 and editor.place(rung)[2] >= 38 and
           editor.place(title)[0] + editor.place(title)[2] <= editor.place(rung)[0], 'both beside each other')
     editor.shot('bookmark-title')
     editor.list_commands()
