@@ -380,6 +380,50 @@ static void test_exchange(void)
 	field_end(&f);
 }
 
+/* A point of another map goes on with its value if it is the same in all that names its register. */
+static void test_same(void)
+{
+	enum { SAME, AREA, BYTE, BIT, BITS, UNIT, TABLE, REGISTER, RAW, DEVICE, NAME, DRIVER, OTHERS };
+
+	for (int other = SAME; other < OTHERS; other++) {
+		struct field f, g;
+		struct io_channel *channel;
+		char line[LIMIT_ARG], as[40];
+
+		field_begin(&f);
+		field_begin(&g);
+		for (int i = 0; i < 2; i++) {
+			channel = field_add(i ? &g : &f, "%IX4.0", DRIVER_modbus, IEC_BOOL);
+			channel->unit_id = 1, channel->reg = 7, channel->table = TABLE_DISCRETE_INPUT;
+			channel->device = "plant", channel->name = "Level";
+		}
+		switch (other) {
+		case AREA: g.point[0].addr.area = AREA_XI; break;
+		case BYTE: g.point[0].addr.byte = 5; break;
+		case BIT: g.point[0].addr.bit = 1; break;
+		case BITS: g.point[0].addr.bits = 8; break;
+		case UNIT: channel->unit_id = 2; break;
+		case TABLE: channel->table = TABLE_COIL; break;
+		case REGISTER: channel->reg = 8; break;
+		case RAW: channel->raw = IEC_WORD; break;
+		case DEVICE: channel->device = "yard"; break;
+		case NAME: channel->name = "Flow"; break;
+		case DRIVER: g.point[0].driver = DRIVER_peer; break;
+		}
+		CHECK(field_open(&f));
+		channels_put(f.hal.channels, 0, INT(1), true, 0);
+		CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_GOOD);
+		CHECK(hal_open_new(&g.hal, &g.diags));
+		hal_exchange(&f.hal, &g.hal);
+		ReadPhysicalInputs(&f.hal, &f.image, 10 * MS);
+		snprintf(as, sizeof(as), "point with another property %d", other);
+		CHECK_AS((field_quality(&f, 0) == QUALITY_GOOD) == (other == SAME), as);
+		hal_close_rest(&g.hal);
+		arena_free(&g.arena);
+		field_end(&f);
+	}
+}
+
 /* ---- 1-wire ---- */
 
 #define SENSOR "bus/w1/devices/28-000005e2fdc3"
@@ -1003,6 +1047,7 @@ int main(void)
 	test_told_quality();
 	test_gateway_beside();
 	test_exchange();
+	test_same();
 	test_w1();
 	test_slow_device();
 	test_hung_device();

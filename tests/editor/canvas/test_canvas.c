@@ -208,6 +208,23 @@ static void test_marks(LadderDocument *document)
 	g_bytes_unref(later);
 }
 
+/* What a search has found is marked, also the first step of a chart. */
+static void test_found(LadderDocument *document)
+{
+	GtkWidget *page = ladder_sfc_view_new(document, 1);
+	GBytes *before = look_at(page), *found, *after;
+
+	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), 1);
+	found = look(page);
+	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), -1);
+	after = look(page);
+	CHECK_AS(!g_bytes_equal(before, found), "the first step is marked when it is found");
+	CHECK_AS(g_bytes_equal(before, after), "and no longer when the search ends");
+	g_bytes_unref(before);
+	g_bytes_unref(found);
+	g_bytes_unref(after);
+}
+
 static int cell_count(GtkWidget *page)
 {
 	int count = 0;
@@ -255,6 +272,7 @@ int main(void)
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	test_drag(document);
 	test_marks(document);
+	test_found(document);
 	test_grows();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);

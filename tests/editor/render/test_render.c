@@ -128,6 +128,18 @@ static void check_diff_chart(void)
 	      count_of("c.svg", EQUALS_NOT) == 0);
 }
 
+/* Below a chart stand the bodies of its actions, in each language. */
+static void check_chart_bodies(void)
+{
+	write_text("a.rung", "PROGRAM Chart SFC\nVAR\n  Level : INT;\nEND_VAR\n  INITIAL_STEP S0:\n    Fill(N);\n"
+		   "    Empty(N);\n    Count(N);\n  END_STEP\n"
+		   "  ACTION Fill:\n    RUNG\n      | NO %IX0.3 | COIL %QX0.3 |\n  END_ACTION\n"
+		   "  ACTION Empty:\n    Level := 12345;\n  END_ACTION\n"
+		   "  ACTION Count:\n    LD Level\n    ADD 54321\n    ST Level\n  END_ACTION\nEND_PROGRAM\n");
+	CHECK(render("OUT/a.rung -o OUT/bodies.svg") == 0);
+	CHECK(has("bodies.svg", "%QX0.3") && has("bodies.svg", "12345") && has("bodies.svg", "54321"));
+}
+
 /* A picture has no tooltips: names are not cut. */
 static void check_diff_names(void)
 {
@@ -435,6 +447,7 @@ int main(void)
 	check_diff();
 	check_diff_besides();
 	check_diff_chart();
+	check_chart_bodies();
 	check_diff_names();
 	check_networks();
 	check_moved();
