@@ -59,8 +59,12 @@ sub run_test {
 	my ($file, @words) = split / /, $test;
 	my $command = $file =~ /\.py$/ ? "/usr/bin/python3 $test" : $file =~ m{^build/} ? $test :
 		slurp($file) =~ /^#!.*perl/ ? "perl $test" : "sh $test";
-	my $output = qx(cd $COPY && BUILD=build LADDER=build/ladder timeout $SECONDS $command 2>&1);
-	return $? != 0 || $output !~ /^ok/m || $output =~ /^not ok/m;
+	# A script that waits for windows may fail on a busy machine: it has found a fault if it fails twice.
+	for my $again ($file =~ /\.py$/ ? (0, 1) : 0) {
+		my $output = qx(cd $COPY && BUILD=build LADDER=build/ladder timeout $SECONDS $command 2>&1);
+		return 0 if $? == 0 && $output =~ /^ok/m && $output !~ /^not ok/m;
+	}
+	return 1;
 }
 
 sub build { my ($what) = @_; return system("cd $COPY && make -s -j2 BUILD=build CC='$CC' $what >mutant.log 2>&1") == 0; }
