@@ -65,5 +65,16 @@ def addresses(screen):
     check(path)
 
 
+def special(screen):
+    """a special relay of another tool is refused at the entry, with the word to write"""
+    editor = Editor(screen, file_with(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+End', 'Home')
+    editor.type('M8000')
+    until(lambda: editor.all('write SYS_ALWAYS_ON'), 'the reason')
+    editor.shot('special')
+    editor.keys('Escape')
+
+
 if __name__ == '__main__':
-    main([coils, addresses])
+    main([coils, addresses, special])
