@@ -97,6 +97,14 @@ say_rule("no fork, no dlopen on a board",
 	 places(qr/\b(?:fork|vfork|dlopen|mprotect|execv\w*|execl\w*)\s*\(/,
 		sub { $_[0] =~ m{^(?:runtime/engine/base|runtime/engine/scan|hal|runtime/ladderd)/} &&
 		      $_[0] ne 'hal/iio_calls.c' }));
+# A handler that replaces widgets while GTK moves the focus may remove the one that gets it. The exceptions hear
+# of the enter, or let go of a key, and change no widget.
+my %focus = map { ("editor-gtk/$_" => 1) } qw(kit/left.c window/below_part.c live/sim_panel.c);
+say_rule("only kit/left.c hears of a focus that leaves",
+	 places(qr/\bgtk_event_controller_focus_new\s*\(/,
+		sub { $_[0] =~ m{^editor-gtk/} && !$focus{$_[0]} }),
+	 map { my $ui = $_; open my $in, '<', $ui or die "$ui: $!"; local $/;
+	       <$in> =~ /GtkEventControllerFocus/ ? $ui : () } glob('editor-gtk/ui/*.ui'));
 # The engine compares names by Unicode: base/name.h. A call with a word in quotes compares a
 # keyword; these files compare keywords in tables and file endings only.
 my %keywords = map { ("editor-gtk/$_" => 1) } qw(document/classic.c document/csv.c draw/pages.c

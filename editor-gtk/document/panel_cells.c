@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "engine/base/name.h"
 
 #include <string.h>
@@ -176,7 +177,7 @@ static void show_rest(GtkWidget *cell, int at)
 	g_clear_pointer(&list, pango_attr_list_unref);
 }
 
-/* An edit that is set when the focus has moved. */
+/* An edit that is set when the focus has moved. The cell may show another row by then. */
 struct later {
 	const struct column *column;
 	GtkWidget *cell;
@@ -184,18 +185,42 @@ struct later {
 	char *text;
 };
 
-static gboolean do_later(gpointer data)
+static bool shows(GtkWidget *cell, LadderPanelRow *row)
+{
+	GtkListItem *item = item_of(cell);
+
+	return item && gtk_list_item_get_item(item) == row;
+}
+
+/* The cell still has the text: it was not bound anew, which shows the text of the row. */
+static bool has_text(GtkWidget *cell, const char *text)
+{
+	char *now = g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell))));
+	const bool has = !text || strcmp(now, text) == 0;
+
+	g_free(now);
+	return has;
+}
+
+static void do_later(gpointer data)
 {
 	struct later *later = data;
 	char *why = NULL;
-	const bool good = set(later->column, later->row, later->text, &why);
-	GtkListItem *item = item_of(later->cell);
+	bool good;
 
-	if (!good && item && gtk_list_item_get_item(item) == later->row)
+	/* An owner that makes its rows anew marks no row that is good. */
+	if (!(later->text && later->column->cells->later) && shows(later->cell, later->row) &&
+	    has_text(later->cell, later->text)) {
+		commit(later->cell, item_of(later->cell));
+		return;
+	}
+	if (!later->text)
+		return;
+	good = set(later->column, later->row, later->text, &why);
+	if (!good && shows(later->cell, later->row))
 		mark(later->cell, g_strdup(later->text), why);
 	else
 		g_free(why);
-	return G_SOURCE_REMOVE;
 }
 
 static void later_free(gpointer data)
@@ -209,31 +234,29 @@ static void later_free(gpointer data)
 	g_free(later);
 }
 
-static void left(GtkEventControllerFocus *focus, GtkListItem *item)
+static gpointer left(GtkWidget *cell, gpointer unused)
 {
-	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+	GtkListItem *item = item_of(cell);
 	GtkRoot *root = gtk_widget_get_root(cell);
-	LadderPanelRow *row = gtk_list_item_get_item(item);
+	LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
 	struct later *later;
 	char *text;
 
+	(void)unused;
 	/* the window committed the edit before it closes */
-	if (root ? gtk_widget_in_destruction(GTK_WIDGET(root)) :
-		   !column_of(cell)->cells->later)
-		return;
+	if (!row || (root ? gtk_widget_in_destruction(GTK_WIDGET(root)) :
+			    !column_of(cell)->cells->later))
+		return NULL;
 	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
 	if (rest_of(cell))
 		show_rest(cell, -1);
-	text = column_of(cell)->cells->later ? edited(cell, row) : NULL;
-	if (!text) {
-		commit(cell, item);
-		return;
-	}
+	text = edited(cell, row);
+	if (!text && !refused_text(cell))
+		return NULL;
 	later = g_new(struct later, 1);
-	*later = (struct later){ column_of(cell), g_object_ref(cell), g_object_ref(row),
-				 text };
+	*later = (struct later){ column_of(cell), g_object_ref(cell), g_object_ref(row), text };
 	g_object_ref(later->column->cells->owner);
-	g_idle_add_full(G_PRIORITY_HIGH_IDLE, do_later, later, later_free);
+	return later;
 }
 
 /* Actions of the panel apply to the row whose cell has the focus. */
@@ -251,8 +274,10 @@ static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
 bool panel_cells_commit(GtkColumnView *view)
 {
 	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
-	GtkWidget *cell = root ? gtk_root_get_focus(root) : NULL;
+	GtkWidget *cell;
 
+	left_now();
+	cell = root ? gtk_root_get_focus(root) : NULL;
 	while (cell && cell != GTK_WIDGET(view) && !column_of(cell))
 		cell = gtk_widget_get_parent(cell);
 	if (!cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) || !GTK_IS_ENTRY(cell) ||
@@ -665,7 +690,7 @@ static GtkWidget *entry_new(const struct column *column)
 {
 	GtkWidget *cell = cell_entry_new();
 
-	cells_add(cell, "focus", gtk_event_controller_focus_new());
+	g_object_set_data(G_OBJECT(cell), "focus", left_connect(cell, left, do_later, later_free, NULL));
 	cells_add(cell, "keys", gtk_event_controller_key_new());
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
 	if (has_choices(column)) {
@@ -695,7 +720,6 @@ static void connect_entry(GtkWidget *cell, GtkListItem *item)
 
 	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
 	g_signal_connect(cell, "icon-press", G_CALLBACK(icon_pressed), item);
-	g_signal_connect(focus, "leave", G_CALLBACK(left), item);
 	g_signal_connect(focus, "enter", G_CALLBACK(entered), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
 			 G_CALLBACK(pressed), item);

@@ -18,8 +18,8 @@ struct panel_cells {
 	unsigned int choosable; /* a bit for each field that has choices       */
 	unsigned int completing; /* a bit for each field with choices that are completed while
 				    they are typed */
-	bool later;             /* edits are set after the focus has moved, because the owner
-				   then makes all rows anew */
+	bool later;             /* the owner makes all rows anew when an edit is set, which is always
+				   after the focus has moved: see kit/left.h */
 	bool keeps;             /* rows are never made anew: a row with a refused text keeps it,
 				   and the reason, as its data "refused" and "why" */
 	/* Translated. */

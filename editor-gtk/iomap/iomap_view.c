@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/online/board_devices.h"
 
@@ -233,10 +234,18 @@ static void board_activated(GtkEntry *entry, LadderIomapView *view)
 	set_board(view);
 }
 
-static void board_left(GtkEventControllerFocus *focus, LadderIomapView *view)
+static gpointer note_board(GtkWidget *entry, gpointer view)
 {
-	(void)focus;
-	set_board(view);
+	(void)entry;
+	return g_object_ref(view);
+}
+
+static void board_left(gpointer data)
+{
+	LadderIomapView *view = data;
+
+	if (view->watch) /* it is not disposed */
+		set_board(view);
 }
 
 static void commit(LadderIomapView *view)
@@ -942,7 +951,6 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	CHILD(lacks); CHILD(lacks_label); CHILD(message);
 #undef CHILD
 	gtk_widget_class_bind_template_callback(widget, board_activated);
-	gtk_widget_class_bind_template_callback(widget, board_left);
 }
 
 /* ---- pages ---- */
@@ -1148,6 +1156,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	io_machine_look(&view->machine, NULL);
 	view->scan = iomap_scan_new(scan_changed, view);
 	gtk_widget_init_template(widget);
+	left_connect(GTK_WIDGET(view->board), note_board, board_left, g_object_unref, view);
 	iomap_live_init(&view->live);
 	for (int i = 0; i < IOMAP_PAGES; i++)
 		add_page(view, (enum iomap_page)i);

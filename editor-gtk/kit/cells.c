@@ -5,6 +5,7 @@
 #include "editor-gtk/kit/cells.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -195,6 +196,7 @@ void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *i
 
 bool cells_take(GtkWidget *focus)
 {
+	left_now();
 	for (; focus; focus = gtk_widget_get_parent(focus)) {
 		const struct take *how = g_object_get_data(G_OBJECT(focus), "take");
 

@@ -5,6 +5,7 @@
 #include "editor-gtk/live/sim_panel_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/style.h"
@@ -394,10 +395,25 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 	return GDK_EVENT_STOP;
 }
 
+static gpointer note_entry(GtkWidget *entry, gpointer view)
+{
+	(void)entry;
+	return g_object_ref(view);
+}
+
+/* Another value of the row may be edited by now. */
+static void entry_left(gpointer data)
+{
+	LadderSimRowView *view = data;
+
+	if (gtk_widget_get_root(GTK_WIDGET(view)) &&
+	    !(gtk_widget_get_state_flags(view->entry) & GTK_STATE_FLAG_FOCUS_WITHIN))
+		end_edit(view);
+}
+
 static void add_entry(LadderSimRowView *view)
 {
 	GtkEventController *keys = gtk_event_controller_key_new();
-	GtkEventController *focus = gtk_event_controller_focus_new();
 
 	view->entry = gtk_entry_new();
 	gtk_widget_add_css_class(view->entry, "field");
@@ -405,11 +421,10 @@ static void add_entry(LadderSimRowView *view)
 	gtk_editable_set_alignment(GTK_EDITABLE(view->entry), 1);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	g_signal_connect_swapped(focus, "leave", G_CALLBACK(end_edit), view);
 	g_signal_connect(view->entry, "activate", G_CALLBACK(entered), view);
 	g_signal_connect_swapped(view->entry, "changed", G_CALLBACK(text_changed), view);
 	gtk_widget_add_controller(view->entry, keys);
-	gtk_widget_add_controller(view->entry, focus);
+	left_connect(view->entry, note_entry, entry_left, g_object_unref, view);
 	gtk_box_insert_child_after(GTK_BOX(view->line), view->entry, view->value);
 }
 

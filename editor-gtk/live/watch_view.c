@@ -17,6 +17,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/style.h"
 #include "editor-gtk/live/watch_names.h"
 
@@ -844,9 +845,43 @@ static bool comment_left(GtkWidget *entry, GtkListItem *item)
 	return true;
 }
 
-static void comment_unfocused(GtkEventControllerFocus *focus, GtkListItem *item)
+/* A comment that the focus has left; its row may have another cell by then. */
+struct comment {
+	LadderWatchView *view;
+	LadderWatchRow *row;
+	char *text;
+};
+
+static gpointer note_comment(GtkWidget *entry, gpointer item)
 {
-	comment_left(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus)), item);
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+	const char *text = gtk_editable_get_text(GTK_EDITABLE(entry));
+	LadderWatchView *view = view_of(entry);
+	struct comment *comment;
+
+	if (!row || !view || strcmp(text, row->line->comment) == 0)
+		return NULL;
+	comment = g_new(struct comment, 1);
+	*comment = (struct comment){ g_object_ref(view), g_object_ref(row), g_strdup(text) };
+	return comment;
+}
+
+static void take_comment(gpointer data)
+{
+	struct comment *comment = data;
+
+	if (gtk_widget_get_root(GTK_WIDGET(comment->view)))
+		set_comment(comment->view, comment->row, comment->text);
+}
+
+static void comment_free(gpointer data)
+{
+	struct comment *comment = data;
+
+	g_object_unref(comment->view);
+	g_object_unref(comment->row);
+	g_free(comment->text);
+	g_free(comment);
 }
 
 static void force_clicked(GtkButton *button, GtkListItem *item)
@@ -986,15 +1021,12 @@ static void bind_fresh(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item)
 
 static void bind_comment(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item)
 {
-	GtkEventController *focus = gtk_event_controller_focus_new();
-
 	gtk_editable_set_text(GTK_EDITABLE(cell), row->line->comment);
 	tip_set(cell, row->line->comment);
 	name_cell(cell, row, COMMENT);
 	g_signal_connect(cell, "activate", G_CALLBACK(comment_left), item);
-	g_signal_connect(focus, "leave", G_CALLBACK(comment_unfocused), item);
-	gtk_widget_add_controller(cell, focus);
-	g_object_set_data(G_OBJECT(cell), "focus", focus);
+	g_object_set_data(G_OBJECT(cell), "focus", left_connect(cell, note_comment, take_comment,
+								comment_free, item));
 	cells_on_take(cell, comment_left, item);
 }
 

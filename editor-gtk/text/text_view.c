@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
@@ -1039,10 +1040,23 @@ static char *say_line(void *data, int line)
 	return both;
 }
 
+static gpointer note_letters(GtkWidget *text, gpointer data)
+{
+	LadderTextView *view = data;
+
+	(void)text;
+	return view->taking ? g_object_ref(view) : NULL;
+}
+
+static void take_letters(gpointer view)
+{
+	ladder_text_view_take(view);
+}
+
 static void build(LadderTextView *view)
 {
 	GtkWidget *scroller = gtk_scrolled_window_new();
-	GtkEventController *leaves, *keys;
+	GtkEventController *keys;
 
 	make_buffer(view);
 	view->values = line_values_new(view->buffer);
@@ -1066,9 +1080,7 @@ static void build(LadderTextView *view)
 	gtk_widget_set_visible(GTK_WIDGET(view->call), FALSE);
 	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->call));
 	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->told));
-	leaves = gtk_event_controller_focus_new();
-	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
-	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
+	left_connect(GTK_WIDGET(view->view), note_letters, take_letters, g_object_unref, view);
 	view->folds = text_folds_new(view->values);
 	line_values_set_part(view->values, &view->part);
 	view->stops = text_stops_new(view->values, view->document, &view->pou, &view->part);

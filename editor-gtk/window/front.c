@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/style.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
@@ -187,9 +188,11 @@ void front_enter(struct front *front)
 
 bool front_take_typed(struct front *front)
 {
-	GtkWidget *focus = gtk_window_get_focus(front->core->window);
-	GtkWidget *text = focus ? gtk_widget_get_ancestor(focus, LADDER_TYPE_TEXT_VIEW) : NULL;
+	GtkWidget *focus, *text;
 
+	left_now();
+	focus = gtk_window_get_focus(front->core->window);
+	text = focus ? gtk_widget_get_ancestor(focus, LADDER_TYPE_TEXT_VIEW) : NULL;
 	if (text)
 		ladder_text_view_take(LADDER_TEXT_VIEW(text));
 	return cells_take(focus);

@@ -88,15 +88,15 @@ static void make(GtkScrollbar *scrollbar)
 	g_signal_connect_swapped(range, "change-value", G_CALLBACK(by_hand), bar);
 }
 
-/* ---- bars that change while the window is drawn ---- */
+/* ---- bars that change while the window is laid out or drawn ---- */
 
-/* Is the window of @widget being drawn? */
-static gboolean is_drawing(GtkWidget *widget)
+/* Is the window of @widget in this phase of a frame, "layout" or "paint"? */
+static gboolean is_in(GtkWidget *widget, const char *phase)
 {
 	GdkFrameClock *clock = gtk_widget_get_frame_clock(widget);
 	const GSignalInvocationHint *hint = clock ? g_signal_get_invocation_hint(clock) : NULL;
 
-	return hint && hint->signal_id == g_signal_lookup("paint", GDK_TYPE_FRAME_CLOCK);
+	return hint && hint->signal_id == g_signal_lookup(phase, GDK_TYPE_FRAME_CLOCK);
 }
 
 /* What GtkRange does when its adjustment has changed. */
@@ -120,7 +120,7 @@ static gboolean lay_out_later(gpointer range)
 
 static void range_changed(GtkWidget *range)
 {
-	if (!is_drawing(range)) {
+	if (!is_in(range, "layout") && !is_in(range, "paint")) {
 		lay_out_slider(range);
 		return;
 	}
@@ -150,6 +150,46 @@ static void wait_for_drawing(GtkWidget *scrollbar)
 	take_over(range, "changed");
 	if (!g_object_get_data(G_OBJECT(scrollbar), "slow-bar"))
 		take_over(range, "value-changed");
+}
+
+/* ---- texts that change while the window is laid out ---- */
+
+static void text_scrolled(GtkWidget *scroller)
+{
+	if (is_in(scroller, "layout"))
+		g_object_set_data(G_OBJECT(scroller), "text-due", scroller);
+}
+
+/* Called behind GTK in each layout, which is done again before the window is drawn. */
+static void laid_out(GtkWidget *scroller)
+{
+	if (g_object_steal_data(G_OBJECT(scroller), "text-due"))
+		gtk_widget_queue_resize(scroller);
+}
+
+static void follow_axis(GtkWidget *scroller, GtkAdjustment *of)
+{
+	g_signal_connect_object(of, "changed", G_CALLBACK(text_scrolled), scroller, G_CONNECT_SWAPPED);
+	g_signal_connect_object(of, "value-changed", G_CALLBACK(text_scrolled), scroller,
+				G_CONNECT_SWAPPED);
+}
+
+/* A scroller may be shown in another window later. */
+static void lay_out_again(GtkScrolledWindow *scroller)
+{
+	GdkFrameClock *clock = gtk_widget_get_frame_clock(GTK_WIDGET(scroller));
+	GdkFrameClock *was = g_object_get_data(G_OBJECT(scroller), "text-clock");
+
+	if (!GTK_IS_TEXT_VIEW(gtk_scrolled_window_get_child(scroller)) || clock == was)
+		return;
+	if (was) {
+		g_signal_handlers_disconnect_by_func(was, laid_out, scroller);
+	} else {
+		follow_axis(GTK_WIDGET(scroller), gtk_scrolled_window_get_hadjustment(scroller));
+		follow_axis(GTK_WIDGET(scroller), gtk_scrolled_window_get_vadjustment(scroller));
+	}
+	g_object_set_data_full(G_OBJECT(scroller), "text-clock", g_object_ref(clock), g_object_unref);
+	g_signal_connect_object(clock, "layout", G_CALLBACK(laid_out), scroller, G_CONNECT_SWAPPED);
 }
 
 /* ---- which bars are shown ---- */
@@ -220,6 +260,7 @@ static gboolean widget_mapped(GSignalInvocationHint *hint, guint count, const GV
 	if (GTK_IS_SCROLLED_WINDOW(widget)) {
 		wait_for_drawing(gtk_scrolled_window_get_hscrollbar(GTK_SCROLLED_WINDOW(widget)));
 		wait_for_drawing(gtk_scrolled_window_get_vscrollbar(GTK_SCROLLED_WINDOW(widget)));
+		lay_out_again(GTK_SCROLLED_WINDOW(widget));
 	}
 	if (GTK_IS_SCROLLED_WINDOW(widget) && !GTK_IS_POPOVER(gtk_widget_get_native(widget)))
 		slow_bar_choose(GTK_SCROLLED_WINDOW(widget));

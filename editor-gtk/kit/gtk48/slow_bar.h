@@ -21,6 +21,11 @@
  *   was: GtkTextView lays out its first lines, and scrolls, while it is drawn. The slider asks for
  *   a layout then, and is drawn before it. Bars wait until the window has been drawn. To see it:
  *   the same without the calls of wait_for_drawing().
+ *
+ * - The same warning with GtkTextView, and a blank text: a text that scrolls while it is laid out asks
+ *   for another layout. If a widget around it, such as a GtkPaned, is laid out at the same time, it
+ *   forgets that afterwards, and the text is not drawn until its size changes. Then the scroller asks
+ *   again. To see it: run storm 35 some times on a busy machine without the call of lay_out_again().
  */
 #ifndef EDITOR_SLOW_BAR_H
 #define EDITOR_SLOW_BAR_H

@@ -6,7 +6,7 @@ import signal
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, sh, until  # noqa: E402
 from screen import close_window  # noqa: E402
 
 
@@ -157,4 +157,46 @@ def ended(screen):
     editor.element('Open')
 
 
-main([elements, wrong, dropped, charts, closed, ended])
+TABLE = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Horn  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Horn := Start;
+END_PROGRAM
+'''
+
+
+def saved_soon(editor, path, wanted):
+    until(lambda: wanted in open(path).read(), '"%s" in the file' % wanted)
+
+
+def at_once(screen):
+    """what is typed in a cell or a text is in the file, though a click elsewhere and Ctrl+S follow at once"""
+    path = new_file(screen, TABLE)
+    editor = Editor(screen, path)
+    view = editor.find('Text of the program')
+    elsewhere = editor.centre(until(lambda: [node for node in editor.all('Main', 'label') if node.box()[0] < 200],
+                                    'the program in the tree')[0])
+    for number in range(4):
+        editor.click(view)
+        until(lambda: view.has(12), 'the focus in the text')
+        editor.keys('ctrl+Home', 'Down')
+        sh('xdotool', 'type', '--delay', '5', '(* %d *)' % number)
+        sh('xdotool', 'mousemove', *map(str, elsewhere), 'click', '1', 'key', 'ctrl+s')
+        saved_soon(editor, path, '(* %d *)' % number)
+    editor.keys('ctrl+alt+s')
+    elsewhere = editor.centre(editor.find('Start, Comment', 'text'))
+    for number in range(4):
+        editor.into('Horn, Comment')
+        editor.keys('ctrl+a')
+        sh('xdotool', 'type', '--delay', '5', 'loud %d' % number)
+        sh('xdotool', 'mousemove', *map(str, elsewhere), 'click', '1', 'key', 'ctrl+s')
+        saved_soon(editor, path, 'loud %d' % number)
+    check(path)
+
+
+main([elements, wrong, dropped, charts, closed, ended, at_once])

@@ -139,6 +139,6 @@ def of(number):
     return test
 
 
-numbers = [int(number) for number in sys.argv[1:]] or (12, 18, 23)
+numbers = [int(number) for number in sys.argv[1:]] or (12, 18, 23, 35)
 del sys.argv[1:]
 main([of(number) for number in numbers])
