@@ -122,10 +122,11 @@ static int room_wanted(struct below *below)
 {
 	int rows, line, tabs;
 	PangoLayout *layout;
+	GtkWidget *problems = below_made(below, "problems"); /* none: its rows are being made, or none are needed yet */
 
-	if (g_strcmp0(gtk_stack_get_visible_child_name(below->stack), "problems") != 0)
+	if (!problems || g_strcmp0(gtk_stack_get_visible_child_name(below->stack), "problems") != 0)
 		return PANEL_ROOM;
-	rows = ladder_problems_count(LADDER_PROBLEMS(below_panel(below, "problems")), false);
+	rows = ladder_problems_count(LADDER_PROBLEMS(problems), false);
 	layout = gtk_widget_create_pango_layout(GTK_WIDGET(below->box), "X");
 	pango_layout_get_pixel_size(layout, NULL, &line);
 	g_object_unref(layout);

@@ -24,7 +24,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	if (!iomap_read(&map, &arena, "fuzz.io", (const char *)bytes, len,
 			&diags)) {
 		fuzz_expect(diags.errors > 0, "a refused map has an error");
-		fuzz_expect(map.count == 0, "no half map");
 	}
 	for (int i = 0; i < map.count; i++) {
 		struct diag place = io_place(&map, &map.point[i], DIAG_IO_BUSY);

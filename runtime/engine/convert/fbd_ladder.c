@@ -1751,7 +1751,7 @@ static void put_network(struct ladders *l, int number)
 			}
 			put_item(l, &acts->pou->st->item[l->names.item]);
 		}
-		if (was) /* the project stays as it was */
+		if (was && l->network->count) /* the project stays as it was */
 			memcpy(item, was, sizeof(*item) * (size_t)l->network->count);
 		acts->failed |= !was;
 	}

@@ -696,6 +696,8 @@ static size_t plain_length(const struct mender *m, size_t at, size_t to)
 	size_t end = at;
 	int depth = 0;
 
+	if (at >= to) /* blanks alone */
+		return 0;
 	lex_init(&lex, m->text + at, to - at);
 	lex_next(&lex);
 	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS && lex.token.kind != TOKEN_NUMBER)
@@ -719,8 +721,9 @@ static size_t skip_blanks(const struct mender *m, size_t at)
 /* Signs of comparison in a contact: `=` was taken for the one of a parameter. Returns the new end. */
 static size_t compare_again(struct mender *m, size_t from, size_t to)
 {
-	if (strstr(m->in->text, ":=") && strstr(m->in->text, ":=") < m->in->text + m->in->len)
-		return to;
+	for (size_t at = 0; at + 1 < m->in->len; at++)
+		if (m->in->text[at] == ':' && m->in->text[at + 1] == '=')
+			return to;
 	for (size_t at = from; at + 1 < to; at++)
 		if (m->text[at] == ':' && m->text[at + 1] == '=') {
 			memmove(m->text + at, m->text + at + 1, m->len - at);
@@ -800,6 +803,8 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 
 	if (row->edge == EDGE_NONE || row->operand == OPND_BOOL_W)
 		to = compare_again(m, from, to);
+	if (at >= to) /* nothing stands there */
+		return false;
 	end = to;
 	while (end - at > 2 && m->text[at] == '(' && m->text[end - 1] == ')') {
 		at = skip_blanks(m, at + 1);

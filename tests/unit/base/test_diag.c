@@ -33,7 +33,7 @@ static void prints(void)
 		 "diag_add() returns true for a warning");
 	diag_print(&list.diag[1], text, sizeof(text));
 	CHECK_TEXT(text, "a:2:7: warning LD310: "
-			 "\"Motor\" is written by coils in two places; the last one wins");
+			 "\"Motor\" is written by coils in more than one place; the last one wins");
 	place = (struct diag){ .id = DIAG_EMPTY_RUNG, .pou = "Main", .rung = 4 };
 	diag_add(&list, place, "%s", "");
 	diag_print(&list.diag[2], text, sizeof(text));
