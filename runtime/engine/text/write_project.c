@@ -558,7 +558,7 @@ static void put_comment(const struct config_writer *w, uint32_t comment)
 static void put_task(const struct config_writer *w,
 		     const struct config_entry *entry)
 {
-	put_id(w, "TASK ", entry->name);
+	put_id(w, "TASK ", entry->own_name ? entry->own_name : entry->name);
 	if (entry->interval)
 		put_id(w, " (INTERVAL := ", entry->interval);
 	else
@@ -572,9 +572,9 @@ static void put_task(const struct config_writer *w,
 static void put_program(const struct config_writer *w,
 			const struct config_entry *entry)
 {
-	put_id(w, "PROGRAM ", entry->name);
+	put_id(w, "PROGRAM ", entry->own_name ? entry->own_name : entry->name);
 	if (entry->task)
-		put_id(w, " WITH ", entry->task);
+		put_id(w, " WITH ", entry->own_task ? entry->own_task : entry->task);
 	put_id(w, " : ", entry->pou);
 	project_write_values(w->project, entry, w->sink);
 	sink_text(w->sink, ";");
@@ -626,39 +626,56 @@ static void put_entry(const struct config_writer *w,
 	sink_mark(w->sink, TEXT_ENTRY, number, false);
 }
 
-/* Lines outside the RESOURCE stay before or after it. */
+static void open_resource(const struct config_writer *w, uint32_t name, uint32_t on, uint32_t comment)
+{
+	sink_mark(w->sink, TEXT_RESOURCE, 0, true);
+	put_id(w, "  RESOURCE ", name);
+	if (on)
+		put_id(w, " ON ", on);
+	put_comment(w, comment);
+}
+
+static void close_resource(const struct config_writer *w, uint32_t behind)
+{
+	sink_text(w->sink, "  END_RESOURCE");
+	put_comment(w, behind);
+	sink_mark(w->sink, TEXT_RESOURCE, 0, false);
+}
+
+/* Lines outside a RESOURCE stay before or behind it. */
 static void write_config(const struct sink *sink, const struct project *project)
 {
 	const struct config_writer w = { sink, project };
 	const struct config *config = project->config;
-	bool open = false, done = !config->has_resource;
+	bool open = false, first = config->has_resource;
+	uint32_t behind = 0;
 
 	put_id(&w, "CONFIGURATION ", config->name);
 	put_comment(&w, config->comment);
 	for (int i = 0; i <= config->count; i++) {
-		const struct config_entry *entry = &config->entry[i];
-		bool inside = i < config->count && entry->inside;
+		const struct config_entry *entry = i < config->count ? &config->entry[i] : NULL;
 
-		if (!done && !open && i == config->resource_at) {
-			sink_mark(sink, TEXT_RESOURCE, 0, true);
-			put_id(&w, "  RESOURCE ", config->resource);
-			if (config->on)
-				put_id(&w, " ON ", config->on);
-			put_comment(&w, config->resource_comment);
+		if (first && i == config->resource_at) {
+			open_resource(&w, config->resource, config->on, config->resource_comment);
 			if (config->resource_inside) {
 				put_id(&w, "    ", config->resource_inside);
 				sink_text(sink, "\n");
 			}
+			behind = config->resource_behind;
 			open = true;
+			first = false;
 		}
-		if (open && !done && !inside) {
-			sink_text(sink, "  END_RESOURCE");
-			put_comment(&w, config->resource_behind);
-			sink_mark(sink, TEXT_RESOURCE, 0, false);
-			done = true;
+		if (open && (!entry || !entry->inside || entry->kind == CONFIG_RESOURCE)) {
+			close_resource(&w, behind);
+			open = false;
 		}
-		if (i < config->count)
+		if (entry && entry->kind == CONFIG_RESOURCE) {
+			open_resource(&w, entry->name, entry->pou, entry->comment);
+			behind = entry->task;
+			open = true;
+		} else if (entry) {
 			put_entry(&w, entry);
+		}
 	}
 	sink_text(sink, "END_CONFIGURATION\n");
 }
