@@ -1053,6 +1053,7 @@ static void ladder_fbd_view_init(LadderFbdView *view)
 	view->stroke = (struct fbd_stroke){ .from = FBD_NOWHERE, .to = FBD_NOWHERE };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct fbd_problem));
 	take_drops(view);
+	fbd_live_watch(view);
 }
 
 GtkWidget *ladder_fbd_view_new(LadderDocument *document, int pou)

@@ -106,6 +106,8 @@ bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out);
 struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at);
 /** fbd_live_end - forgets what @view knows of the running program, @all: also the results of a board. */
 void fbd_live_end(LadderFbdView *view, bool all);
+/** fbd_live_watch - results of a board are computed only while @view is visible. */
+void fbd_live_watch(LadderFbdView *view);
 /** fbd_live_text - the value at a place, for a name. Caller frees; NULL: not known. */
 char *fbd_live_text(LadderFbdView *view, struct fbd_pos at);
 

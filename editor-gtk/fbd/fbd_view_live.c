@@ -68,14 +68,25 @@ static void results_changed(LadderFbdView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
-/* NULL: the program that runs keeps them itself, or is another one. */
+static void unmapped(LadderFbdView *view)
+{
+	fbd_live_end(view, true);
+}
+
+void fbd_live_watch(LadderFbdView *view)
+{
+	g_signal_connect(view, "map", G_CALLBACK(results_changed), NULL);
+	g_signal_connect_after(view, "unmap", G_CALLBACK(unmapped), NULL); /* then it is not mapped */
+}
+
+/* NULL: the program that runs keeps them itself, or is another one, or nobody sees them. */
 static LadderSim *results_of(LadderFbdView *view)
 {
 	LadderSim *sim = view->canvas->sim;
 	LadderDocument *document = view->canvas->document;
 
 	if (!ladder_sim_board(sim) || document != ladder_sim_document(sim) || ladder_sim_older(sim, NULL) ||
-	    ladder_sim_is_missing(sim, document, view->canvas->pou, -1))
+	    !gtk_widget_get_mapped(GTK_WIDGET(view)) || !ladder_sim_runs_all_of(sim, document, view->canvas->pou))
 		return NULL;
 	if (view->results && view->results_version == ladder_document_version(document))
 		return ladder_sim_is_on(view->results) ? view->results : NULL;
@@ -293,9 +304,12 @@ char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
 {
 	struct location place = fbd_live_place(view, at);
 	const struct fbd_places *places = at.network >= 0 && at.network < view->count ? view->strip[at.network].places : NULL;
-	const struct image *image = &ladder_sim_twin(view->canvas->sim)->resource.image;
+	const struct image *image;
 	char text[IEC_VALUE_TEXT];
 
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !ladder_sim_twin(view->canvas->sim))
+		return NULL;
+	image = &ladder_sim_twin(view->canvas->sim)->resource.image;
 	if (places && at.pin >= 0 && places->computed[at.pin]) {
 		place = places->pin[at.pin];
 		image = image_of(places, at.pin);

@@ -244,6 +244,17 @@ bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, in
 	       (rung < 0 ? is_other(sim, pou) : find_rung(sim, pou, rung) < 0);
 }
 
+bool ladder_sim_runs_all_of(LadderSim *sim, LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	bool all = !ladder_sim_is_missing(sim, document, pou, -1) &&
+		   !ladder_sim_is_missing(sim, document, SIM_TYPES, -1);
+
+	for (int i = 0; all && project && i < project->pou_count; i++)
+		all = project->pou[i].kind == POU_PROGRAM || !ladder_sim_is_missing(sim, document, i, -1);
+	return all;
+}
+
 bool ladder_sim_knows(LadderSim *sim, struct location at)
 {
 	return ladder_sim_is_on(sim) && sim->source->knows(sim->source, at);

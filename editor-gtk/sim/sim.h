@@ -224,6 +224,9 @@ enum sim_part { SIM_SYMBOLS = -1, SIM_TYPES = -2, SIM_TASKS = -3 };
  * @rung: -1: without any part of the POU as it is, or of enum sim_part @pou. Of rungs it is known
  * at once, of all else after the next check. Changes with `program-changed`. */
 bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung);
+/** ladder_sim_runs_all_of - whether POU @pou of the document, and all that it may use, run as they are: types, functions and
+ * blocks. */
+bool ladder_sim_runs_all_of(LadderSim *sim, LadderDocument *document, int pou);
 /** ladder_sim_may_miss - whether there is a board that could be without something. */
 bool ladder_sim_may_miss(LadderSim *sim);
 /** ladder_sim_knows - whether the value at @at is that of the scan; false: the board does not send

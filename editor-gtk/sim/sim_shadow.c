@@ -37,7 +37,7 @@ struct sim_shadow {
 	GArray *needs;             /* of struct location, of @runs: what the text names */
 	guint64 at;                /* the scan that the shadow has run; 0: none   */
 	guint64 life;              /* of @of                                      */
-	bool chart;                /* a chart of the running program has steps    */
+	bool chart;                /* a chart that runs is shown as a ladder      */
 	bool powered;              /* power is known                              */
 	bool other;                /* something became known: places are to be found again */
 };
@@ -147,11 +147,16 @@ static void forget_program(struct sim_shadow *shadow)
 	shadow->powered = false;
 }
 
-static bool has_chart(const struct project *project)
+/* Has a chart of the program that runs become another language in @shown? */
+static bool has_left_chart(const struct project *runs, const struct project *shown)
 {
-	for (int i = 0; i < project->pou_count; i++)
-		if (project->pou[i].sfc)
+	for (int i = 0; i < runs->pou_count; i++) {
+		const char *name = project_text(runs, runs->pou[i].name);
+		const int pou = runs->pou[i].sfc ? project_find_pou(shown, name, strlen(name)) : -1;
+
+		if (runs->pou[i].sfc && (pou < 0 || !shown->pou[pou].sfc))
 			return true;
+	}
 	return false;
 }
 
@@ -179,7 +184,7 @@ static bool take_program(struct sim_shadow *shadow, const struct twin *twin, boo
 	shadow->runs = sim_program_ref(runs);
 	shadow->still = still;
 	shadow->replay = sim_replay_new();
-	shadow->chart = has_chart(ladder_project(runs->ladder));
+	shadow->chart = has_left_chart(ladder_project(runs->ladder), project);
 	shadow->other = true;
 	if (still)
 		find_needs(shadow, &twin->resource.image);
@@ -190,12 +195,17 @@ static bool take_program(struct sim_shadow *shadow, const struct twin *twin, boo
 
 struct timed_act { guint64 after; struct act act; };
 
+static bool changes_values(const struct act *act)
+{
+	return act->kind == ACT_SET || act->kind == ACT_FORCE || act->kind == ACT_RELEASE || act->kind == ACT_RELEASE_ALL;
+}
+
 /* Texts belong to the record. */
 static void take_act(void *context, guint64 after, const struct act *act)
 {
 	const struct timed_act one = { after, *act };
 
-	if (act->kind == ACT_SET && !act->plant && act->at.type != IEC_STRING)
+	if (changes_values(act) && !act->plant && act->at.type != IEC_STRING)
 		g_array_append_val((GArray *)context, one);
 }
 
@@ -240,16 +250,23 @@ static bool replay_to(struct sim_shadow *shadow, guint64 scan, struct twin *out)
 
 /* ---- following ---- */
 
+/* How many scans before @scan are run first. A step back keeps what was measured. */
+static guint64 scans_before(const struct sim_shadow *shadow, guint64 scan)
+{
+	const bool step_back = shadow->at > scan && shadow->at - scan <= SCANS_GAP;
+
+	return shadow->chart && !step_back ? SCANS_CHART : shadow->at ? SCANS_GAP : SCANS_BEGIN;
+}
+
 /* Runs all scans up to the one that is shown. */
 static bool run_scans(struct sim_shadow *shadow, const struct twin *twin)
 {
-	const guint64 most = shadow->chart ? SCANS_CHART : shadow->at ? SCANS_GAP : SCANS_BEGIN;
 	GArray *acts = g_array_new(FALSE, FALSE, sizeof(struct timed_act));
-	const guint64 first = find_acts(shadow, twin->scan, most, acts);
+	const guint64 first = find_acts(shadow, twin->scan, scans_before(shadow, twin->scan), acts);
 	bool good = replay_to(shadow, first, &shadow->now);
 
 	if (good && first != shadow->at)
-		shadow_values(shadow->shadow, &shadow->now);
+		shadow_jump(shadow->shadow, &shadow->now);
 	for (guint64 scan = first + 1; good && scan <= twin->scan; scan++) {
 		twin_copy(&shadow->before, &shadow->now);
 		do_acts(&shadow->before, acts);
@@ -404,9 +421,10 @@ static void unlock(struct sim_source *source)
 static bool knows(struct sim_source *source, struct location at)
 {
 	struct sim_shadow *shadow = shadow_of(source);
-	const struct location place = at.constant || !shadow->shadow ? (struct location){ .type = IEC_NONE } :
-				      shadow_place(shadow->shadow, at);
+	struct location place;
 
+	at = location_whole(at);
+	place = at.constant || !shadow->shadow ? (struct location){ .type = IEC_NONE } : shadow_place(shadow->shadow, at);
 	return place.type == IEC_NONE ? at.constant || !shadow->still || shadow->powered :
 	       ladder_sim_knows(shadow->of, place);
 }
@@ -419,7 +437,8 @@ static enum sim_quality quality(struct sim_source *source, const struct sim_view
 
 	(void)view;
 	(void)replay;
-	return shadow->shadow ? ladder_sim_quality(shadow->of, shadow_place(shadow->shadow, at)) : SIM_GOOD;
+	return shadow->shadow ? ladder_sim_quality(shadow->of, shadow_place(shadow->shadow, location_whole(at))) :
+	       SIM_GOOD;
 }
 
 static bool has_power(struct sim_source *source, const char *unit)

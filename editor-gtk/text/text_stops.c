@@ -70,12 +70,13 @@ static char *name_of(const struct text_stops *stops)
 	return g_strdup(pou ? project_text(ladder_document_project(stops->document), pou->name) : "");
 }
 
+/* A page that only shows a program stands nowhere. */
 static bool has_stops(const struct text_stops *stops)
 {
 	const struct pou *pou = pou_of(stops);
 
 	return stops->sim && pou && (pou->language == LANGUAGE_ST || pou->st) &&
-	       ladder_sim_document(stops->sim) == stops->document;
+	       ladder_sim_document(stops->sim) == stops->document && !ladder_document_is_fixed(stops->document);
 }
 
 /* ---- marks ---- */

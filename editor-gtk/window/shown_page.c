@@ -31,6 +31,7 @@ struct _LadderShownPage {
 	GtkButton *convert;
 	GtkWidget *child;            /* the page of one of them, or the reasons    */
 	LadderSim *followed;         /* of the window                              */
+	bool broken;                 /* @made does not build                       */
 	bool filling;
 	bool shown;                  /* @version is the one that is shown          */
 	guint64 version;             /* of @document                               */
@@ -130,22 +131,22 @@ static void put_child(LadderShownPage *page, GtkWidget *child)
 	g_signal_emit_by_name(page->core->window, "place-changed");
 }
 
-/* The program that runs must be the one that was converted. */
+/* The program that runs must be the one that was converted, with all that it uses. */
 static bool may_follow(LadderShownPage *page)
 {
 	LadderSim *sim = page->followed;
 
 	return gtk_widget_get_mapped(GTK_WIDGET(page)) && ladder_sim_is_on(sim) && !ladder_sim_older(sim, NULL) &&
-	       !ladder_sim_is_missing(sim, page->document, ladder_shown_page_pou(page), -1);
+	       ladder_sim_runs_all_of(sim, page->document, ladder_shown_page_pou(page));
 }
 
 static void follow(LadderShownPage *page)
 {
 	const guint part = gtk_drop_down_get_selected(page->parts);
-	const bool may = page->made && part < page->pous->len && may_follow(page);
+	const bool may = page->made && !page->broken && part < page->pous->len && may_follow(page);
 
 	if (may && !ladder_sim_is_on(page->sim))
-		ladder_sim_follow(page->sim, page->followed, g_array_index(page->pous, int, part));
+		page->broken = !ladder_sim_follow(page->sim, page->followed, g_array_index(page->pous, int, part));
 	else if (!may && page->sim)
 		ladder_sim_end(page->sim);
 }
@@ -236,6 +237,7 @@ static void drop_made(LadderShownPage *page)
 		ladder_sim_end(page->sim);
 	g_clear_object(&page->sim);
 	g_clear_object(&page->made);
+	page->broken = false;
 }
 
 static void show_now(LadderShownPage *page)

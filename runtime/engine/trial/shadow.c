@@ -386,6 +386,13 @@ void shadow_values(struct shadow *shadow, const struct twin *now)
 	take(shadow, now);
 }
 
+void shadow_jump(struct shadow *shadow, const struct twin *now)
+{
+	shadow->begun = false;
+	take(shadow, now);
+	shadow->begun = true;
+}
+
 const struct resource *shadow_resource(const struct shadow *shadow)
 {
 	return &shadow->resource;

@@ -36,6 +36,9 @@ void shadow_free(struct shadow *shadow);
 bool shadow_scan(struct shadow *shadow, const struct twin *before, const struct twin *now);
 /** shadow_values - takes the values of @now alone: power stays as it was. Scan-safe: no. */
 void shadow_values(struct shadow *shadow, const struct twin *now);
+/** shadow_jump - goes on from @now, after another scan than its last one: it takes the values, what edges remember
+ * and the steps of a chart; times that only the shadow measures stay. Scan-safe: no. */
+void shadow_jump(struct shadow *shadow, const struct twin *now);
 /** shadow_resource - its state. Borrowed. */
 const struct resource *shadow_resource(const struct shadow *shadow);
 /** shadow_place - where the program that runs has the variable at @at of the shadow; type IEC_NONE: it has

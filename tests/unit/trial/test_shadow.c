@@ -198,6 +198,37 @@ static void test_samples(void)
 	ladder_free(lamps);
 }
 
+/* The chart has left its first step; then a scan before that is shown. */
+static void test_jump(void)
+{
+	struct ladder *steps = build(lamp, strlen(lamp)), *lamps = convert(steps, LANGUAGE_LD);
+	const struct act start = { .kind = ACT_START };
+	struct twin at[6], before;
+	struct shadow *shadow = shadow_new(ladder_program(lamps), ladder_program(steps), NULL);
+	const struct image *image = &shadow_resource(shadow)->image;
+
+	CHECK(shadow && twin_init(&at[0], ladder_program(steps), NULL, PERIOD) && twin_clone(&before, &at[0]));
+	CHECK(twin_act(&at[0], &start));
+	for (int i = 1; i < 6; i++) {
+		CHECK(twin_clone(&at[i], &at[i - 1]));
+		twin_copy(&at[i], &at[i - 1]);
+		image_set_bit(&at[i].resource.image, AREA_I, 0, i >= 4);
+		CHECK(twin_scan(&at[i]));
+		twin_copy(&before, &at[i - 1]);
+		CHECK(shadow_scan(shadow, &before, &at[i]));
+	}
+	CHECK(image_get(image, image_find(image, "Run_X", 5)).i == 1 && image_get(image, image_find(image, "Start_X", 7)).i == 0);
+	shadow_jump(shadow, &at[2]);
+	CHECK_AS(image_get(image, image_find(image, "Run_X", 5)).i == 0 && image_get(image, image_find(image, "Start_X", 7)).i == 1,
+		 "after a jump, the steps are those of that scan");
+	shadow_free(shadow);
+	for (int i = 0; i < 6; i++)
+		twin_free(&at[i]);
+	twin_free(&before);
+	ladder_free(steps);
+	ladder_free(lamps);
+}
+
 static struct location find(const struct resource *resource, const char *name)
 {
 	return image_find(&resource->image, name, strlen(name));
@@ -280,6 +311,7 @@ static void test_places(void)
 int main(void)
 {
 	test_samples();
+	test_jump();
 	test_still();
 	test_places();
 	test_random();
