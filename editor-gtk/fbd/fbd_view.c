@@ -223,12 +223,14 @@ static void checked(LadderCanvas *canvas)
 
 static void values_changed(LadderCanvas *canvas)
 {
+	LADDER_FBD_VIEW(canvas)->ordered = false;
 	gtk_widget_queue_draw(GTK_WIDGET(canvas));
 	canvas_cells_later(canvas);
 }
 
 static void program_gone(LadderCanvas *canvas)
 {
+	LADDER_FBD_VIEW(canvas)->ordered = false;
 	fbd_live_end(LADDER_FBD_VIEW(canvas), !canvas_is_live(canvas));
 }
 
@@ -377,6 +379,16 @@ static char *tip(LadderCanvas *canvas, int x, int y, bool by_keys)
 	return is_there(view, at) && (by_keys || part != FBD_PART_NONE) ? tip_of(view, at) : NULL;
 }
 
+/* Can Space change the value at the cursor? */
+static bool is_switch(LadderFbdView *view)
+{
+	const struct location at = canvas_is_live(LADDER_CANVAS(view)) ?
+				   fbd_live_variable(view, view->cursor, NULL) :
+				   (struct location){ .type = IEC_NONE };
+
+	return at.type == IEC_BOOL && !at.constant;
+}
+
 static char *next_keys(LadderCanvas *canvas)
 {
 	LadderFbdView *view = LADDER_FBD_VIEW(canvas);
@@ -391,8 +403,8 @@ static char *next_keys(LadderCanvas *canvas)
 
 	fbd_fresh(view);
 	kind = view->cursor.pin >= 0 ? 2 : view->cursor.box >= 0 ? 1 : 0;
-	if (canvas_is_live(canvas) && fbd_live_place(view, view->cursor).type == IEC_BOOL) {
-		keys = verb_keys_label(VERB_cycle);
+	if (is_switch(view)) {
+		keys = gtk_accelerator_get_label(GDK_KEY_space, 0);
 		g_string_append_printf(text, "%s: %s", keys, _("Toggle"));
 		g_free(keys);
 	}
@@ -484,25 +496,71 @@ static bool escape(LadderFbdView *view)
 	return any;
 }
 
+/* The value of the last act, which may not have reached the simulation yet. */
+static union iec_value value_now(LadderFbdView *view, struct location at)
+{
+	return view->ordered && live_value_is_same(view->ordered_at, at) ? view->ordered_value :
+	       live_value_get(view->canvas->sim, false, at);
+}
+
+static void set_ordered(LadderFbdView *view, struct location at, union iec_value value)
+{
+	view->ordered = true;
+	view->ordered_at = at;
+	view->ordered_value = value;
+}
+
+/* Does a box write the variable at the cursor? */
+static bool is_written(LadderFbdView *view)
+{
+	const struct fbd_pin *pin = fbd_pin_at(view, view->cursor);
+
+	return !pin || pin->output || !pin->operand;
+}
+
+static void tell_written(LadderFbdView *view, const char *name)
+{
+	char *keys = verb_keys_label(VERB_force);
+	char *text = g_strdup_printf(_("\"%s\" is written by the program in each scan. %s forces it."), name, keys);
+
+	canvas_tell(LADDER_CANVAS(view), text);
+	g_free(keys);
+	g_free(text);
+}
+
+static void toggle_it(LadderFbdView *view, struct location at, const char *name)
+{
+	LadderSim *sim = view->canvas->sim;
+	const bool held = live_value_is_forced(sim, false, at);
+	const char *why = ladder_sim_why_not(sim, held ? SIM_WISH_FORCE : SIM_WISH_SET);
+	union iec_value value = value_now(view, at);
+
+	if (why) {
+		canvas_refuse(LADDER_CANVAS(view), _("Toggle"), why);
+		return;
+	}
+	canvas_acts(LADDER_CANVAS(view), at, _("Toggle"));
+	value.i = !value.i;
+	live_value_set(sim, false, at, value);
+	set_ordered(view, at, value);
+	if (!held && is_written(view) && ladder_sim_state(sim) == SIM_RUN)
+		tell_written(view, name);
+}
+
 /* A BOOL of the running program becomes the other value, as on the sheet of a ladder. False: none is here. */
 static bool toggle(LadderFbdView *view)
 {
-	LadderSim *sim = view->canvas->sim;
-	const struct location at = canvas_is_live(LADDER_CANVAS(view)) ? fbd_live_place(view, view->cursor) :
-				   (struct location){ .type = IEC_NONE };
-	const char *why = at.type == IEC_BOOL ? ladder_sim_why_not(sim, SIM_WISH_SET) : NULL;
-	union iec_value value;
+	struct location at;
+	char *name;
 
-	if (at.type != IEC_BOOL || at.constant)
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !fbd_box_at(view, view->cursor))
 		return false;
-	if (why) {
-		canvas_refuse(LADDER_CANVAS(view), _("Toggle"), why);
-		return true;
-	}
-	canvas_acts(LADDER_CANVAS(view), at, _("Toggle"));
-	value = live_value_get(sim, false, at);
-	value.i = !value.i;
-	live_value_set(sim, false, at, value);
+	at = fbd_live_variable(view, view->cursor, &name);
+	if (at.type == IEC_BOOL && !at.constant)
+		toggle_it(view, at, name);
+	else
+		canvas_tell(LADDER_CANVAS(view), _("Nothing here has a value that can be set."));
+	g_free(name);
 	return true;
 }
 
@@ -647,7 +705,7 @@ static bool applies(LadderCanvas *canvas, enum verb verb)
 	case VERB_box_earlier: case VERB_box_later: return box;
 	case VERB_box_unplace: return box && box->at_column > 0;
 	case VERB_force:
-		return canvas_is_live(canvas) && fbd_live_place(view, view->cursor).type != IEC_NONE;
+		return canvas_is_live(canvas) && fbd_live_variable(view, view->cursor, NULL).type != IEC_NONE;
 	case VERB_box_store: return box && (!pin || pin->output);
 	case VERB_rename: case VERB_show_uses: case VERB_go_definition: case VERB_watch_add: case VERB_cut:
 		return box;
@@ -729,13 +787,14 @@ static GMenu *make_menu(LadderCanvas *canvas)
 static void force(LadderFbdView *view)
 {
 	LadderSim *sim = view->canvas->sim;
-	const struct location at = fbd_live_place(view, view->cursor);
+	const struct location at = fbd_live_variable(view, view->cursor, NULL);
 	const char *prompt = _(verb_row(VERB_force)->label);
-	const char *why = sim ? ladder_sim_why_not(sim, SIM_WISH_SET) : NULL;
+	const char *why = sim ? ladder_sim_why_not(sim, SIM_WISH_FORCE) : NULL;
 	union iec_value value;
 
-	if (at.type == IEC_NONE) {
-		canvas_tell(LADDER_CANVAS(view), _("No value of the running program is here."));
+	if (at.type == IEC_NONE || at.constant || at.type == IEC_STRING) {
+		canvas_tell(LADDER_CANVAS(view), canvas_is_live(LADDER_CANVAS(view)) ?
+			    _("Nothing here can be forced.") : _("The simulation is not running."));
 		return;
 	}
 	if (why) {
@@ -743,13 +802,15 @@ static void force(LadderFbdView *view)
 		return;
 	}
 	canvas_acts(LADDER_CANVAS(view), at, prompt);
-	value = live_value_get(sim, false, at);
+	value = value_now(view, at);
+	if (live_value_is_forced(sim, false, at)) {
+		live_value_release(sim, false, at);
+		return;
+	}
 	if (at.type == IEC_BOOL)
 		value.i = !value.i;
-	if (live_value_is_forced(sim, false, at))
-		live_value_release(sim, false, at);
-	else
-		live_value_force(sim, false, at, value);
+	live_value_force(sim, false, at, value);
+	set_ordered(view, at, value);
 }
 
 static bool changes(enum verb verb)

@@ -52,6 +52,9 @@ struct _LadderFbdView {
 	LadderSim *results;      /* of a board: has those that no variable has; NULL: none */
 	struct live_map *results_map; /* of it; NULL: none                      */
 	guint64 results_version; /* of the document                             */
+	bool ordered;            /* values have not come since the last act      */
+	struct location ordered_at;
+	union iec_value ordered_value;
 };
 
 struct fbd_problem {
@@ -102,8 +105,9 @@ void fbd_go_statement(LadderFbdView *view, int network, int statement);
 /* ---- fbd_view_live.c: the running program ---- */
 /** fbd_live_look - the values of a network; false: nothing runs. */
 bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out);
-/** fbd_live_place - where the value at a place is; type IEC_NONE: not known. */
-struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at);
+/** fbd_live_variable - where the variable at a place is; type IEC_NONE: there is none. The result of a box and a
+ * wire are no variables. @name: gets its name, which the caller frees; NULL: of no interest. */
+struct location fbd_live_variable(LadderFbdView *view, struct fbd_pos at, char **name);
 /** fbd_live_end - forgets what @view knows of the running program, @all: also the results of a board. */
 void fbd_live_end(LadderFbdView *view, bool all);
 /** fbd_live_watch - results of a board are computed only while @view is visible. */

@@ -286,7 +286,8 @@ bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out)
 	return true;
 }
 
-struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at)
+/* Where the value at a place is; type IEC_NONE: not known. */
+static struct location place_of_value(LadderFbdView *view, struct fbd_pos at)
 {
 	const struct fbd_box *box = fbd_box_at(view, at);
 	struct fbd_live live;
@@ -300,9 +301,46 @@ struct location fbd_live_place(LadderFbdView *view, struct fbd_pos at)
 	return box->target && box->kind != FBD_JUMP ? find(view, box->target) : none;
 }
 
+/* The name of the variable that a pin reads or has; NULL: it has none. Caller frees. */
+static char *variable_of(const struct fbd_graph *graph, int pin)
+{
+	const struct fbd_pin *p = &graph->pin[pin];
+	const int source = p->output ? pin : fbd_graph_source(graph, pin);
+	const struct fbd_box *box;
+
+	if (!p->output && p->operand)
+		return is_wire(graph, p->operand) ? NULL : g_strdup(p->operand);
+	if (source < 0)
+		return NULL;
+	p = &graph->pin[source];
+	box = &graph->box[p->box];
+	if (p->operand)
+		return g_strdup(p->operand);
+	return box->kind == FBD_BLOCK && box->instance && p->name[0] ?
+	       g_strdup_printf("%s.%s", box->instance, p->name) : NULL;
+}
+
+struct location fbd_live_variable(LadderFbdView *view, struct fbd_pos at, char **name)
+{
+	const struct fbd_box *box = fbd_box_at(view, at);
+	struct location place = { .type = IEC_NONE };
+	struct fbd_live live;
+	char *variable = NULL;
+
+	if (box && fbd_live_look(view, at.network, &live))
+		variable = at.pin >= 0 ? variable_of(fbd_graph_of(view, at.network), at.pin) :
+			   box->target && box->kind != FBD_JUMP ? g_strdup(box->target) : NULL;
+	if (variable)
+		place = find(view, variable);
+	if (name)
+		*name = g_steal_pointer(&variable);
+	g_free(variable);
+	return place;
+}
+
 char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
 {
-	struct location place = fbd_live_place(view, at);
+	struct location place = place_of_value(view, at);
 	const struct fbd_places *places = at.network >= 0 && at.network < view->count ? view->strip[at.network].places : NULL;
 	const struct image *image;
 	char text[IEC_VALUE_TEXT];

@@ -194,9 +194,12 @@ void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *i
 			       take ? g_memdup2(&how, sizeof(how)) : NULL, g_free);
 }
 
-bool cells_take(GtkWidget *focus)
+bool cells_take(GtkWindow *window)
 {
-	left_now();
+	GtkWidget *focus;
+
+	left_now(); /* it may free the widget that has the focus now */
+	focus = gtk_window_get_focus(window);
 	for (; focus; focus = gtk_widget_get_parent(focus)) {
 		const struct take *how = g_object_get_data(G_OBJECT(focus), "take");
 

@@ -32,7 +32,7 @@ LadderPanelRow *cells_focused(GtkColumnView *table, int *field);
  * false if it refused the edit and marked the cell. NULL: none. */
 void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),
 		   GtkListItem *item);
-/** cells_take - ends the edit that has the focus, if there is one; false: it was refused. */
-bool cells_take(GtkWidget *focus);
+/** cells_take - ends the edit that has the focus in @window, if there is one; false: it was refused. */
+bool cells_take(GtkWindow *window);
 
 #endif

@@ -230,7 +230,7 @@ static void apply(GtkWidget *window, const char *action, GVariant *unused)
 
 	(void)action;
 	(void)unused;
-	if (!cells_take(gtk_window_get_focus(GTK_WINDOW(window))) || enter_refused(dialog))
+	if (!cells_take(GTK_WINDOW(window)) || enter_refused(dialog))
 		return;
 	text = init_node_text(dialog->form, init_form_root(dialog->form));
 	if (init_form_is_changed(dialog->form))
@@ -375,7 +375,7 @@ static gboolean key_pressed(struct dialog *dialog, guint key, guint code,
 	    !cells_focused(dialog->list.view, &field) || field != INIT_VALUE)
 		return FALSE;
 	/* before another row is selected, which would show the old text again */
-	if (!cells_take(gtk_window_get_focus(dialog->window)))
+	if (!cells_take(dialog->window))
 		return TRUE;
 	for (at += by; at >= 0 && at < (int)g_list_model_get_n_items(rows); at += by) {
 		LadderPanelRow *row = g_list_model_get_item(rows, (guint)at);

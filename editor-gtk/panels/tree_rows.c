@@ -373,7 +373,8 @@ static void add_boards(GListStore *root)
 	LadderTreeRow *heading = boards && *boards ? add_heading(root, _("Boards")) : NULL;
 
 	for (int i = 0; heading && boards[i]; i++) {
-		LadderTreeRow *row = add_row(heading->rows, ROW_BOARD, boards[i], NULL);
+		LadderTreeRow *row = add_row(heading->rows, ROW_BOARD,
+			strcmp(boards[i], "unix:") == 0 ? _("This computer") : boards[i], NULL);
 
 		row->path = g_strdup(boards[i]);
 	}

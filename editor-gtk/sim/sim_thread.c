@@ -247,6 +247,13 @@ static void scan_in_time(struct sim_thread *thread)
 		publish(thread, false);
 }
 
+/* Of another program or period, what was counted says nothing. */
+static void forget_cost(struct sim_thread *thread)
+{
+	for (guint i = 0; i < SIM_LATE_STEPS; i++)
+		g_atomic_int_set((gint *)&thread->cost.count[i], 0);
+}
+
 /* ---- orders ---- */
 
 static void start_clock(struct sim_thread *thread)
@@ -280,6 +287,8 @@ static void act(struct sim_thread *thread, const struct act *act)
 	}
 	if (act->kind == ACT_START || act->kind == ACT_WARM || act->kind == ACT_STOP)
 		thread->fault = false;
+	if (act->kind == ACT_PERIOD)
+		forget_cost(thread);
 	g_mutex_lock(&thread->record_lock);
 	sim_eras_act(thread->eras, &thread->twin, act);
 	g_mutex_unlock(&thread->record_lock);
@@ -349,6 +358,7 @@ static void change(struct sim_thread *thread, struct sim_program *program)
 	    twin_change(&next, &thread->twin)) {
 		twin_set_safe(&next, program->safe);
 		replace_twin(thread, &next, program);
+		forget_cost(thread);
 		return;
 	}
 	twin_free(&next);

@@ -195,7 +195,7 @@ bool front_take_typed(struct front *front)
 	text = focus ? gtk_widget_get_ancestor(focus, LADDER_TYPE_TEXT_VIEW) : NULL;
 	if (text)
 		ladder_text_view_take(LADDER_TEXT_VIEW(text));
-	return cells_take(focus);
+	return cells_take(front->core->window);
 }
 
 /* ---- a program before an edit ---- */

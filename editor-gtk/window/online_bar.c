@@ -352,7 +352,7 @@ static void order(struct online_bar *bar, enum mode_wish wish)
 
 /* ---- connecting ---- */
 
-void online_bar_connect(struct online_bar *bar, const char *where)
+static void connect_to(struct online_bar *bar, const char *where)
 {
 	char *why = NULL;
 
@@ -371,14 +371,14 @@ void online_bar_share(struct online_bar *bar, struct online_bar *with)
 		return;
 	if (g_str_has_prefix(where, "serial:"))
 		ladder_board_link_disconnect(link_of(bar));
-	online_bar_connect(with, where);
+	connect_to(with, where);
 }
 
 static void chosen(GtkWidget *dialog, const char *where, struct online_bar *bar)
 {
 	(void)dialog;
 	bar->chosen = true;
-	online_bar_connect(bar, where);
+	connect_to(bar, where);
 }
 
 static void closed(struct online_bar *bar)
@@ -396,9 +396,10 @@ static const char *last_place(struct online_bar *bar)
 	       !g_file_test(where + strlen("unix:"), G_FILE_TEST_EXISTS) ? NULL : where;
 }
 
-static void ask_board(struct online_bar *bar)
+/* @where: what the line has at first; NULL: nothing. */
+static void ask_board(struct online_bar *bar, const char *where)
 {
-	GtkWidget *dialog = ladder_connect_dialog_new(bar->core->window, last_place(bar));
+	GtkWidget *dialog = ladder_connect_dialog_new(bar->core->window, where);
 
 	bar->chosen = false;
 	core_connect(bar->core, dialog, "chosen", G_CALLBACK(chosen), bar, 0);
@@ -406,12 +407,27 @@ static void ask_board(struct online_bar *bar)
 	gtk_window_present(GTK_WINDOW(dialog));
 }
 
+void online_bar_choose(struct online_bar *bar, const char *where)
+{
+	const enum link_state state = ladder_board_link_state(link_of(bar));
+	const bool same = is_on(bar) && g_strcmp0(ladder_board_link_where(link_of(bar)), where) == 0;
+
+	if (same && (state == LINK_CONNECTED || state == LINK_CONNECTING))
+		return;
+	if (same)
+		ladder_board_link_reconnect(link_of(bar));
+	else if (is_on(bar) || ladder_sim_is_on(bar->core->sim))
+		ask_board(bar, where);
+	else
+		connect_to(bar, where);
+}
+
 static void mode_toggled(struct online_bar *bar)
 {
 	const bool wanted = gtk_toggle_button_get_active(bar->mode);
 
 	if (wanted && !is_on(bar))
-		ask_board(bar);
+		ask_board(bar, last_place(bar));
 	else if (!wanted && is_on(bar))
 		ladder_board_link_disconnect(link_of(bar));
 }
@@ -445,7 +461,7 @@ static bool do_as_simulated(struct online_bar *bar, enum verb verb)
 bool online_bar_do(struct online_bar *bar, enum verb verb)
 {
 	switch ((int)verb) {
-	case VERB_online_connect: ask_board(bar); return true;
+	case VERB_online_connect: ask_board(bar, last_place(bar)); return true;
 	case VERB_online_reconnect: ladder_board_link_reconnect(link_of(bar)); return true;
 	case VERB_online_disconnect: ladder_board_link_disconnect(link_of(bar)); return true;
 	case VERB_online_run: order(bar, MODE_WARM); return true;

@@ -17,6 +17,7 @@
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/tabs.h"
 
+#include <math.h>
 #include <string.h>
 
 #define NARROW 1200 /* px of a window that has no room for both sides             */
@@ -115,6 +116,15 @@ static void print_counted(gint64 ns, char *out, size_t size)
 		live_time_print((ns + 50000) / 100000 * 100000, out, size);
 }
 
+/* Does a period of the program take as long for a person? */
+static bool is_in_time(const struct sim_bar *bar)
+{
+	const double scans = ladder_sim_speed(bar->core->sim);
+	const double period_ns = (double)ladder_sim_twin(bar->core->sim)->period_ns;
+
+	return scans <= 0 || fabs(scans * period_ns / 1e9 - 1) < 0.01;
+}
+
 /* What a scan takes, for somebody who chooses a period. Appends nothing before the first scan. */
 static void tell_cost(const struct sim_bar *bar, GString *text)
 {
@@ -131,7 +141,10 @@ static void tell_cost(const struct sim_bar *bar, GString *text)
 	g_string_append_printf(text, _("On this machine a scan takes %s: %s of the period of %s. "
 				       "The longest took %s."), usual, share, period, most);
 	g_free(share);
-	g_string_append_printf(text, "\n%s\n", cost.most_ns > twin->period_ns ?
+	g_string_append_c(text, '\n');
+	if (cost.most_ns > twin->period_ns && !is_in_time(bar))
+		return;
+	g_string_append_printf(text, "%s\n", cost.most_ns > twin->period_ns ?
 		_("A scan took longer than the period, so later ones were late.") :
 		_("The rest of the period is free. A board may be slower: its state shows its own time."));
 }

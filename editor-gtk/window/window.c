@@ -725,7 +725,7 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 	else if (strcmp(name, "win.show-chart") == 0)
 		ladder_watch_view_show(LADDER_WATCH_VIEW(below_show(&window->below, "watch")), text);
 	else if (strcmp(name, "win.connect-board") == 0)
-		online_bar_connect(&window->online_bar, text);
+		online_bar_choose(&window->online_bar, text);
 	else if (strcmp(name, "win.show-panel") == 0)
 		below_show(&window->below, text);
 	else if (strcmp(name, "win.show-task") == 0)

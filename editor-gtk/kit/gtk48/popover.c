@@ -341,7 +341,7 @@ static void show_chosen(GtkWidget *popover)
 
 /* ---- a popover points into its window ---- */
 
-static void (*show_popover)(GtkWidget *popover);
+static void (*show_popover)(GtkWidget *popover), (*hide_popover)(GtkWidget *popover);
 
 /* What a popover points to in @window, the widget with the surface of its parent. */
 static GdkRectangle pointed(GtkWidget *popover, GtkWidget *window)
@@ -362,17 +362,39 @@ static bool is_outside(const GdkRectangle *at, int width, int height)
 	       at->y >= height;
 }
 
+/* What a popover pointed to before it was shown. */
+struct pointed {
+	bool any;                /* false: to its parent                        */
+	GdkRectangle before, inside;
+};
+
 static void point_inside(GtkWidget *popover, GtkWidget *window)
 {
 	const int width = gtk_widget_get_width(window), height = gtk_widget_get_height(window);
 	const GdkRectangle at = pointed(popover, window);
+	struct pointed was = { .any = false };
 	double x, y;
 
 	if (width > 0 && height > 0 && is_outside(&at, width, height) &&
 	    gtk_widget_translate_coordinates(window, gtk_widget_get_parent(popover),
-					     within(at.x, width), within(at.y, height), &x, &y))
-		gtk_popover_set_pointing_to(GTK_POPOVER(popover),
-					    &(GdkRectangle){ (int)x, (int)y, 1, 1 });
+					     within(at.x, width), within(at.y, height), &x, &y)) {
+		was.any = gtk_popover_get_pointing_to(GTK_POPOVER(popover), &was.before);
+		was.inside = (GdkRectangle){ (int)x, (int)y, 1, 1 };
+		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &was.inside);
+		g_object_set_data_full(G_OBJECT(popover), "pointed", g_memdup2(&was, sizeof(was)), g_free);
+	}
+}
+
+/* Its parent may be in sight when it is shown again. */
+static void point_back(GtkWidget *popover)
+{
+	struct pointed *was = g_object_steal_data(G_OBJECT(popover), "pointed");
+	GdkRectangle now;
+
+	if (was && gtk_popover_get_pointing_to(GTK_POPOVER(popover), &now) &&
+	    gdk_rectangle_equal(&now, &was->inside))
+		gtk_popover_set_pointing_to(GTK_POPOVER(popover), was->any ? &was->before : NULL);
+	g_free(was);
 }
 
 static void shown(GtkWidget *popover)
@@ -384,6 +406,12 @@ static void shown(GtkWidget *popover)
 	show_popover(popover);
 }
 
+static void hidden(GtkWidget *popover)
+{
+	hide_popover(popover);
+	point_back(popover);
+}
+
 void popover_init(void)
 {
 	/* stays: its signals live in it */
@@ -391,6 +419,8 @@ void popover_init(void)
 
 	show_popover = class->show;
 	class->show = shown;
+	hide_popover = class->hide;
+	class->hide = hidden;
 	map_popover = class->map;
 	unmap_popover = class->unmap;
 	class->map = mapped;

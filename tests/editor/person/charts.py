@@ -59,9 +59,9 @@ def asked(editor, key, text):
 def finished(editor, path):
     """Saves; the file must pass the check and run as expected."""
     text = editor.save(path)
-    for line in ('TRANSITION FROM Start TO Fill := I0.0;', 'TRANSITION FROM Fill TO Heat := I0.1;',
-                 'TRANSITION FROM Fill TO Drain := I0.2;', 'TRANSITION FROM Heat TO Start := I0.3;',
-                 'TRANSITION FROM Drain TO Start := I0.3;', 'Q0.0(N);', 'Q0.1(L, T#5s);'):
+    for line in ('TRANSITION FROM Start TO Fill := %IX0.0;', 'TRANSITION FROM Fill TO Heat := %IX0.1;',
+                 'TRANSITION FROM Fill TO Drain := %IX0.2;', 'TRANSITION FROM Heat TO Start := %IX0.3;',
+                 'TRANSITION FROM Drain TO Start := %IX0.3;', 'Q0.0(N);', 'Q0.1(L, T#5s);'):
         assert line in text, (line, text)
     check(path)
     return text
@@ -91,7 +91,7 @@ def by_keyboard(screen):
     editor.keys('Up')
     at(editor, 'from Fill to Heat')
     typed(editor, 'I0.1')
-    shape(editor, 'from Fill to Heat, condition I0.1')
+    shape(editor, 'from Fill to Heat, condition %IX0.1')
     editor.keys('Up')
     at(editor, 'Step Fill')
     editor.keys('F6')
@@ -192,7 +192,7 @@ def by_pointer(screen):
     for ways, condition in (('Start to Fill', 'I0.0'), ('Fill to Heat', 'I0.1'), ('Fill to Drain', 'I0.2'),
                             ('Heat to Start', 'I0.3'), ('Drain to Start', 'I0.3')):
         twice(editor, shape(editor, 'from ' + ways), condition)
-        shape(editor, 'from %s, condition %s' % (ways, condition))
+        shape(editor, 'from %s, condition %s' % (ways, condition.replace('I', '%IX')))
     chosen(editor, shape(editor, 'Step Fill'), 'Add action to step', 'Q0.0')
     shape(editor, 'Fill does: ')  # it moves what is beside it
     chosen(editor, shape(editor, 'Step Drain'), 'Add action to step', 'L T#5s Q0.1')
@@ -219,7 +219,7 @@ def palette(screen):
     editor.click(editor.tile('Transition: '))  # the step at the cursor gets a transition, which asks for its condition
     editor.opened()
     editor.entry('I0.0')
-    shape(editor, 'from Start to Step1, condition I0.0')
+    shape(editor, 'from Start to Step1, condition %IX0.0')
     editor.keys('ctrl+shift+e')
     editor.focus_on('Find a part of a chart')
     editor.type('at most')
@@ -270,7 +270,7 @@ def bodies(screen):
     at(editor, 'from Start to Step1')
     typed(editor, 'I0.0')
     editor.keys('shift+F9')
-    assert 'Rung 1' in editor.element('I0.0').name
+    assert 'Rung 1' in editor.element('%IX0.0').name
     editor.to_sheet()
     editor.keys('Home', 'shift+F5')
     editor.opened()

@@ -268,6 +268,20 @@ def shown(screen):
     part(editor, 'AND, input 3: Ready, TRUE')
     part(editor, 'Store in Valve, TRUE')
     editor.shot('fbd-live')
+    # Space changes a variable, also when it is pressed quickly; a result that no variable has stays.
+    stop = 'AND, input 2, negated: Stop, '
+    editor.click(part(editor, stop + 'FALSE'))
+    at(editor, stop + 'FALSE')
+    on_sheet(editor)
+    editor.keys('space')
+    part(editor, stop + 'TRUE')
+    editor.keys('space', 'space', 'space')
+    part(editor, stop + 'FALSE')
+    editor.click(part(editor, 'LT, output OUT: wire Low, TRUE'))
+    at(editor, 'LT, output OUT: wire Low, TRUE')
+    on_sheet(editor)
+    editor.keys('space')
+    editor.says('Nothing here has a value that can be set.')
     editor.finish()
 
 

@@ -103,10 +103,13 @@ static void test_period(void)
 {
 	const gint64 before = ladder_sim_period(sim);
 	const int told_states = states;
+	struct sim_cost cost;
 
+	CHECK(ladder_sim_cost(sim, &cost));
 	ladder_sim_set_period(sim, 2 * before);
 	CHECK_AS(states == told_states, "a typed period is not reset before it is in effect");
 	CHECK_SOON(states > told_states && ladder_sim_period(sim) == 2 * before);
+	CHECK_AS(!ladder_sim_cost(sim, &cost), "the cost is counted anew with another period");
 	ladder_sim_set_period(sim, before);
 	CHECK_SOON(ladder_sim_period(sim) == before);
 }

@@ -181,6 +181,14 @@ static void test_told(void)
 	goes(page, "a popover with a reason goes with its page");
 }
 
+static GdkRectangle points_to(GtkWidget *popover)
+{
+	GdkRectangle at = { 0, 0, 0, 0 };
+
+	gtk_popover_get_pointing_to(GTK_POPOVER(popover), &at);
+	return at;
+}
+
 /* GTK looks for a monitor at the place that a popover points to, and complains if there is none. */
 static void test_outside(void)
 {
@@ -196,6 +204,13 @@ static void test_outside(void)
 		gtk_popover_set_child(GTK_POPOVER(popover), gtk_label_new("Condition"));
 		popover_put(popover, page);
 		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &places[i]);
+		gtk_popover_popup(GTK_POPOVER(popover));
+		CHECK_SOON(is_open(page));
+		CHECK(points_to(popover).x != places[i].x || points_to(popover).y != places[i].y);
+		gtk_popover_popdown(GTK_POPOVER(popover));
+		CHECK_SOON(!is_open(page));
+		CHECK_AS(points_to(popover).x == places[i].x && points_to(popover).y == places[i].y,
+			 "a hidden popover points back to its place");
 		gtk_popover_popup(GTK_POPOVER(popover));
 		CHECK_SOON(is_open(page));
 		goes(page, "a popover that points outside the window is shown in it");
