@@ -270,6 +270,15 @@ def live(screen):
     cell(editor, 'OR, output 1: wire, FALSE')
     editor.keys('alt+End')
     cell(editor, 'OR, output 1: wire, TRUE')
+    editor.click(cell(editor, 'OR, input 1: Start, TRUE'))
+    editor.keys('space', 'ctrl+t')
+    cell(editor, 'OR, input 1: Start, FALSE')
+    cell(editor, 'OR, output 1: wire, TRUE')
+    editor.click(cell(editor, 'OR, input 2: Motor, TRUE'))
+    editor.keys('ctrl+shift+f')
+    editor.says('1 force')
+    editor.keys('ctrl+t')  # what is forced between two scans has power in the second one
+    cell(editor, 'OR, output 1: wire, FALSE')
     editor.keys('ctrl+m')  # the simulation ends
     until(lambda: not [node for node in editor.all(role='table cell') if node.name.endswith('TRUE')], 'no values')
     editor.finish()
