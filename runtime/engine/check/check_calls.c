@@ -159,6 +159,16 @@ static void warn_of_uncalled(struct calls *c, int count)
 	}
 }
 
+/* Is @pou the program of this name, or one of its actions? */
+static bool is_of_program(struct calls *c, const struct pou *pou, uint32_t name)
+{
+	struct names *names = &scope_project(c->scope)->names;
+	const int owner = pou->kind == POU_ACTION ? pou_owner(c->project, pou) : -1;
+	const struct pou *program = owner >= 0 ? &c->project->pou[owner] : pou;
+
+	return program->kind == POU_PROGRAM && names_fold(names, program->name) == names_fold(names, name);
+}
+
 /* A block that a task of its own calls is not called by its program. */
 static void check_block_tasks(struct calls *c, int count, const struct config_entry *entry)
 {
@@ -167,7 +177,7 @@ static void check_block_tasks(struct calls *c, int count, const struct config_en
 	for (int i = 0; i < count && entry->calls; i++) {
 		const struct pou *pou = c->list[i].pou;
 
-		if (pou->kind != POU_PROGRAM || names_fold(names, pou->name) != names_fold(names, entry->pou))
+		if (!is_of_program(c, pou, entry->pou))
 			continue;
 		for (int k = 0; k < c->list[i].il->count; k++) {
 			const struct il_line *line = &c->list[i].il->line[k];

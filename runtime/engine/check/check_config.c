@@ -8,6 +8,7 @@
 #include "engine/check/check_config.h"
 
 #include <stdio.h>
+#include <string.h>
 
 struct config_check {
 	struct scope *scope;
@@ -91,13 +92,31 @@ static void check_task(struct config_check *c, const struct config_entry *entry)
 		report(c, DIAG_TASK_EMPTY, entry, scope_text(c->scope, entry->name));
 }
 
-static bool has_task(struct config_check *c, uint32_t name)
+/* The RESOURCE that @entry is in: the number of those behind the first one that begin before it. */
+static int resource_of(struct config_check *c, const struct config_entry *entry)
 {
-	for (int i = 0; i < c->config->count; i++)
-		if (c->config->entry[i].kind == CONFIG_TASK &&
-		    same_name(c, c->config->entry[i].name, name))
-			return true;
-	return false;
+	int number = 0;
+
+	for (const struct config_entry *before = c->config->entry; before < entry; before++)
+		number += before->kind == CONFIG_RESOURCE;
+	return number;
+}
+
+/* The task @name after WITH in @entry: of the same RESOURCE, or of none. */
+static void check_with(struct config_check *c, const struct config_entry *entry, uint32_t name)
+{
+	enum diag_id id = DIAG_UNKNOWN_NAME;
+
+	for (int i = 0; i < c->config->count; i++) {
+		const struct config_entry *task = &c->config->entry[i];
+
+		if (task->kind != CONFIG_TASK || !same_name(c, task->name, name))
+			continue;
+		if (!entry->inside || !task->inside || resource_of(c, task) == resource_of(c, entry))
+			return;
+		id = DIAG_TASK_ELSEWHERE;
+	}
+	report(c, id, entry, scope_text(c->scope, name));
 }
 
 /* The variables of a further instance are called by its name: B.Count. */
@@ -111,7 +130,23 @@ static bool has_own_name(struct config_check *c, const struct config_entry *entr
 	return vars_find(&project->globals, names_fold(&project->names, entry->name)) < 0;
 }
 
-/* `Pump WITH Fast`: a block of the program, and a task. */
+/* What calls the block is named `Main.Pump()`. */
+static bool is_too_long(struct config_check *c, const struct config_entry *entry, const struct block_task *called)
+{
+	const uint32_t program = project_is_further(c->project, entry) ? entry->name : entry->pou;
+
+	return names_len(&c->project->names, program) + names_len(&c->project->names, called->name) + 3 > LIMIT_NAME;
+}
+
+static bool is_called_before(struct config_check *c, const struct config_entry *entry, int index)
+{
+	for (int i = 0; i < index; i++)
+		if (same_name(c, entry->called[i].name, entry->called[index].name))
+			return true;
+	return false;
+}
+
+/* `Pump WITH Fast`: a block of the program that has no other task, and a task. */
 static void check_called(struct config_check *c, const struct config_entry *entry, const struct pou *pou)
 {
 	for (int i = 0; i < entry->calls; i++) {
@@ -121,10 +156,13 @@ static void check_called(struct config_check *c, const struct config_entry *entr
 
 		if (!m || m->kind != MEANING_INSTANCE || m->pou != pou)
 			report(c, DIAG_BLOCK_TASK, entry, scope_text(c->scope, called->name));
+		else if (is_too_long(c, entry, called))
+			report(c, DIAG_NAME_TOO_LONG, entry, scope_text(c->scope, called->name));
+		else if (is_called_before(c, entry, i))
+			report(c, DIAG_BLOCK_TASK_TWICE, entry, scope_text(c->scope, called->name));
 		else
 			uses_add(c->uses, m, USE_READ | USE_CALLED);
-		if (!has_task(c, called->task))
-			report(c, DIAG_UNKNOWN_NAME, entry, scope_text(c->scope, called->task));
+		check_with(c, entry, called->task);
 	}
 }
 
@@ -145,9 +183,8 @@ static void check_program(struct config_check *c,
 		       scope_text(c->scope, entry->pou));
 	if (found && project_is_further(c->project, entry) && !has_own_name(c, entry))
 		report(c, DIAG_INSTANCE_NAME, entry, scope_text(c->scope, entry->name));
-	if (entry->task && !has_task(c, entry->task))
-		report(c, DIAG_UNKNOWN_NAME, entry,
-		       scope_text(c->scope, entry->task));
+	if (entry->task)
+		check_with(c, entry, entry->task);
 }
 
 /* At the line that makes them too large. */

@@ -6,6 +6,7 @@
  * check_operand looks at cells, check_il at types.
  */
 #include "engine/base/ascii.h"
+#include "engine/base/name.h"
 #include "engine/check/check.h"
 #include "engine/check/access.h"
 #include "engine/check/check_config.h"
@@ -430,6 +431,25 @@ static bool has_address(const struct names_check *c, const struct var *var)
 }
 
 /* The part that a line of VAR_CONFIG gives a value. */
+/* Has the block that @to is within a task of its own? Without an instance the path names the program, which is the first one. */
+static bool has_block_task(struct names_check *c, const struct located *to)
+{
+	struct project *project = c->project;
+	const size_t len = strcspn(to->text, ".[");
+
+	for (int i = 0; i < project->config->count; i++) {
+		const struct config_entry *entry = &project->config->entry[i];
+		const bool same = to->instance ? entry == to->instance : entry->kind == CONFIG_PROGRAM &&
+				  !project_is_further(project, entry) && names_fold(&project->names, entry->pou) ==
+				  names_fold(&project->names, project->pou[to->pou].name);
+
+		for (int k = 0; same && k < entry->calls; k++)
+			if (name_is(text_of(c, entry->called[k].name), to->text, len))
+				return true;
+	}
+	return false;
+}
+
 static void check_located_part(struct names_check *c, const struct var *line, const struct located *to)
 {
 	struct project *project = c->project;
@@ -446,6 +466,8 @@ static void check_located_part(struct names_check *c, const struct var *line, co
 					  iec_type_row(line->type)->word, c->diags);
 	else if (line->at_text && len && (open[len - 1] != '*' || strlen(at) < len || !ascii_same(open, at, len - 1)))
 		c->good &= located_report(project, line, DIAG_LOCATED_AT, open, at, c->diags);
+	else if (line->at_text && has_block_task(c, to))
+		c->good &= located_report(project, line, DIAG_BLOCK_TASK_AT, "", "", c->diags);
 	else
 		uses_add(&c->uses, m, line->at.area == AREA_Q ? USE_READ : USE_WRITTEN);
 }
@@ -505,8 +527,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	if (var_is_nameless(var))
 		; /* its name is an address */
 	else if ((is_reserved(c, name, var->fold) && !may_be_power(c, pou, name)) ||
-	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL) &&
-	     !(c->project->words.own_first && name[1] >= 'a')) ||
+	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name) && !c->project->words.own_first))
 		report_var(c, DIAG_RESERVED_NAME, pou, var, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)

@@ -61,8 +61,14 @@ int located_resource(const struct project *project, const char *text, size_t len
 	while (from < config->count && !(config->entry[from].kind == CONFIG_RESOURCE &&
 					 is_called(project, config->entry[from].name, text, len)))
 		from++;
-	if (from == config->count)
-		return is_called(project, config->resource, text, len) ? 0 : -1;
+	if (from == config->count) {
+		if (!is_called(project, config->resource, text, len))
+			return -1;
+		for (from = 0; from < config->count && config->entry[from].kind != CONFIG_RESOURCE;)
+			from++;
+		*end = from;
+		return 0;
+	}
 	for (*end = from + 1; *end < config->count && config->entry[*end].inside &&
 			      config->entry[*end].kind != CONFIG_RESOURCE;)
 		++*end;

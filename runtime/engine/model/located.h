@@ -19,7 +19,7 @@ struct located {
 };
 
 /** located_resource - the entry of the configuration with which the RESOURCE of this name begins, 0 of the first one; -1: there
- * is none. @end: the entry behind its last one; of the first resource the last one of all. Scan-safe: yes. */
+ * is none. @end: the entry behind its last one. Scan-safe: yes. */
 int located_resource(const struct project *project, const char *text, size_t len, int *end);
 /** located_find - the variable of @path, or the one that it is a part of. Scan-safe: no. Fails: false: there is none. */
 bool located_find(struct project *project, const char *path, struct located *out);

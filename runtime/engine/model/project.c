@@ -193,7 +193,7 @@ bool project_is_further(struct project *project, const struct config_entry *entr
 
 uint32_t project_called(struct project *project, const struct config_entry *entry, int index)
 {
-	char text[2 * LIMIT_NAME + 2];
+	char text[2 * LIMIT_NAME + 8]; /* both names, a point and "()" */
 	const int len = snprintf(text, sizeof(text), "%s.%s()",
 				 project_text(project, project_is_further(project, entry) ? entry->name : entry->pou),
 				 project_text(project, entry->called[index].name));

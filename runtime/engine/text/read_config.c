@@ -453,14 +453,18 @@ static bool same_text(const struct reader *r, uint32_t a, uint32_t b)
 	return a && b && name_equal(project_text(r->project, a), project_text(r->project, b));
 }
 
-/* `Name` of a later RESOURCE is Resource_Name. */
-static uint32_t in_resource(struct reader *r, uint32_t resource, uint32_t name)
+/* `Name` of a later RESOURCE, at @line, is Resource_Name. */
+static uint32_t in_resource(struct reader *r, uint32_t resource, uint32_t name, int line)
 {
-	char text[2 * LIMIT_NAME + 2];
+	struct diag place = { .id = DIAG_NAME_TOO_LONG, .file = r->place.file, .line = line };
+	char text[2 * LIMIT_NAME + 8];
 	const int len = snprintf(text, sizeof(text), "%s_%s", project_text(r->project, resource),
 				 project_text(r->project, name));
 
-	return len > 0 && (size_t)len < sizeof(text) ? reader_intern(r, text, (size_t)len) : name;
+	if (len > 0 && len <= LIMIT_NAME)
+		return reader_intern(r, text, (size_t)len);
+	diag_add(r->diags, place, "%.30s_%.30s", project_text(r->project, resource), project_text(r->project, name));
+	return name;
 }
 
 /* The same for `Pump WITH Slow` of @entry, if @task is that one. */
@@ -488,7 +492,7 @@ static void part_names(struct reader *r, struct config *config, int from, uint32
 		if (!taken || (entry->kind != CONFIG_TASK && entry->kind != CONFIG_PROGRAM))
 			continue;
 		entry->own_name = entry->name;
-		entry->name = in_resource(r, resource, entry->name);
+		entry->name = in_resource(r, resource, entry->name, entry->line);
 	}
 	for (int i = from; i < config->count; i++)
 		for (int k = from; k < config->count; k++) {
