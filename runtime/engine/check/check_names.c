@@ -431,7 +431,8 @@ static bool has_address(const struct names_check *c, const struct var *var)
 }
 
 /* The part that a line of VAR_CONFIG gives a value. */
-/* Has the block that @to is within a task of its own? Without an instance the path names the program, which is the first one. */
+/* Has the block that @to is within a task of its own? Without an instance the path names the program: the first
+ * one that runs. */
 static bool has_block_task(struct names_check *c, const struct located *to)
 {
 	struct project *project = c->project;
