@@ -63,7 +63,7 @@ def charts_and_boards(screen):
     settings = os.path.join(screen.home, '.config', 'glib-2.0', 'settings')
     os.makedirs(settings)
     with open(os.path.join(settings, 'keyfile'), 'w') as out:
-        out.write("[org/rungboard/Editor]\nboards=['unix:/nowhere/board']\n")
+        out.write("[org/rungboard/Editor]\nboards=['unix:/nowhere/board', 'unix:']\n")
     path = new_file(screen, TEXT + '\n' + charts)
     editor = Editor(screen, path, GSETTINGS_BACKEND='keyfile', XDG_CONFIG_HOME=os.path.join(screen.home, '.config'))
     editor.find('Status charts', 'label')
@@ -76,6 +76,18 @@ def charts_and_boards(screen):
     until(lambda: [node for node in editor.all('New value') if node.name.startswith('%IX0.1')], 'the chart of the inputs')
     assert not [node for node in editor.all('New value') if node.name.startswith('%QX0.2')]
     assert editor.save(path) == TEXT + '\n' + charts if editor.all('not saved') else open(path).read() == TEXT + '\n' + charts
+    editor.find('This computer', 'label')
+    # A simulation goes on until the person has confirmed the board.
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.click(editor.find('unix:/nowhere/board', 'label'), count=2)
+    until(lambda: [node for node in editor.asked() if node.text() == 'unix:/nowhere/board'], 'the board in the dialog')
+    editor.shot('tree-board-asked')
+    editor.keys('Escape')
+    until(lambda: not [node for node in editor.asked() if node.text() == 'unix:/nowhere/board'], 'the dialog to close')
+    editor.says('SIMULATION')
+    editor.keys('ctrl+m')
+    until(lambda: not editor.all('SIMULATION'), 'the simulation to end')
     editor.click(editor.find('unix:/nowhere/board', 'label'), count=2)
     editor.says('/nowhere/board')
     until(lambda: [node for node in editor.all('nowhere') if 'unix:' not in node.name], 'why it does not answer')
