@@ -217,16 +217,35 @@ static void put_inputs(struct recorder *recorder, const struct resource *resourc
 
 /* ---- quality ---- */
 
+static void make_bad(struct record *record, uint32_t bit, uint32_t count, bool fault)
+{
+	put_number(record, 2 * (uint64_t)count + fault);
+	put_number(record, bit);
+}
+
+/* The runs that have no room become one, from the first place of them to the last one. */
+static void add_to_rest(struct recorder *recorder)
+{
+	const uint32_t end = recorder->bad_at + recorder->bad_count;
+
+	if (!recorder->rest_end || recorder->bad_at < recorder->rest_at)
+		recorder->rest_at = recorder->bad_at;
+	if (end > recorder->rest_end)
+		recorder->rest_end = end;
+	recorder->rest_fault = recorder->rest_fault || recorder->bad_fault;
+}
+
 static void end_bad(struct recorder *recorder)
 {
 	struct record record = { .len = 0 };
 
 	if (!recorder->bad_count)
 		return;
-	put_number(&record, 2 * (uint64_t)recorder->bad_count + recorder->bad_fault);
-	put_number(&record, recorder->bad_at);
+	make_bad(&record, recorder->bad_at, recorder->bad_count, recorder->bad_fault);
 	if (recorder->head + record.len <= recorder->quality_end)
 		put_record(recorder, &record);
+	else
+		add_to_rest(recorder);
 	recorder->bad_count = 0;
 }
 
@@ -246,16 +265,24 @@ void recorder_bad(struct recorder *recorder, uint32_t bit, uint32_t count, bool 
 
 static void put_quality(struct recorder *recorder, uint64_t serial)
 {
+	struct record last = { .len = 0 };
+
 	put_bytes(recorder, &(uint8_t){ RECORD_STATE | RECORD_QUALITY << RECORD_SUB }, 1);
 	recorder->quality_end = recorder->head + recorder->size / BAD_PART;
+	recorder->rest_at = recorder->rest_end = 0;
+	recorder->rest_fault = false;
 	if (serial)
 		recorder->quality.each(recorder->quality.context, recorder);
 	end_bad(recorder);
-	put_bytes(recorder, &(uint8_t){ 0 }, 1);
+	if (recorder->rest_end)
+		make_bad(&last, recorder->rest_at, recorder->rest_end - recorder->rest_at, recorder->rest_fault);
+	put8(&last, 0);
+	put_record(recorder, &last);
 	recorder->quality_serial = serial;
 }
 
-/* A list stands until the next one, or until a keyframe. */
+/* A list stands until the next one, or until a keyframe. One behind a keyframe is of its state: before a list of the
+ * next scan stands an empty one, then. */
 static void see_quality(struct recorder *recorder)
 {
 	uint64_t serial;
@@ -263,8 +290,11 @@ static void see_quality(struct recorder *recorder)
 	if (!recorder->quality.each)
 		return;
 	serial = recorder->quality.serial(recorder->quality.context);
-	if (serial != recorder->quality_serial)
-		put_quality(recorder, serial);
+	if (serial == recorder->quality_serial)
+		return;
+	if (recorder->head == recorder->key_end)
+		put_quality(recorder, 0);
+	put_quality(recorder, serial);
 }
 
 void recorder_tell_quality(struct recorder *recorder, const struct recorder_quality *quality)
@@ -364,7 +394,9 @@ static void put_key(struct recorder *recorder, const struct resource *resource,
 	put_forces(recorder, &resource->image);
 	put_bytes(recorder, resource->image.memory, recorder_core(resource->image.program));
 	recorder->quality_serial = 0;
+	recorder->key_end = 0;
 	see_quality(recorder);
+	recorder->key_end = recorder->quality_serial ? 0 : recorder->head;
 	see_inputs(recorder, resource);
 }
 

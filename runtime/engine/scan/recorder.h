@@ -69,8 +69,10 @@ struct recorder {
 	struct recorder_quality quality; /* `each` is NULL: all are good always */
 	uint64_t quality_serial;      /* of the list that is in the record         */
 	uint64_t quality_end;         /* where a list must end                     */
+	uint64_t key_end;             /* of the last keyframe, if no list is behind it; else 0 */
 	uint32_t bad_at, bad_count;   /* the run that goes on; 0: none             */
-	bool bad_fault;
+	uint32_t rest_at, rest_end;   /* the runs that a list has no room for      */
+	bool bad_fault, rest_fault;
 };
 
 /** recorder_core - bytes of memory that a keyframe holds: without the power of cells.

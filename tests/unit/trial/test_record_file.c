@@ -774,6 +774,74 @@ static void test_versions(void)
 	close_board();
 }
 
+/* Is each of the first bits of I told as not good? */
+static bool all_bad_at_the_end(const struct record_file *file)
+{
+	struct playback playback;
+	uint32_t bad = 0;
+
+	if (!playback_init(&playback, file) || !playback_seek(&playback, record_file_last(file)))
+		return false;
+	for (uint32_t i = 0; i < BITS; i++) {
+		const struct image *image = &playback.twin.resource.image;
+		const struct iec_addr addr = { .area = AREA_I, .bits = 1, .byte = i / 8, .bit = (uint8_t)(i % 8) };
+
+		bad += record_quality_of(playback.bad, playback.bad_len, image->program, image_locate(image, addr)) != RECORD_GOOD;
+	}
+	playback_free(&playback);
+	return bad == BITS;
+}
+
+/* Values turn bad in the scan behind each keyframe, good in the next one: back from the last scan, each has its own. */
+static void test_behind_keys(void)
+{
+	struct sink_memory memory;
+	struct record_file *file;
+	struct playback playback = { .file = NULL };
+	uint64_t same = 0;
+	bool good;
+	enum { COUNT = 120 };
+
+	CHECK(open_board(2, 8u << 20));
+	for (int i = 0; i < COUNT; i++) {
+		if (i % 5 == 2)
+			recorder_begin(&board.recorder, &board.resource, board.identity, RECORD_NEXT);
+		board.quality[i % BITS] = i % 5 == 2 ? RECORD_STALE : RECORD_GOOD;
+		board.quality[(i + BITS - 1) % BITS] = i % 10 == 4 ? RECORD_BROKEN : RECORD_GOOD;
+		memset(board.quality, RECORD_GOOD, i % 5 == 3 ? BITS : 0);
+		board.qualities++;
+		board.now_ns += PERIOD;
+		recorder_scan(&board.recorder, &board.resource, board.now_ns);
+		resource_scan(&board.resource, board.now_ns);
+		recorder_scanned(&board.recorder, &board.resource);
+		board.seen[++board.scan] = quality_seen(state_of(&board.resource));
+	}
+	sink_memory_init(&memory);
+	CHECK(write_file(&memory, -1));
+	file = open_file(&memory);
+	CHECK(file && compare(file));
+	good = file && playback_init(&playback, file);
+	for (uint64_t at = COUNT; good && at > 0; at--)
+		same += playback_seek(&playback, at) && state_played(&playback) == board.seen[at];
+	CHECK_AS(same == COUNT, "after a seek the quality is that of the scan");
+	playback_free(&playback);
+	record_file_free(file);
+	sink_memory_free(&memory);
+	close_board();
+}
+
+/* The first two bits as many runs, which fill the list; then all of them. */
+static void each_of_many(void *context, struct recorder *recorder)
+{
+	const uint32_t at = 8 * board.resource.image.program->areas.at[AREA_I];
+
+	(void)context;
+	for (uint32_t i = 0; i < 3000; i++)
+		recorder_bad(recorder, at + i % 2, 1, i % 2);
+	for (uint32_t i = 0; i < BITS; i++)
+		recorder_bad(recorder, at + i, 1, board.quality[i] == RECORD_BROKEN);
+}
+
 /* However many values are bad, a list has its bound, and the ring stays whole. */
 static void test_many_bad(void)
 {
@@ -781,6 +849,7 @@ static void test_many_bad(void)
 	struct record_file *file;
 
 	CHECK(open_board(2, 160000));
+	recorder_tell_quality(&board.recorder, &(struct recorder_quality){ quality_serial, each_of_many, NULL });
 	for (int i = 0; i < BITS; i++)
 		board.quality[i] = i % 2 ? RECORD_STALE : RECORD_BROKEN;
 	for (int i = 0; i < 3000; i++) {
@@ -796,6 +865,7 @@ static void test_many_bad(void)
 	file = open_file(&memory);
 	CHECK_AS(file && record_file_first(file) > 0 && record_file_last(file) == board.scan,
 		 "a ring that turned over many lists is read");
+	CHECK_AS(file && all_bad_at_the_end(file), "what a list has no room for is not told as good");
 	record_file_free(file);
 	sink_memory_free(&memory);
 	close_board();
@@ -806,6 +876,7 @@ int main(void)
 	test_random();
 	test_hostile_lists();
 	test_versions();
+	test_behind_keys();
 	test_many_bad();
 	test_missing_program();
 	test_too_large();
