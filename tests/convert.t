@@ -229,6 +229,32 @@ END
 	is(slurp("$dir/again.rung"), slurp("$dir/coils.rung"), 'which is the same');
 }
 
+# More contacts than a rung has columns, also in parentheses: before a block, and behind it.
+for my $nested (0, 1) {
+	my $bit = sub { sprintf '%%IX%d.%d', int $_[0] / 8, $_[0] % 8 };
+	my $all = sub { my ($from, $to) = @_; join($nested ? ' AND (' : ' AND ', map { $bit->($_) } $from .. $to) . ')' x ($nested * ($to - $from)) };
+	spew("$dir/wide.rung", "RUNGBOARD 1\n\nVAR\n  X AT %QX0.0 : BOOL;\n  T1 : TON;\nEND_VAR\n\nPROGRAM Main FBD\nNETWORK\n  T1(IN := " . $all->(0, 39) .
+		', PT := T#20ms)' . "\n  X := T1.Q AND " . ($nested ? '(' . $all->(40, 69) . ')' : $all->(40, 69)) . "\nEND_PROGRAM\n");
+	my ($good, $said) = converts('wide.rung', 'ld', 'wide-ld.rung');
+	ok($good, "40 contacts, a block, 30 contacts become rungs, nested: $nested") or diag($said), next;
+	srand 3;
+	spew("$dir/s", "\@print X T1.Q\n" . join('', map { "%IX" . int($_ / 8) . '.' . $_ % 8 . "=1 " } 0 .. 69) . "\n.\n.\n.\n" .
+		join '', map { my $one = $bit->(rand 70); "$one=0\n$one=1\n.\n.\n" } 1 .. 40);
+	my $was = trace_of('wide.rung', 's');
+	ok($was =~ /X=1 T1.Q=1/ && $was =~ /X=0 T1.Q=1/ && $was eq trace_of('wide-ld.rung', 's'), 'which do the same');
+}
+
+# Many contacts behind a block that read what it computes stand behind it.
+{
+	spew("$dir/behind.rung", "RUNGBOARD 1\n\nVAR\n  A AT %IX0.0 : BOOL;\n  X AT %QX0.0 : BOOL;\n  C : CTU;\nEND_VAR\n\nPROGRAM Main FBD\nNETWORK\n" .
+		"  C(CU := A, PV := 1)\n  X := C.Q AND C.CV = 1" . ' AND A' x 30 . "\nEND_PROGRAM\n");
+	my ($good, $said) = converts('behind.rung', 'ld', 'behind-ld.rung');
+	ok($good, 'contacts that read a block become rungs') or diag($said);
+	spew("$dir/s", "\@print X\n" . "A=1\nA=0\n" x 3);
+	my $was = trace_of('behind.rung', 's');
+	ok($was =~ /^1 .*X=1/m && $was eq trace_of('behind-ld.rung', 's'), 'behind the block') or diag($was);
+}
+
 # What a chart's ladders cannot say in another language has the place in the chart.
 {
 	spew("$dir/place.rung", <<'END');

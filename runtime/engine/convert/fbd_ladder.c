@@ -274,8 +274,10 @@ static const struct path *both(struct ladders *l, enum path_kind kind, const str
 		return a;
 	if (a->kind == PATH_WIRE || b->kind == PATH_WIRE)
 		return beside_wire(l, a->kind == PATH_WIRE ? b : a);
-	if (a->width + b->width > WIDE || a->height + b->height > WIDE)
+	if (a->kind != PATH_CELL && (a->width + b->width > WIDE || a->height + b->height > WIDE))
 		a = cell(l, "NO", keep(l, a));
+	if (a->width + b->width > WIDE || a->height + b->height > WIDE)
+		b = cell(l, "NO", keep(l, b));
 	path = arena_alloc(l->acts->arena, sizeof(*path));
 	if (!path) {
 		l->acts->failed = true;
@@ -1222,6 +1224,25 @@ static bool is_contacts(struct ladders *l, int at)
 	return false;
 }
 
+/* How many cells is_contacts() has, at most. */
+static int contact_count(struct ladders *l, int at)
+{
+	const struct expr_node *node = node_of(l, at);
+
+	if (node->op == EXPR_NOT)
+		return contact_count(l, node->left);
+	return node->op == EXPR_AND || node->op == EXPR_OR ? contact_count(l, node->left) + contact_count(l, node->right) : 1;
+}
+
+/* Have they room behind the box and before a coil? No value of them may be kept aside: that rung would stand before the
+ * box. */
+static bool has_room_behind(struct ladders *l, const struct box *box, int at)
+{
+	const int count = contact_count(l, at) - 1, col = box->power ? box->power->width + 1 : 1;
+
+	return count <= WIDE && col + count < LIMIT_COLS;
+}
+
 /* Delay.Q AND … of the power behind the block. */
 static bool goes_on(struct ladders *l, int at, const struct meaning *instance, const struct word_row *row)
 {
@@ -1336,7 +1357,8 @@ static void coils_behind(struct ladders *l, struct box *box, const struct meanin
 	       (item = line_behind(l, &by)) != NULL) {
 		const uint32_t coil = coil_of(l, item);
 		const int root = l->acts->expr->root;
-		const bool more = coil && !box->coils && !box->branches && is_drawn(l, root) && goes_on(l, root, instance, row);
+		const bool more = coil && !box->coils && !box->branches && is_drawn(l, root) && goes_on(l, root, instance, row) &&
+				  has_room_behind(l, box, root);
 
 		if (!coil || (!more && !is_power_of(l, root, instance, row)))
 			break;
