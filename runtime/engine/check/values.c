@@ -197,25 +197,31 @@ static const struct var *pin_variable(const struct walk *w, const struct word_ro
 	return index >= 0 && index < table->count ? &table->var[index] : NULL;
 }
 
+/* Has the pin a type of its own, which is not the one of the other inputs? */
+static bool is_own_pin(const struct walk *w, const struct word_row *row, uint32_t pin)
+{
+	const char *name = project_text(scope_project(w->scope), pin);
+	const int index = word_pin_find(row, name, strlen(name));
+
+	return index >= 0 && index < row->pin_count && row->pin[index].own;
+}
+
 /* The arguments behind @at go to the pins of @word. */
 static void to_pins(struct walk *w, int at, enum word word)
 {
 	const struct word_row *row = scope_row(w->scope, word);
-	const struct project *project = scope_project(w->scope);
 	uint32_t of = 0;
 	int end = at + 1;
 
-	for (; is_arg(w, end); end++) {
-		const char *name = project_text(project, w->il->line[end].pin);
-		const int pin = word_pin_find(row, name, strlen(name));
-
-		if (!of && (pin < 0 || pin >= row->pin_count || !row->pin[pin].own) && row->kind == WORD_FN && shares(w, word))
+	for (; is_arg(w, end); end++)
+		if (!of && !is_own_pin(w, row, w->il->line[end].pin) && row->kind == WORD_FN && shares(w, word))
 			of = of_operand(w, &w->il->line[end]);
-	}
 	for (int i = at + 1; i < end; i++) {
 		struct il_line *arg = &w->il->line[i];
 		const struct var *var = pin_variable(w, row, word, arg->pin);
 
+		if (!word_is_own(word) && is_own_pin(w, row, arg->pin))
+			continue;
 		arg->operand = typed(w->scope, w->pou, arg->operand, word_is_own(word) ? (var ? var->enumeration : 0) : of);
 		if (arg->kind == IL_ARG_OUT)
 			hold(w, arg->operand, word_is_own(word) ? (var ? var->enumeration : 0) :
@@ -266,6 +272,33 @@ static void function(struct walk *w, int at)
 	}
 }
 
+/* Is the current result stored below in a variable of an enumeration other than @of - 1, too? */
+static bool is_of_two(struct walk *w, int at, uint32_t of)
+{
+	for (int i = at + 1; i < w->il->count; i++) {
+		const struct il_line *line = &w->il->line[i];
+		const uint32_t other = line->kind == IL_OP && line->op == OP_ST ? of_operand(w, line) : 0;
+
+		if (other && other != of)
+			return true;
+		if (line->kind != IL_COMMENT && (line->kind != IL_OP || line->op != OP_ST))
+			return false;
+	}
+	return false;
+}
+
+/* A value that is stored in variables of two enumerations is of none: who wrote it must say which is meant. */
+static void store(struct walk *w, int at)
+{
+	const struct il_line *line = &w->il->line[at];
+	const uint32_t of = of_operand(w, line);
+
+	if (of && w->now.waits >= 0 && is_of_two(w, at, of))
+		w->now.waits = -1;
+	hold(w, line->operand, line->modifiers ? 0 : w->now.of);
+	choose(w, w->now.waits, at, of);
+}
+
 static void operation(struct walk *w, int at)
 {
 	const struct il_line *line = &w->il->line[at];
@@ -276,8 +309,7 @@ static void operation(struct walk *w, int at)
 		load(w, at);
 		break;
 	case OP_ST:
-		hold(w, line->operand, line->modifiers ? 0 : w->now.of);
-		choose(w, w->now.waits, at, of_operand(w, line));
+		store(w, at);
 		break;
 	case OP_AND:
 	case OP_OR:
