@@ -110,8 +110,8 @@ bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stoppe
 	text_print(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d %d", pair[1], heartbeat_ms, stopped,
 		 count, how, child->page_fd);
 	if (!make_environment(table, ours)) {
-		text_say("more than %d variables in the environment",
-			VARIABLES - 2);
+		text_say("more than %d variables in the environment; start it with fewer, for example with "
+			 "env -i or from systemd", VARIABLES - 2);
 		close(pair[0]);
 		close(pair[1]);
 		return false;

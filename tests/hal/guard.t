@@ -632,6 +632,12 @@ END
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'and ends as ever');
 }
+{
+	local @ENV{map { "MANY_$_" } 1 .. 255} = (1) x 255;
+	is(finish(start(named(), '--', @ladderd)), 1, 'too many variables');
+	like(err(), qr/^ladder-guard: more than 254 variables in the environment; start it with fewer, for example with env -i or from systemd$/m,
+	     'and what to do is told');
+}
 is(finish(start(named(), '--watchdog', $dir, '--', @ladderd)), 1, 'a watchdog that cannot be opened');
 like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": .*; name a watchdog device of this machine, or leave --watchdog out$/m, 'is told');
 {
