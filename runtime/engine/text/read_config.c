@@ -457,10 +457,13 @@ static bool same_text(const struct reader *r, uint32_t a, uint32_t b)
 static uint32_t in_resource(struct reader *r, uint32_t resource, uint32_t name, int line)
 {
 	struct diag place = { .id = DIAG_NAME_TOO_LONG, .file = r->place.file, .line = line };
-	char text[2 * LIMIT_NAME + 8];
-	const int len = snprintf(text, sizeof(text), "%s_%s", project_text(r->project, resource),
-				 project_text(r->project, name));
+	const size_t room = LIMIT_NAME + 1;
+	char *text = arena_alloc(&r->project->arena, room);
+	const int len = text ? snprintf(text, room, "%s_%s", project_text(r->project, resource),
+					project_text(r->project, name)) : 0;
 
+	if (!text) /* the arena tells it at the end */
+		return name;
 	if (len > 0 && len <= LIMIT_NAME)
 		return reader_intern(r, text, (size_t)len);
 	diag_add(r->diags, place, "%.30s_%.30s", project_text(r->project, resource), project_text(r->project, name));
