@@ -146,7 +146,7 @@ static void draw_segments(const struct pen *pen)
 static void draw_wire_name(const struct pen *pen, int pin)
 {
 	const graphene_point_t at = fbd_layout_pin(pen->layout, pin);
-	float x = at.x + PADDING;
+	float x = at.x + PADDING + (pen->graph->pin[pin].negated ? FBD_CIRCLE : 0);
 
 	for (int i = 0; i < pen->graph->wire_count; i++) {
 		const struct fbd_wire *wire = &pen->graph->wire[i];
@@ -177,7 +177,7 @@ static void draw_operand(const struct pen *pen, int pin, graphene_point_t at)
 	const struct fbd_pin *p = &pen->graph->pin[pin];
 	const enum letter letter = fbd_operand_letter(p->operand);
 	const struct lettered text = fit(pen, letter, p->operand, LABEL_BOUND);
-	const float way = p->output ? 1 : -1, from = !p->output && p->negated ? 2 * FBD_CIRCLE : 0;
+	const float way = p->output ? 1 : -1, from = p->negated ? 2 * FBD_CIRCLE : 0;
 	const float x = at.x + way * (FBD_STUB + from - 4);
 	const bool constant = fbd_is_constant(p->operand);
 
@@ -200,10 +200,11 @@ static void draw_operand(const struct pen *pen, int pin, graphene_point_t at)
 static void draw_circle(const struct pen *pen, int pin, graphene_point_t at)
 {
 	const struct way way = way_of(pen, state_pin(pen, pin));
+	const float x = at.x + (pen->graph->pin[pin].output ? FBD_CIRCLE : -FBD_CIRCLE);
 
-	picture_disc(pen->picture, TOKEN_SHEET, 1, at.x - FBD_CIRCLE, at.y, FBD_CIRCLE);
-	picture_arc(pen->picture, way.token == TOKEN_POWER ? TOKEN_POWER : pen->ink, pen->theme->idle_width,
-		    at.x - FBD_CIRCLE, at.y, FBD_CIRCLE, 0, (float)(2 * G_PI));
+	picture_disc(pen->picture, TOKEN_SHEET, 1, x, at.y, FBD_CIRCLE);
+	picture_arc(pen->picture, way.token == TOKEN_POWER ? TOKEN_POWER : pen->ink, pen->theme->idle_width, x, at.y,
+		    FBD_CIRCLE, 0, (float)(2 * G_PI));
 }
 
 static void draw_pin(const struct pen *pen, int pin)

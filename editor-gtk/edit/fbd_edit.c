@@ -706,13 +706,23 @@ static const char *first_output(struct fbd_edit *edit, const struct fbd_node *no
 	return NULL;
 }
 
+/* Delay.Q */
+static const char *output_name(struct fbd_edit *edit, const struct fbd_node *block, const char *pin)
+{
+	const size_t size = strlen(block->text) + strlen(pin) + 2;
+	char *text = arena_alloc(&edit->net.arena, size);
+
+	if (text)
+		snprintf(text, size, "%s.%s", block->text, pin);
+	return text;
+}
+
 /* The name by which an output is read; @at gets the line that gives it. NULL: refused. */
 static const char *output_of(struct fbd_edit *edit, struct box_at *at, const struct fbd_spot *spot)
 {
 	const char *pin = spot->pin && spot->pin[0] ? spot->pin : NULL;
 	bool instance;
-	char *text;
-	size_t size;
+	int index;
 
 	if (!at->node) {
 		if (at->line->kind == FBD_LINE_ASSIGN)
@@ -730,11 +740,10 @@ static const char *output_of(struct fbd_edit *edit, struct box_at *at, const str
 		refuse(edit, NO_OUTPUT);
 		return NULL;
 	}
-	size = strlen(at->node->text) + strlen(pin) + 2;
-	text = arena_alloc(&edit->net.arena, size);
-	if (text)
-		snprintf(text, size, "%s.%s", at->node->text, pin);
-	return text;
+	index = arg_of(edit, at->node, pin, true);
+	if (index >= 0 && at->node->arg[index].negated) /* what leaves the circle */
+		return named_output(edit, at, pin);
+	return output_name(edit, at->node, pin);
 }
 
 /* ---- joining ---- */
@@ -899,6 +908,49 @@ bool fbd_edit_operand(struct fbd_edit *edit, const struct fbd_spot *pin, const c
 	return sorted(edit, at.line);
 }
 
+/* Is an operand of the value just this? */
+static bool has_operand(const struct fbd_node *node, const char *text)
+{
+	if (!node)
+		return false;
+	if (node->kind == FBD_NODE_OPERAND)
+		return name_equal(node->text, text);
+	for (int i = 0; i < node->count; i++)
+		if (has_operand(node->arg[i].value, text))
+			return true;
+	return false;
+}
+
+/* The circle of an output belongs to `Q => Lamp`. An output that is read by its own name gets a wire. */
+static bool negate_output(struct fbd_edit *edit, struct box_at *at, const struct fbd_spot *spot)
+{
+	bool instance = false, is_read = false;
+	const char *pin = spot->pin && spot->pin[0] ? spot->pin : NULL, *own;
+	struct fbd_arg *arg;
+	int index;
+
+	if (at->node && at->node->kind == FBD_NODE_CALL && !is_edge(at->node))
+		row_of(edit, at->node, &instance);
+	else
+		pin = NULL;
+	if (!pin || (!instance && name_equal(pin, "OUT")))
+		return refuse(edit, N_("A result is negated at the inputs that read it."));
+	own = instance ? output_name(edit, at->node, pin) : NULL;
+	for (int i = index_of(edit, at->line) + 1; own && i < edit->net.count; i++)
+		is_read = is_read || has_operand(edit->net.line[i]->value, own);
+	index = arg_of(edit, at->node, pin, true);
+	if (!is_read && (index < 0 || !at->node->arg[index].value))
+		return refuse(edit, N_("Nothing is connected here."));
+	if (!named_output(edit, at, pin) || !name_args(edit, at->node))
+		return false;
+	arg = &at->node->arg[arg_of(edit, at->node, pin, true)];
+	arg->negated = !arg->negated;
+	at->line->changed = true;
+	for (int i = index_of(edit, at->line) + 1; is_read && arg->negated && i < edit->net.count; i++)
+		replace_reads(edit, edit->net.line[i], &edit->net.line[i]->value, own, arg->value->text);
+	return finish(edit, at->line);
+}
+
 bool fbd_edit_negate(struct fbd_edit *edit, const struct fbd_spot *pin)
 {
 	struct box_at at = { .line = NULL };
@@ -907,7 +959,7 @@ bool fbd_edit_negate(struct fbd_edit *edit, const struct fbd_spot *pin)
 	if (!find(edit, pin, &at))
 		return false;
 	if (pin->output)
-		return refuse(edit, N_("Only an input can be negated."));
+		return negate_output(edit, &at, pin);
 	slot = input_of(edit, &at, pin);
 	if (!slot)
 		return false;

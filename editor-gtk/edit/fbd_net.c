@@ -139,8 +139,9 @@ static void read_args(struct reading *r, struct fbd_node *call)
 			const struct token pin = ahead.token;
 
 			lex_next(&ahead);
-			if (!negated && (lex_is(&ahead, ":=") || lex_is(&ahead, "=>"))) {
+			if ((!negated && lex_is(&ahead, ":=")) || lex_is(&ahead, "=>")) {
 				arg->output = lex_is(&ahead, "=>");
+				arg->negated = negated;
 				arg->pin = arena_copy(&r->net->arena, pin.text, pin.len);
 				lex_next(&ahead);
 				r->lex = ahead;
@@ -525,6 +526,7 @@ static void write_call(const struct sink *sink, const char *name, const struct f
 			continue;
 		}
 		if (arg->pin) {
+			sink_text(sink, arg->negated ? "NOT " : "");
 			sink_text(sink, arg->pin);
 			sink_text(sink, arg->output ? " =>" : " :=");
 			sink_text(sink, arg->value ? " " : "");

@@ -23,6 +23,7 @@ struct fbd_node;
 struct fbd_arg {
 	const char *pin;          /* NULL: by its place                         */
 	bool output;              /* pin => variable                            */
+	bool negated;             /* NOT pin => variable                        */
 	struct fbd_node *value;   /* NULL: open                                 */
 };
 

@@ -698,7 +698,7 @@ static bool applies(LadderCanvas *canvas, enum verb verb)
 	const struct fbd_pin *pin = fbd_pin_at(view, view->cursor);
 
 	switch ((int)verb) {
-	case VERB_pin_negate: return pin && !pin->output && !pin->open;
+	case VERB_pin_negate: return pin && !pin->open;
 	case VERB_pin_link: return pin;
 	case VERB_pin_add: return grows(box);
 	case VERB_pin_remove: return grows(box) && pin && !pin->output;

@@ -151,7 +151,7 @@ static struct location find_output(LadderFbdView *view, int network, const struc
 		*ran = made.ran;
 		return made.at;
 	}
-	if (box->kind == FBD_BLOCK && box->instance && p->name[0])
+	if (box->kind == FBD_BLOCK && box->instance && p->name[0] && !p->negated)
 		return live_map_find_pin(view->map, box->instance, p->name);
 	if (p->operand)
 		return find(view, p->operand);

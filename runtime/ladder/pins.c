@@ -122,7 +122,7 @@ static struct location find_output(const struct pins *pins, int network, const s
 		at = made_place(pins, box);
 	if (at.type != IEC_NONE)
 		return at;
-	if (box->kind == FBD_BLOCK && box->instance && *p->name) {
+	if (box->kind == FBD_BLOCK && box->instance && *p->name && !p->negated) {
 		snprintf(text, sizeof(text), "%.*s.%.*s", LIMIT_NAME, box->instance, LIMIT_NAME, p->name);
 		return find(pins, text);
 	}

@@ -51,12 +51,13 @@ sub parse_args {
 	my (@in, @out);
 	until (accept_($p, ')')) {
 		my ($pin, $sign) = ('', '');
+		my $not = @{$p->{list}} > 2 && $p->{list}[0][1] eq 'NOT' && $p->{list}[2][1] eq '=>' && shift @{$p->{list}};
 		if (@{$p->{list}} > 1 && $p->{list}[0][0] eq 'NAME' && $p->{list}[1][1] =~ /^(?::=|=>)$/) {
 			$pin = shift(@{$p->{list}})->[1];
 			$sign = shift(@{$p->{list}})->[1];
 		}
 		if ($sign eq '=>') {
-			push @out, [$pin, shift(@{$p->{list}})->[1]];
+			push @out, [$pin, shift(@{$p->{list}})->[1], $not ? 1 : 0];
 		} else {
 			push @in, [$pin, parse_two($p, 0)];
 		}
@@ -395,7 +396,7 @@ sub compute_call {
 	}
 	$chain->{ok} &&= $good;
 	for my $out (@{$e->{out}}) { # ENO
-		$run->{gave}[$at]{$out->[1]} = $chain->{ok} ? 1 : 0;
+		$run->{gave}[$at]{$out->[1]} = ($chain->{ok} xor $out->[2]) ? 1 : 0;
 	}
 	$chain->{last} = $has;
 	return $value;
@@ -536,7 +537,7 @@ sub call_block {
 		}
 		for my $out (@{$line->{out}}) {
 			my (undef, $value) = output_of($inside, $out->[0]);
-			$run->{gave}[$at]{$out->[1]} = $value;
+			$run->{gave}[$at]{$out->[1]} = $out->[2] ? !$value || 0 : $value;
 		}
 	}
 	$run->{after}{"$line->{name}/$at"} = snapshot($inside);

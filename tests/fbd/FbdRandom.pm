@@ -12,7 +12,7 @@ sub one { $_[below(scalar @_)] }
 my %variables = (BOOL => [map { "B$_" } 1 .. 5], INT => [map { "N$_" } 1 .. 5], DINT => [map { "L$_" } 1 .. 3], REAL => [qw(Ra Rb Rc)],
 		 WORD => [qw(Wa Wb)], TIME => [qw(Ta Tb)], STRING => [qw(Sa Sb)]);
 my @types = qw(BOOL BOOL BOOL INT INT INT DINT REAL WORD TIME STRING);
-my ($wires, $outputs, $before, $instances, $memory, $inside);
+my ($given, $wires, $outputs, $before, $instances, $memory, $inside);
 
 my %blocks = (TON => [qw(IN PT)], TOF => [qw(IN PT)], TP => [qw(IN PT)], CTU => [qw(CU R PV)], SR => [qw(S1 R)], RS => [qw(S R1)],
 	      R_TRIG => ['CLK'], Mix => [qw(A G)]);
@@ -104,7 +104,7 @@ sub expression {
 # A call of a function at the top of a value, with EN and ENO.
 sub enabled {
 	my ($type, $sure) = @_;
-	my $eno = $sure ? ", ENO => $sure" : '';
+	my $eno = $sure ? ', ' . one('', 'NOT ') . "ENO => $sure" : '';
 	return one(qw(ADD SUB MUL)) . '(EN := ' . expression('BOOL', 1) . ', IN1 := ' . expression($type, 1) . ', IN2 := ' . some($type, 1) . "$eno)";
 }
 
@@ -113,7 +113,7 @@ sub network {
 	my $text = 'NETWORK' . ($off ? ' OFF' : '') . ($label ne '' ? " $label" : '') . (below(4) ? '' : " \"Number $number\"") . "\n";
 	my $lines = 1 + below(7);
 	my %later;
-	($wires, $outputs) = ({}, []);
+	($wires, $outputs, $given) = ({}, [], 0);
 	my @plan;
 	for my $i (1 .. $lines) {
 		my $what = below(12);
@@ -148,10 +148,13 @@ sub network {
 			my $i = one(sort keys %$instances);
 			my $block = $instances->{$i};
 			my @pins = grep { $_ eq 'PT' || below(5) } @{$blocks{$block}};
-			my $wire = '';
+			my @bits = grep { $gives{$block}{$_} eq 'BOOL' } sort keys %{$gives{$block}};
+			my $to = !@bits || below(2) ? '' : below(2) ? one(@{$variables{BOOL}}) : 'Given' . ++$given;
+			my $gives = $to ? [one('', 'NOT ') . one(@bits) . " => $to"] : [];
 			$text .= "  $i(" . join(', ', (below(5) ? () : 'EN := ' . expression('BOOL', 1)),
-				map { my $t = $_ eq 'PT' ? 'TIME' : /^(?:PV|A)$/ ? 'INT' : 'BOOL';
-				      "$_ := " . ($t eq 'TIME' && !below(3) ? one('T#10ms', 'T#25ms', 'T#35ms') : expression($t, 2)) } @pins) . ")\n";
+				(map { my $t = $_ eq 'PT' ? 'TIME' : /^(?:PV|A)$/ ? 'INT' : 'BOOL';
+				      "$_ := " . ($t eq 'TIME' && !below(3) ? one('T#10ms', 'T#25ms', 'T#35ms') : expression($t, 2)) } @pins), @$gives) . ")\n";
+			$wires->{$to} = 'BOOL' if $to =~ /^Given/;
 			push @$outputs, map { "$i.$_" } keys %{$gives{$block}};
 			@$outputs = sort @$outputs;
 		}

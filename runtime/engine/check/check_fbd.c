@@ -234,55 +234,6 @@ static void check_labels(struct fbd_check *f)
 	}
 }
 
-/* `L[1]` of `L[1], Hi => Low)` */
-static int place_length(const struct lex *at)
-{
-	const char *begin = at->token.text;
-	struct lex lex = *at;
-	int len = 0, depth = 0;
-
-	while (lex.token.kind != TOKEN_END && (depth || (!lex_is(&lex, ",") && !lex_is(&lex, ")")))) {
-		depth += lex_is(&lex, "[") || lex_is(&lex, "(");
-		depth -= lex_is(&lex, "]") || lex_is(&lex, ")");
-		len = (int)(lex.token.text + lex.token.len - begin);
-		lex_next(&lex);
-	}
-	return len;
-}
-
-/* At NOT of `NOT Q => Lamp`. A line that would be cut short is not shown. */
-static void said_inverted(struct fbd_check *f, const struct st_item *item, struct lex lex)
-{
-	const char *const spot = lex.token.text;
-	char text[4 * LIMIT_ARG];
-	const char *pin;
-	int len;
-
-	lex_next(&lex);
-	pin = lex.token.text;
-	len = lex.token.len < LIMIT_ARG / 2 ? (int)lex.token.len : LIMIT_ARG / 2;
-	lex_next(&lex);
-	lex_next(&lex);
-	if (snprintf(text, sizeof(text), "NOT %.*s" DIAG_AND "%.*s => Wire and, below it, %.*s := NOT Wire", len, pin, len,
-		     pin, place_length(&lex), lex.token.text) >= 2 * LIMIT_ARG)
-		snprintf(text, sizeof(text), "NOT %.*s", len, pin);
-	f->c->item = item;
-	f->c->spot = spot;
-	f->good &= check_said(f->c, DIAG_NEGATED, text);
-}
-
-/* A drawn output has no circle, so `NOT Q => Lamp` cannot stand in a line. */
-static void check_inverted(struct fbd_check *f, const struct st_item *item)
-{
-	const char *line = project_text(f->c->project, item->text);
-	struct lex lex;
-
-	lex_init(&lex, line, strlen(line));
-	while (lex_next(&lex) != TOKEN_END)
-		if (expr_inverts(&lex))
-			said_inverted(f, item, lex);
-}
-
 /* ---- all ---- */
 
 static void check_network(struct fbd_check *f)
@@ -303,7 +254,6 @@ static void check_network(struct fbd_check *f)
 
 		if (item->kind == ST_COMMENT)
 			continue;
-		check_inverted(f, item);
 		f->good &= check_st_item(c, item);
 		if (item->kind == ST_JUMP_IF)
 			check_jump(f, item);

@@ -1156,7 +1156,7 @@ static bool block_output(struct ladders *l, struct box *box, const struct st_par
 	const struct expr_node *node = node_of(l, l->acts->expr->root);
 	const struct sink sink = sink_to_memory(&box->text);
 
-	if (node->op != EXPR_NAME || !is_sure_name(l, node) || part->pin.len == 0)
+	if (node->op != EXPR_NAME || !is_sure_name(l, node) || part->pin.len == 0 || part->inverted)
 		return false;
 	if (!draw)
 		return true;
@@ -1525,7 +1525,7 @@ static bool fits_box(struct ladders *l, const struct meaning *target, const stru
 	sink_memory_free(&none);
 	for (int i = 0; good && i < args->more; i++)
 		good = args->other[i].pin == EXPR_EN ? is_drawn(l, args->other[i].at) :
-		       args->other[i].pin == EXPR_ENO && fits_box_place(l, args->other[i].at);
+		       args->other[i].pin == EXPR_ENO && !args->other[i].inverted && fits_box_place(l, args->other[i].at);
 	return good;
 }
 

@@ -41,7 +41,7 @@ struct value {
 struct argument {
 	const char *name;    /* ""; by its place                                 */
 	size_t len;
-	bool output, empty;
+	bool output, inverted, empty;
 	struct value value;
 	int row_pin;         /* index in the row; or one of these:               */
 	bool placed;
@@ -370,6 +370,8 @@ static struct value name_value(struct maker *m, struct span part, bool previous)
 		value.operand = NULL;
 		value.refers = false;
 	}
+	if (value.pin >= 0) /* behind a circle is the inverse of what the name means */
+		value.negated = m->out->pin[value.pin].negated;
 	return value;
 }
 
@@ -524,6 +526,7 @@ static void give(struct maker *m, int pin, const struct argument *arg)
 	struct fbd_pin *p = &m->out->pin[pin];
 
 	place(m, arg->value.part, &p->at, &p->len, &p->line, &p->column);
+	p->negated = arg->inverted;
 	if (is_wire(m, arg->value.part)) {
 		define(m, pin, part_text(m, arg->value.part));
 		return;
@@ -660,6 +663,12 @@ static const struct word_row *function_row(struct maker *m, const char *text, si
 	return word != WORD_COUNT && row->kind == WORD_FN ? row : NULL;
 }
 
+/* `NOT Q =>` */
+static bool is_inverted(const struct maker *m, const struct argument *arg)
+{
+	return arg->len && is_piece(m, piece_at(m, arg->name) - 1, "NOT");
+}
+
 /* The arguments of a call are linked from the last to the first. */
 static void take_arguments(struct maker *m, const struct expr *expr, int at, struct call *call)
 {
@@ -673,9 +682,10 @@ static void take_arguments(struct maker *m, const struct expr *expr, int at, str
 
 		*arg = (struct argument){ .name = node->len ? node->text : "", .len = node->len,
 					  .output = node->output };
-		if (node->output)
+		if (node->output) {
 			arg->value.part = path_at(m, expr->node[node->left].text);
-		else
+			arg->inverted = is_inverted(m, arg);
+		} else
 			arg->value = build(m, expr, node->left);
 	}
 }
@@ -866,7 +876,7 @@ static struct value not_value(struct maker *m, const struct expr *expr, int at)
 	    !(inner->op == EXPR_CALL && ascii_is("PREVIOUS", inner->text, inner->len)))
 		return operator_value(m, expr, at);
 	value = build(m, expr, expr->node[at].left);
-	value.negated = true;
+	value.negated = !value.negated;
 	value.part.first -= value.part.first > 0; /* NOT */
 	value.part = outer(m, value.part);
 	return value;
@@ -1013,9 +1023,10 @@ static void take_part_of_call(struct maker *m, struct call *call, const struct s
 				  .output = part->role == ST_OUTPUT, .empty = part->role == ST_OPEN };
 	if (arg->empty)
 		return;
-	if (arg->output)
+	if (arg->output) {
 		arg->value.part = path_at(m, part->text);
-	else
+		arg->inverted = part->inverted;
+	} else
 		arg->value = build(m, m->expr, m->expr->root);
 }
 
@@ -1147,6 +1158,7 @@ static void feed_back(struct maker *m, int pin)
 		return;
 	}
 	p->wire = -1;
+	p->negated = p->negated != out->pin[output].negated;
 	out->pin[pin].wire = wire_of(m, output);
 }
 

@@ -27,7 +27,8 @@ struct fbd_pin {
 	const struct word_pin *declared; /* of the catalogue or the project; NULL: none */
 	const char *operand;  /* in place: what it reads, or the variable behind => ; NULL: none */
 	bool output;
-	bool negated;         /* NOT before the operand or the wire                */
+	bool negated;         /* NOT before the operand or the wire; of an output: what leaves it is the inverse,
+			       * and who reads the output itself is negated, too    */
 	bool open;            /* nothing is written at it                          */
 	bool previous;        /* the value of the scan before: PREVIOUS( ), or an output that is
 			       * computed further down                            */

@@ -841,7 +841,7 @@ static void measure_box(const struct planner *p, const struct fbd_box *box, floa
 		for (int w = 0; w < p->graph->wire_count && pin->wire >= 0; w++)
 			if (p->graph->wire[w].from_pin == i)
 				need = widest(need, widest(width_of(p, FBD_TEXT_WIRE, p->graph->wire[w].name) + m->pad, m->tail));
-		*tail = widest(*tail, need);
+		*tail = widest(*tail, need + (pin->negated ? m->circle : 0));
 	}
 	*width = widest(2 * m->pad + in + out + (in > 0 && out > 0 ? m->middle : 0),
 			width_of(p, FBD_TEXT_TYPE, fbd_box_title(box)) + 2 * m->pad);

@@ -198,17 +198,17 @@ static void put_pin(const struct canvas *canvas, int index)
 		put_glyph(canvas, pin->output ? x - 1 : x, y, pin->output ? strokes->close : strokes->open);
 	if (pin->operand)
 		put_operand(canvas, index, x, y);
-	if (pin->negated)
-		put_glyph(canvas, x - 1, y, "o");
 	if (pin->output && pin->wire >= 0 && !at(canvas, x, y)->pin) /* nobody reads it */
 		put_glyph(canvas, x, y, across(canvas, index));
 	if (pin->output && pin->wire >= 0)
-		for (int i = 0, column = x + 1; i < canvas->graph->wire_count; i++) {
+		for (int i = 0, column = x + 1 + pin->negated; i < canvas->graph->wire_count; i++) {
 			const struct fbd_wire *wire = &canvas->graph->wire[i];
 
 			if (wire->from_pin == index && wire->name)
 				column += put_text(canvas, column, y, wire->name) + 1;
 		}
+	if (pin->negated)
+		put_glyph(canvas, pin->output ? x : x - 1, y, "o");
 }
 
 static void put_end(const struct canvas *canvas, const struct fbd_box *box, const struct fbd_at *place)

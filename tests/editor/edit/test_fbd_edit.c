@@ -102,6 +102,8 @@ static void check_forms(void)
 		{ "W := Raw - Tare - Level", "  W := Raw - Tare - Level\n" },
 		{ "W := AND(IN1:=A,IN2:=)", "  W := AND(IN1 := A, IN2 :=)\n" },
 		{ "Delay(Q=>Valve,IN:=NOT A)", "  Delay(Q => Valve, IN := NOT A)\n" },
+		{ "Delay(not Q=>Valve)", "  Delay(NOT Q => Valve)\n" },
+		{ "W := SUB(EN:=A, 3, N, NOT ENO=>Horn)", "  W := SUB(EN := A, 3, N, NOT ENO => Horn)\n" },
 		{ "W := LIMIT(0,N,\n 10)", "  W := LIMIT(0, N, 10)\n" },
 		{ "T[N+1] := T[ 2 ]", "  T[N+1] := T[ 2 ]\n" },
 		{ "W := A (* why *) OR B", "  W := A OR B  (* why *)\n" },
@@ -116,6 +118,37 @@ static void check_forms(void)
 }
 
 /* ---- pins ---- */
+
+static void check_inverted_outputs(void)
+{
+	struct fbd_spot spot = out(0, 0, "Q"), to;
+
+	begin("  Delay(IN := A, Q => Horn)\n");
+	EDIT(fbd_edit_negate(edit, &spot), "  Delay(IN := A, NOT Q => Horn)\n");
+	EDIT(fbd_edit_negate(edit, &spot), "  Delay(IN := A, Q => Horn)\n");
+	begin("  Delay(A, T#1s, Horn)\n");
+	EDIT(fbd_edit_negate(edit, &spot), "  Delay(IN := A, PT := T#1s, NOT Q => Horn)\n");
+	begin("  Delay(IN := A)\n");
+	REFUSED(fbd_edit_negate(edit, &spot), "Nothing is connected here.");
+	begin("  B := Delay.Q\n  Delay(IN := A)\n  Horn := Delay.Q OR C\n  Valve := NOT Delay.Q\n");
+	spot = out(1, 0, "Q");
+	EDIT(fbd_edit_negate(edit, &spot),
+	     "  B := Delay.Q\n  Delay(IN := A, NOT Q => Wire1)\n  Horn := Wire1 OR C\n  Valve := NOT Wire1\n");
+	EDIT(fbd_edit_negate(edit, &spot),
+	     "  B := Delay.Q\n  Delay(IN := A, Q => Wire1)\n  Horn := Wire1 OR C\n  Valve := NOT Wire1\n");
+	begin("  Delay(IN := A, NOT Q => Horn)\n  Valve := B\n"); /* a wire from there begins behind the circle */
+	spot = out(0, 0, "Q");
+	to = in(1, 0, 0, "");
+	EDIT(fbd_edit_join(edit, &spot, &to), "  Delay(IN := A, NOT Q => Horn)\n  Valve := Horn\n");
+	begin("  W := SUB(EN := A, IN1 := N, IN2 := 1, ENO => Horn)\n");
+	spot = out(0, 0, "ENO");
+	EDIT(fbd_edit_negate(edit, &spot), "  W := SUB(EN := A, IN1 := N, IN2 := 1, NOT ENO => Horn)\n");
+	spot = out(0, 0, "OUT");
+	REFUSED(fbd_edit_negate(edit, &spot), "A result is negated at the inputs that read it.");
+	begin("  Horn := A AND B\n");
+	spot = out(0, 0, "");
+	REFUSED(fbd_edit_negate(edit, &spot), "A result is negated at the inputs that read it.");
+}
 
 static void check_operands(void)
 {
@@ -435,7 +468,7 @@ static bool any_edit(void)
 	case 8: return fbd_edit_clear(edit, dice(2) ? &from : &to);
 	case 9: return fbd_edit_operand(edit, &to, values[dice(9)]);
 	case 10: return fbd_edit_operand(edit, &from, dice(2) ? "Horn" : "Name");
-	case 11: return fbd_edit_negate(edit, &to);
+	case 11: return fbd_edit_negate(edit, dice(2) ? &from : &to);
 	case 12: return fbd_edit_add_input(edit, &to);
 	case 13: return fbd_edit_drop_input(edit, &to);
 	case 14: return fbd_edit_type(edit, &to, words[dice(9)]);
@@ -518,6 +551,7 @@ int main(void)
 	CHECK(ladder_load_text(ladder, "test.rung", declared, strlen(declared)));
 	check_lines();
 	check_forms();
+	check_inverted_outputs();
 	check_operands();
 	check_joins();
 	check_adding();

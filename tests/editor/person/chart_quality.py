@@ -100,8 +100,7 @@ def simulated(screen):
     chart = chart_of(editor)
     x, y, width, _height = editor.place(chart)
     at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 20)
-    point = lambda scan: (sh('xdotool', 'mousemove', *map(str, at(scan)), 'sleep', '0.1', 'mousemove_relative', '1', '0'), editor.tips())[1]
-    until(lambda: point(3), 'the words below the pointer')
+    editor.tip_at(*at(3))
     editor.shot('quality-chart')
     editor.drag(at(3), at(7))
     editor.says('PAST · scan 7')

@@ -53,6 +53,7 @@ class Editor(Finder):
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals',
                                                                      'MALLOC_PERTURB_': '165', **env})
         self.clicked = 0.0  # when the last click began
+        self.clicked_at = None  # where
         self.scale = int(env.get('GDK_SCALE', 1))  # pixels of the screen for one of a widget
         editors.append(self)
         self.bus = screen.accessibility()
@@ -95,7 +96,9 @@ class Editor(Finder):
 
     def click(self, at, button=1, count=1, shift=False):
         x, y = at if isinstance(at, tuple) else self.centre(at)
-        if count > 1:  # a click right before would make it a double click
+        before, self.clicked_at = self.clicked_at, (x, y)
+        if count > 1 or (before and abs(x - before[0]) + abs(y - before[1]) < 20):
+            # A click right before it would make a double click of both.
             time.sleep(max(0.0, self.clicked + 2 * DOUBLE_CLICK - time.monotonic()))
         self.clicked = time.monotonic()
         held = [['keydown', 'Shift_L'], ['keyup', 'Shift_L']] if shift else [[], []]

@@ -172,9 +172,11 @@ def by_pointer(screen):
     before = editor.place(box)
     editor.drag(editor.centre(box), (editor.centre(box)[0] + 150, editor.centre(box)[1] + 90), look='fbd-move')
     until(lambda: editor.place(part(editor, 'TOF Delay2, executed as number 3'))[1] > before[1], 'the box to be lower')
+    menu(editor, part(editor, 'TP Delay3, output Q: wire'), 'Negate the pin')
+    part(editor, 'TP Delay3, output Q, negated: wire Wire1')
     editor.shot('fbd-pointer')
     text = editor.save(path)
-    for line in ('Delay1(IN := NOT Ready)', 'Delay3(IN := Delay1.Q)', 'Delay2(IN := Delay3.Q)  { at '):
+    for line in ('Delay1(IN := NOT Ready)', 'Delay3(IN := Delay1.Q, NOT Q => Wire1)', 'Delay2(IN := Wire1)  { at '):
         assert line in text, (line, text)
     editor.finish()
 

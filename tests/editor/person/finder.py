@@ -276,6 +276,17 @@ class Finder:
         x, y = self.centre(node)
         sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
 
+    def tip_at(self, x, y):
+        """Rests the pointer at a point until a tooltip stands there, and returns its window. Each move of the pointer
+        delays a tooltip: it moves again only when none has come for long."""
+        for again in range(4, -1, -1):
+            sh('xdotool', 'mousemove', str(x), str(y), 'sleep', '0.1', 'mousemove_relative', '1', '0')
+            try:
+                return until(self.tips, 'the tooltip at %d,%d' % (x, y), PATIENCE / 5)[0]
+            except AssertionError:
+                if not again:
+                    raise
+
     def tips(self):
         """Tooltips and popups: the visible windows that the window manager does not know."""
         known = self.windows()

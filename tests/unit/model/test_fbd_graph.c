@@ -21,8 +21,7 @@ static void say_pin(const struct fbd_graph *graph, int index)
 	const int source = fbd_graph_source(graph, index);
 
 	SAY(" %s%s%s", pin->output ? ">" : "", pin->name, pin->open ? "?" : "");
-	if (!pin->output)
-		SAY("%s%s", pin->negated ? "/" : "", pin->previous ? "@" : "");
+	SAY("%s%s", pin->negated ? "/" : "", pin->previous ? "@" : "");
 	if (pin->operand)
 		SAY("=%s", pin->operand);
 	if (source >= 0)
@@ -120,6 +119,21 @@ static void names_are_wires(void)
 	CHECK_TEXT(graph(BITS, "Low := a AND b\nNETWORK\nQ := Low", 1), "0 -> Q =Low");
 }
 
+/* Who reads the output itself is behind its circle, too, and has one more. */
+static void outputs_are_inverted(void)
+{
+	CHECK_TEXT(graph(BITS, "Delay(IN := a, NOT Q => Q)", 0), "0 TON Delay IN=a PT? >Q/=Q >ET?");
+	CHECK_TEXT(graph(BITS, "Delay(IN := a, NOT Q => Idle)\nQ := Idle\nc := NOT Idle", 0),
+		   "0 TON Delay IN=a PT? >Q/:Idle >ET?; 1 -> Q <0.1; 2 -> c /<0.1");
+	CHECK_TEXT(graph(BITS, "Delay(NOT Q => Q)\nc := Delay.Q\nd := NOT Delay.Q", 0),
+		   "0 TON Delay IN? PT? >Q/=Q >ET?; 1 -> c /<0.1; 2 -> d <0.1");
+	CHECK_TEXT(graph(BITS, "c := Delay.Q\nDelay(NOT Q => Q)", 0), "0 -> c /@<1.1; 1 TON Delay IN? PT? >Q/=Q >ET?");
+	CHECK_TEXT(graph(BITS, "Delay(NOT Q => Idle)\nDone := Delay.Q\nQ := Done", 0),
+		   "0 TON Delay IN? PT? >Q/:Idle >ET?; 1 VALUE /<0.1 >:Done; 2 -> Q <1.1");
+	CHECK_TEXT(graph(BITS, "k := SUB(EN := a, i, 1, NOT ENO => Bad)\nQ := Bad", 0),
+		   "0 SUB EN=a IN1=i IN2=1 >ENO/:Bad >OUT; 1 -> k <0.2; 2 -> Q <0.1");
+}
+
 static void feedback_is_marked(void)
 {
 	CHECK_TEXT(graph(BITS, "Sum := ADD(PREVIOUS(Sum), i)\nk := Sum", 0),
@@ -163,6 +177,7 @@ int main(void)
 	expressions_become_boxes();
 	functions_have_all_pins();
 	names_are_wires();
+	outputs_are_inverted();
 	feedback_is_marked();
 	places_are_known();
 	project_free(project);

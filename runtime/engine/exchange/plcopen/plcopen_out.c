@@ -112,9 +112,9 @@ void plco_position(struct out *out, int x, int y)
 	plco_line(out, "position x=\"%d\" y=\"%d\"", x, y);
 }
 
-void plco_output(struct out *out, const char *name, int width)
+void plco_output(struct out *out, const char *name, bool negated, int width)
 {
-	plco_open(out, "variable formalParameter=\"%s\"", name);
+	plco_open(out, "variable formalParameter=\"%s\"%s", name, negated ? " negated=\"true\"" : "");
 	plco_open(out, "connectionPointOut");
 	plco_line(out, "relPosition x=\"%d\" y=\"%d\"", width, 20 * ++out->outputs);
 	plco_close(out, "connectionPointOut");

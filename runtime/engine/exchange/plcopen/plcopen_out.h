@@ -58,7 +58,7 @@ void plco_place(struct out *out, int id, int x, int y);
 /** plco_position - where the element in work stands. */
 void plco_position(struct out *out, int x, int y);
 /** plco_output - an output pin of the block in work, which is @width wide. Beremiz wants its place. */
-void plco_output(struct out *out, const char *name, int width);
+void plco_output(struct out *out, const char *name, bool negated, int width);
 /** plco_connection - a connection with the output @pin of @id; NULL: its only one. Tools that draw the line, and
  * Beremiz also where it translates, need its two ends. */
 void plco_connection(struct out *out, int id, const char *pin);

@@ -175,7 +175,7 @@ static void put_move(struct diagram *d, int x, int y, const struct input *enable
 	plco_close(out, "inputVariables");
 	plco_line(out, "inOutVariables");
 	plco_open(out, "outputVariables");
-	plco_output(out, "OUT", WIDTH);
+	plco_output(out, "OUT", false, WIDTH);
 	plco_close(out, "outputVariables");
 	plco_close(out, "block");
 }
@@ -267,7 +267,7 @@ static void put_pins(struct diagram *d, const struct fbd_box *box)
 
 		if (!p->output || (p->open && !strcmp(p->name, "ENO")))
 			continue;
-		plco_output(out, pin_name(d, box, i), WIDTH);
+		plco_output(out, pin_name(d, box, i), p->negated, WIDTH);
 	}
 	plco_close(out, "outputVariables");
 }
@@ -333,7 +333,7 @@ static void give_condition(struct diagram *d, int number)
 	plco_close(out, "inputVariables");
 	plco_line(out, "inOutVariables");
 	plco_open(out, "outputVariables");
-	plco_output(out, "OUT", WIDTH);
+	plco_output(out, "OUT", false, WIDTH);
 	plco_close(out, "outputVariables");
 	plco_close(out, "block");
 	*input = (struct input){ id, "OUT", false, NULL };

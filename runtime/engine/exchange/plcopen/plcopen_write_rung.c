@@ -220,7 +220,7 @@ static void close_pin(struct drawing *d)
 
 static void put_output(struct drawing *d, const char *name)
 {
-	plco_output(d->out, name, BOX_WIDTH);
+	plco_output(d->out, name, false, BOX_WIDTH);
 }
 
 /* A box of a function with power at one pin and a text at another one. */
