@@ -122,11 +122,12 @@ until_dead() {
 # Each command of a guest has its own plan; one more line reports whether the plan was kept
 # and the command ended well.
 guest_said() {
-	tr -d '\r' <"$out/console" | awk '
+	tr -d '\r' <"$out/console" | dying=$dying awk '
 		function verdict(good, text) {
 			print (good ? "" : "not ") "ok " ++all " - " text
 			failed += !good
 		}
+		$0 ~ ENVIRON["dying"] && !died { died = "; its kernel said: " $0 }
 		/^BOOT$/ { boots++; part = ""; next }
 		/^END$/ { boots-- }
 		/^BEGIN / { part = $2; count = 0; plan = "none"; next }
@@ -148,7 +149,7 @@ guest_said() {
 		{ print }
 		END {
 			if (boots)
-				verdict(0, "each guest came to its end")
+				verdict(0, "each guest came to its end" died)
 			print "1.." all
 			print (failed ? "FAILED: " failed " of " all : "passed: " all) " tests" \
 				(skipped ? ", " skipped " of them skipped" : "") >result
