@@ -6,6 +6,7 @@
 #include "tests/hal/fake.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,10 +27,34 @@ void fake_clear_calls(void)
 	fake.reads = fake.writes = fake.takes = fake.releases = 0;
 }
 
-static void note(char call)
+/* ladderd lists the chips of its machine in a thread of its own, while scans go on. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* Notes a call and counts it. */
+static void note(char call, int *count)
 {
+	pthread_mutex_lock(&lock);
 	if (fake.call_count < sizeof(fake.calls) - 1)
 		fake.calls[fake.call_count++] = call;
+	++*count;
+	pthread_mutex_unlock(&lock);
+}
+
+void fake_settings(int more)
+{
+	pthread_mutex_lock(&lock);
+	fake.settings += more;
+	pthread_mutex_unlock(&lock);
+}
+
+struct fake_line fake_line(const struct fake_chip *chip, unsigned int offset)
+{
+	struct fake_line line;
+
+	pthread_mutex_lock(&lock);
+	line = chip->line[offset];
+	pthread_mutex_unlock(&lock);
+	return line;
 }
 
 void fake_unplug(int chip)
@@ -60,23 +85,20 @@ struct fake_chip *fake_open(const char *path)
 		errno = chip->open_error;
 		return NULL;
 	}
-	note('o');
-	fake.opens++;
+	note('o', &fake.opens);
 	return chip;
 }
 
 void fake_close(void)
 {
-	note('c');
-	fake.closes++;
+	note('c', &fake.closes);
 }
 
 int fake_take(struct fake_request *request, struct fake_chip *chip,
 	      const char *owner, const int *values, const char *bias,
 	      const char *drive)
 {
-	note(request->output ? 'O' : 'I');
-	fake.takes++;
+	note(request->output ? 'O' : 'I', &fake.takes);
 	request->chip = chip;
 	request->generation = chip->generation;
 	if (fake.take_error) {
@@ -85,11 +107,12 @@ int fake_take(struct fake_request *request, struct fake_chip *chip,
 	}
 	for (size_t i = 0; i < request->count; i++) {
 		if (request->offset[i] >= chip->lines ||
-		    chip->line[request->offset[i]].used) {
+		    fake_line(chip, request->offset[i]).used) {
 			errno = EBUSY;
 			return -1;
 		}
 	}
+	pthread_mutex_lock(&lock);
 	for (size_t i = 0; i < request->count; i++) {
 		struct fake_line *line = &chip->line[request->offset[i]];
 
@@ -101,19 +124,21 @@ int fake_take(struct fake_request *request, struct fake_chip *chip,
 		if (request->output)
 			line->level = values[i];
 	}
+	pthread_mutex_unlock(&lock);
 	return 0;
 }
 
 void fake_release(struct fake_request *request)
 {
-	note('x');
-	fake.releases++;
+	note('x', &fake.releases);
 	if (request->generation != request->chip->generation)
 		return;
+	pthread_mutex_lock(&lock);
 	for (size_t i = 0; i < request->count; i++) {
 		request->chip->line[request->offset[i]].used = false;
 		request->chip->line[request->offset[i]].owner = NULL;
 	}
+	pthread_mutex_unlock(&lock);
 }
 
 static int answer(const struct fake_request *request, int error)
@@ -126,8 +151,7 @@ static int answer(const struct fake_request *request, int error)
 
 int fake_read(const struct fake_request *request, int *values)
 {
-	note('r');
-	fake.reads++;
+	note('r', &fake.reads);
 	if (fake_at_read)
 		fake_at_read();
 	if (answer(request, fake.read_error))
@@ -139,13 +163,14 @@ int fake_read(const struct fake_request *request, int *values)
 
 int fake_write(const struct fake_request *request, const int *values)
 {
-	note('w');
-	fake.writes++;
+	note('w', &fake.writes);
 	if (fake_at_write)
 		fake_at_write();
 	if (answer(request, fake.write_error))
 		return -1;
+	pthread_mutex_lock(&lock);
 	for (size_t i = 0; i < request->count; i++)
 		request->chip->line[request->offset[i]].level = values[i];
+	pthread_mutex_unlock(&lock);
 	return 0;
 }

@@ -52,6 +52,10 @@ extern struct fake fake;
 void fake_reset(void);
 void fake_clear_calls(void);
 void fake_unplug(int chip);
+/* Objects of libgpiod: one more, one fewer. */
+void fake_settings(int more);
+/* A line as it is now; another thread may be at it. */
+struct fake_line fake_line(const struct fake_chip *chip, unsigned int offset);
 
 /* The work of a libgpiod. Return -1 and set errno on failure. */
 struct fake_chip *fake_open(const char *path);

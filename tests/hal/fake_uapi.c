@@ -96,22 +96,22 @@ static int chip_about(const struct fake_chip *chip, struct gpiochip_info *out)
 
 static int line_about(const struct fake_chip *chip, struct gpio_v2_line_info *out)
 {
-	const struct fake_line *line;
+	struct fake_line line;
 
 	if (out->offset >= chip->lines) {
 		errno = EINVAL;
 		return -1;
 	}
-	line = &chip->line[out->offset];
-	copy_text(out->name, line->name);
-	copy_text(out->consumer, line->owner);
-	out->flags = (line->used ? GPIO_V2_LINE_FLAG_USED : 0) |
-		     (line->output ? GPIO_V2_LINE_FLAG_OUTPUT :
+	line = fake_line(chip, out->offset);
+	copy_text(out->name, line.name);
+	copy_text(out->consumer, line.owner);
+	out->flags = (line.used ? GPIO_V2_LINE_FLAG_USED : 0) |
+		     (line.output ? GPIO_V2_LINE_FLAG_OUTPUT :
 				     GPIO_V2_LINE_FLAG_INPUT) |
-		     (line->active_low ? GPIO_V2_LINE_FLAG_ACTIVE_LOW : 0) |
-		     (line->bias == 'u' ? GPIO_V2_LINE_FLAG_BIAS_PULL_UP :
-		      line->bias == 'd' ? GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN :
-		      line->bias == 'n' ? GPIO_V2_LINE_FLAG_BIAS_DISABLED : 0);
+		     (line.active_low ? GPIO_V2_LINE_FLAG_ACTIVE_LOW : 0) |
+		     (line.bias == 'u' ? GPIO_V2_LINE_FLAG_BIAS_PULL_UP :
+		      line.bias == 'd' ? GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN :
+		      line.bias == 'n' ? GPIO_V2_LINE_FLAG_BIAS_DISABLED : 0);
 	return 0;
 }
 

@@ -30,14 +30,14 @@ struct gpiod_line_request { struct fake_request fake; };
 /* Counts the objects that must be freed. */
 static void *new_object(size_t size)
 {
-	fake.settings++;
+	fake_settings(1);
 	return calloc(1, size);
 }
 
 static void free_object(void *object)
 {
 	if (object)
-		fake.settings--;
+		fake_settings(-1);
 	free(object);
 }
 
@@ -92,7 +92,7 @@ struct gpiod_line_info *gpiod_chip_get_line_info(struct gpiod_chip *chip,
 		return NULL;
 	}
 	info = new_object(sizeof(*info));
-	info->line = chip->fake->line[offset];
+	info->line = fake_line(chip->fake, offset);
 	return info;
 }
 

@@ -5,6 +5,7 @@ the window shows something.
 import random
 import re
 import subprocess
+import time
 
 from desk import sh, until
 from node import Gone
@@ -13,7 +14,8 @@ TABS_END = 98  # px from the top of the window
 COLOURS = 4  # a sheet with one wire has five, a blank page two or three
 SIZES = ['1440 900', '1024 700', '1200 640', '1340 820']
 KEYS = ['F4', 'shift+F4', 'ctrl+F4', 'ctrl+m', 'ctrl+f', 'Escape', 'ctrl+alt+o', 'ctrl+alt+s', 'shift+F12', 'ctrl+Page_Down',
-        'ctrl+Page_Up', 'ctrl+shift+w', 'ctrl+r', 'ctrl+period', 'ctrl+plus', 'ctrl+minus', 'ctrl+z', 'Down', 'alt+Left']
+        'ctrl+Page_Up', 'ctrl+shift+w', 'ctrl+1', 'ctrl+2', 'ctrl+3', 'ctrl+4',  # the last four: Show as
+        'ctrl+r', 'ctrl+period', 'ctrl+plus', 'ctrl+minus', 'ctrl+z', 'Down', 'alt+Left']
 
 
 def warnings(editor):
@@ -46,7 +48,7 @@ def alone(editor):
         if others:
             sh('xdotool', 'windowactivate', others[-1], 'sleep', '0.1', 'key', 'Escape')
         return not others
-    until(look, 'other windows to go')
+    until(lambda: look() and (time.sleep(0.3) or look()), 'other windows to go')
 
 
 def standing(nodes, fits):
@@ -99,6 +101,8 @@ class Hand:
             return self.manual()
         if chance < 0.88:
             return self.search()
+        if chance < 0.92:
+            return self.map()
         key = self.dice.choice(KEYS)
         editor.keys(key)
         return key
@@ -124,7 +128,9 @@ class Hand:
         editor, word = self.editor, self.dice.choice(SEARCHED)
         size = self.dice.choice([*SIZES, '640 420'])
         alone(editor)
-        window = editor.brought(lambda: editor.command('Manual'))
+        editor.command('Manual')  # F1 may have opened it already
+        window = until(lambda: next((one for one in editor.windows() if one != editor.window and
+                                     sh('xdotool', 'getactivewindow') == one), None), 'the manual with the keys in it')
         sh('xdotool', 'windowsize', '--sync', window, *size.split())
         for key in 'ctrl+shift+f', 'ctrl+f':
             editor.keys(key)
@@ -132,6 +138,14 @@ class Hand:
             editor.keys('Return', self.dice.choice(['Return', 'Next', 'ctrl+a', 'ctrl+shift+c', 'F3']))
         alone(editor)
         return 'the manual at %s, searched for %s' % (size, word)
+
+    def map(self):
+        """Opens the I/O map by its row of the tree, if the program has one."""
+        rows = standing(self.editor.all('.io', 'list item'), lambda node: node.box()[2] > 0)
+        if not rows:
+            return 'no I/O map'
+        self.editor.click(rows[0], count=2)
+        return 'the I/O map'
 
     def search(self):
         """Types into a filter that is visible."""

@@ -8,6 +8,7 @@ import difflib
 import os
 import random
 import re
+import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -82,9 +83,18 @@ def is_unsaved(editor):
     return any(node.name.startswith('• ') and node.box()[1] < 50 for node in editor.all('• ', 'label'))
 
 
-def saved(editor, path):
-    """Saves the program, not a text beside it that may be in front."""
+def to_program(editor):
+    """A file beside the program may be in front, an I/O map or a scenario: it has a history of its own."""
     editor.keys(*['ctrl+Page_Up'] * 12)
+    for tab in rooms.sheets(editor, 0):
+        if not re.search(r'\.(io|scn|txt)$', tab.name):
+            editor.click(tab)
+            return
+
+
+def saved(editor, path):
+    """Saves the program."""
+    to_program(editor)
     until(lambda: not editor.keys('ctrl+s') and not is_unsaved(editor), 'the program to be saved')
     with open(path) as text:
         return text.read()
@@ -92,6 +102,7 @@ def saved(editor, path):
 
 def all_the_way(editor, button, key, path):
     """Undoes or redoes everything, and saves."""
+    to_program(editor)
     until(lambda: not editor.find(button, 'push button').has(24) or editor.keys(*[key] * 30), 'the end of ' + button)
     return saved(editor, path)
 
@@ -100,19 +111,21 @@ def same(wanted, text, why):
     assert text == wanted, '\n'.join([why, *difflib.unified_diff(wanted.splitlines(), text.splitlines(), lineterm='')])
 
 
-def draws(folder, name):
-    """Is its first program drawn?"""
-    with open(os.path.join(folder, name)) as text:
-        return not re.search(r'^PROGRAM .*', text.read(), re.MULTILINE).group().endswith(' ST')
+def beginnings():
+    """The samples of one file, in all five languages."""
+    folder = os.path.join(ROOT, 'ladders')
+    return sorted(path for name in os.listdir(folder) for path in (os.path.join(folder, name), os.path.join(folder, name, name + '.rung'))
+                  if path.endswith('.rung') and 'plant' not in path and os.path.exists(path))
 
 
 def storm(screen, number):
-    folder = os.path.join(ROOT, 'ladders')
-    names = sorted(name for name in os.listdir(folder) if name.endswith('.rung') and 'plant' not in name and draws(folder, name))
-    name = names[number % len(names)]
-    with open(os.path.join(folder, name)) as text:
+    samples = beginnings()
+    sample = samples[number % len(samples)]
+    with open(sample) as text:
         first = text.read()
     path = new_file(screen, first)
+    if os.path.exists(sample[:-5] + '.io'):
+        shutil.copy(sample[:-5] + '.io', path[:-5] + '.io')
     editor = Editor(screen, path)
     editor.focus_on()
     hand, place = Hand(editor, number), rooms.Hand(editor, number)
@@ -129,7 +142,7 @@ def storm(screen, number):
     check(path)
     same(last, all_the_way(editor, 'Redo', 'ctrl+y', path), 'done again, it is another')
     assert not rooms.warnings(editor), rooms.warnings(editor)
-    print('# %s: %d lines became %d' % (name, len(first.splitlines()), len(last.splitlines())))
+    print('# %s: %d lines became %d' % (os.path.basename(sample), len(first.splitlines()), len(last.splitlines())))
 
 
 def of(number):
@@ -139,6 +152,6 @@ def of(number):
     return test
 
 
-numbers = [int(number) for number in sys.argv[1:]] or (12, 18, 23, 35)
+numbers = [int(number) for number in sys.argv[1:]] or (1, 8, 13, 35)
 del sys.argv[1:]
 main([of(number) for number in numbers])
