@@ -21,7 +21,6 @@ enum hit_field {
 struct search {
 	struct find *find;
 	struct project *project;
-	char *folded;          /* the searched text, case folded unless case matters */
 	struct find_hit place; /* the current place                            */
 	struct iec_addr address; /* the searched address; AREA_NONE: a text    */
 	struct grid_names *names; /* of the POU, for an address                */
@@ -42,14 +41,14 @@ static bool stands_alone(const char *text, const char *at, const char *end)
 }
 
 /* The end of a match at @at, compared letter by letter; NULL: no match. */
-static const char *match(const struct search *search, const char *at)
+static const char *match(const struct find *find, const char *at)
 {
-	const char *want = search->folded;
+	const char *want = find->folded;
 
 	for (; *want && *at; want = g_utf8_next_char(want), at = g_utf8_next_char(at)) {
 		gunichar c = g_utf8_get_char(at);
 
-		if (!search->find->options.match_case)
+		if (!find->options.match_case)
 			c = g_unichar_tolower(c);
 		if (c != g_utf8_get_char(want))
 			return NULL;
@@ -68,19 +67,27 @@ static void add_hit(struct search *search, const char *text, const char *at,
 	g_ptr_array_add(search->find->hit, hit);
 }
 
+gssize find_match(const struct find *find, const char *text, gsize *from)
+{
+	for (const char *at = text + *from; *at && *find->folded; at = g_utf8_next_char(at)) {
+		const char *end = match(find, at);
+
+		if (end && (!find->options.whole_word || stands_alone(text, at, end))) {
+			*from = (gsize)(end - text);
+			return at - text;
+		}
+	}
+	return -1;
+}
+
 static void search_text(struct search *search, const char *text)
 {
-	for (const char *at = text; *at && search->find->hit->len < FIND_HITS_MOST;) {
-		const char *end = match(search, at);
+	gsize end = 0;
+	gssize at;
 
-		if (!end || (search->find->options.whole_word &&
-			     !stands_alone(text, at, end))) {
-			at = g_utf8_next_char(at);
-			continue;
-		}
-		add_hit(search, text, at, end);
-		at = end;
-	}
+	while (search->find->hit->len < FIND_HITS_MOST &&
+	       (at = find_match(search->find, text, &end)) >= 0)
+		add_hit(search, text, text + at, text + end);
 }
 
 static void search_id(struct search *search, enum find_where where, int field, uint32_t id)
@@ -377,11 +384,10 @@ struct find *find_new(LadderDocument *document, const char *wanted,
 	find->wanted = g_utf8_make_valid(wanted, -1);
 	find->options = options;
 	search.project = ladder_document_project(document);
-	search.folded = fold(find->wanted, options.match_case);
+	find->folded = fold(find->wanted, options.match_case);
 	search.address = address_of(find->wanted);
-	if (search.project && *search.folded)
+	if (search.project && *find->folded)
 		search_project(&search, document);
-	g_free(search.folded);
 	return find;
 }
 
@@ -390,8 +396,23 @@ void find_free(struct find *find)
 	if (!find)
 		return;
 	g_ptr_array_unref(find->hit);
+	g_free(find->folded);
 	g_free(find->wanted);
 	g_free(find);
+}
+
+const struct find_hit *find_seen_next(const struct find_seen *seen, int pou, int *at, bool *now)
+{
+	for (; seen->find && *at < (int)seen->find->hit->len; ++*at) {
+		const struct find_hit *hit = seen->find->hit->pdata[*at];
+
+		*now = *at == seen->current;
+		if (hit->pou == pou && (*now || seen->all)) {
+			++*at;
+			return hit;
+		}
+	}
+	return NULL;
 }
 
 static int compare(const struct find_hit *hit, int pou, int rung, int row, int col)

@@ -41,7 +41,15 @@ struct find_hit {
 struct find {
 	GPtrArray *hit;        /* of struct find_hit *, in the order of the file */
 	char *wanted;
+	char *folded;          /* private                                      */
 	struct find_options options;
+};
+
+/* The hits that the sheets mark. */
+struct find_seen {
+	const struct find *find; /* NULL: none                                 */
+	int current;           /* index of the current hit; -1: none           */
+	bool all;              /* also the others                              */
 };
 
 #define FIND_HITS_MOST 100000
@@ -54,6 +62,12 @@ void find_free(struct find *find);
 /** find_next - the first hit behind a place (0-based, -1: before all in it), or before it;
  * goes on at the other end. -1: there is none. */
 int find_next(const struct find *find, int pou, int rung, int row, int col, bool back);
+/** find_seen_next - the first marked hit in @pou from index *@at on; *@at: the index behind it. NULL: no
+ * more. @now: whether it is the current one. Owns: @find. */
+const struct find_hit *find_seen_next(const struct find_seen *seen, int pou, int *at, bool *now);
+/** find_match - the first match of the searched text in any text, from byte *@from on; *@from: its end.
+ * Returns where it begins; -1: there is none. */
+gssize find_match(const struct find *find, const char *text, gsize *from);
 
 /**
  * find_replace - replaces one hit by @with, as a step

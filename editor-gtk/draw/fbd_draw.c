@@ -379,11 +379,49 @@ static void draw_grounds(const struct pen *pen)
 			continue;
 		}
 		r = place_of(pen, mark);
-		if (mark->marks & MARK_FOUND)
-			picture_fill(pen->picture, TOKEN_FOUND, 1, r.origin.x, r.origin.y, r.size.width, r.size.height);
 		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
 			picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, r.origin.x, r.origin.y, r.size.width,
 				     r.size.height);
+	}
+}
+
+static void fill_found(const struct pen *pen, const graphene_rect_t *r, bool now)
+{
+	picture_fill(pen->picture, now ? TOKEN_FOUND_NOW : TOKEN_FOUND, 1, r->origin.x, r->origin.y, r->size.width,
+		     r->size.height);
+	if (now)
+		picture_frame(pen->picture, TOKEN_INK, STROKE_SOLID, 2, r->origin.x, r->origin.y, r->size.width,
+			      r->size.height);
+}
+
+/* Label, title and comments. */
+static graphene_rect_t heading_rect(const struct pen *pen)
+{
+	const struct fbd_layout *layout = pen->layout;
+	float right = layout->title_x + layout->title.width;
+
+	for (char **note = layout->note; *note; note++)
+		right = MAX(right, RUNG_LEFT + fit(pen, LETTER_COMMENT, *note, 0).width);
+	return GRAPHENE_RECT_INIT(RUNG_LEFT - 3, layout->title_y - 15, right - RUNG_LEFT + 6,
+				  layout->top - layout->title_y + 4);
+}
+
+/* As in rungs: the current hit of a search covers others of the same place and has a frame. */
+static void draw_found(const struct pen *pen, bool now)
+{
+	if (pen->scene->state & (now ? RUNG_FOUND_NOW : RUNG_FOUND)) {
+		const graphene_rect_t heading = heading_rect(pen);
+
+		fill_found(pen, &heading, now);
+	}
+	for (int i = 0; i < pen->scene->mark_count; i++) {
+		const struct fbd_mark *mark = &pen->scene->mark[i];
+		graphene_rect_t r;
+
+		if (!is_shown(pen, mark) || !(mark->marks & (now ? MARK_FOUND_NOW : MARK_FOUND)))
+			continue;
+		r = place_of(pen, mark);
+		fill_found(pen, &r, now);
 	}
 }
 
@@ -400,7 +438,7 @@ static void draw_frame(const struct pen *pen, unsigned int marks, const graphene
 	static const struct { unsigned int mark; enum token token; enum stroke_style style; } frames[] = {
 		{ MARK_CURSOR, TOKEN_ACCENT, STROKE_SOLID }, { MARK_DROP, TOKEN_ACCENT, STROKE_DASHED },
 		{ MARK_ILLEGAL, TOKEN_ERROR, STROKE_SOLID }, { MARK_BLOCKS, TOKEN_BLOCKS, STROKE_SOLID },
-		{ MARK_CHANGED, TOKEN_FORCE, STROKE_DOTTED }, { MARK_FOUND, TOKEN_COMMENT, STROKE_SOLID },
+		{ MARK_CHANGED, TOKEN_FORCE, STROKE_DOTTED },
 	};
 	float x = r->origin.x;
 
@@ -512,6 +550,8 @@ void fbd_draw(const struct fbd_scene *scene, struct picture *picture)
 	take_live(&pen);
 	draw_ground(&pen, width);
 	draw_grounds(&pen);
+	draw_found(&pen, false);
+	draw_found(&pen, true);
 	draw_segments(&pen);
 	for (int i = 0; i < pen.graph->box_count; i++)
 		draw_box(&pen, i);

@@ -619,6 +619,50 @@ static void draw_hatch(const struct pen *pen, const graphene_rect_t *r)
 	}
 }
 
+/* Of a hit of a search; the current one has a frame, too. */
+static void fill_found(const struct pen *pen, const graphene_rect_t *r, bool now)
+{
+	picture_fill(pen->nib.picture, now ? TOKEN_FOUND_NOW : TOKEN_FOUND, 1, r->origin.x, r->origin.y,
+		     r->size.width, r->size.height);
+	if (now)
+		picture_frame(pen->nib.picture, TOKEN_INK, STROKE_SOLID, 2, r->origin.x, r->origin.y,
+			      r->size.width, r->size.height);
+}
+
+/* Label, title and comment. */
+static graphene_rect_t heading_rect(const struct pen *pen)
+{
+	const struct rung_layout *layout = pen->layout;
+	const struct rung_heading heading = rung_heading(pen->drafting, pen->rung);
+	const float width = layout->title_lines || layout->comment_lines ? layout->heading_room :
+			    heading.width + heading.comment_width;
+
+	g_free(heading.comment);
+	return GRAPHENE_RECT_INIT(RUNG_LEFT - 3, layout->title_y - 15, width + 6,
+				  layout->top - layout->title_y + 12);
+}
+
+/* The current hit covers others in the same cell. */
+static void draw_found(const struct pen *pen, bool now)
+{
+	const unsigned int state = now ? RUNG_FOUND_NOW : RUNG_FOUND;
+
+	if (pen->scene->state & state) {
+		const graphene_rect_t heading = heading_rect(pen);
+
+		fill_found(pen, &heading, now);
+	}
+	for (int i = 0; i < pen->scene->mark_count; i++) {
+		const struct grid_mark *mark = &pen->scene->mark[i];
+		graphene_rect_t r;
+
+		if (!is_inside(pen, mark) || !(mark->marks & (now ? MARK_FOUND_NOW : MARK_FOUND)))
+			continue;
+		r = place_of(pen, mark);
+		fill_found(pen, &r, now);
+	}
+}
+
 static void draw_grounds(const struct pen *pen)
 {
 	for (int i = 0; i < pen->scene->mark_count; i++) {
@@ -627,13 +671,6 @@ static void draw_grounds(const struct pen *pen)
 		if (!is_inside(pen, mark))
 			continue;
 		graphene_rect_t r = place_of(pen, mark);
-		if (mark->marks & MARK_FOUND) {
-			picture_fill(pen->nib.picture, TOKEN_FOUND, 1, r.origin.x, r.origin.y,
-				     r.size.width, r.size.height);
-			picture_frame(pen->nib.picture, TOKEN_COMMENT, STROKE_SOLID, 1,
-				      r.origin.x, r.origin.y, r.size.width,
-				      r.size.height);
-		}
 		if (mark->marks & MARK_BLOCKS)
 			draw_hatch(pen, &r);
 		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
@@ -846,6 +883,8 @@ void grid_draw(const struct grid_scene *scene, struct picture *picture)
 	find_power(&pen);
 	draw_ground(&pen);
 	draw_grounds(&pen);
+	draw_found(&pen, false);
+	draw_found(&pen, true);
 	draw_links(&pen);
 	draw_trails(&pen);
 	for (int row = 0; row < pen.rung->rows; row++)

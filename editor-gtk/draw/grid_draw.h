@@ -49,6 +49,7 @@ enum mark {
 	MARK_TWICE = 256,    /* also written elsewhere: the last write wins       */
 	MARK_CHANGED = 512,  /* changed, in a comparison                        */
 	MARK_FAILED = 2048,  /* it failed in the scan that is shown               */
+	MARK_FOUND_NOW = 4096, /* the current one of those, beside MARK_FOUND    */
 	MARK_BLOCKS = 1024,  /* it blocks power; scene.note gives the reason     */
 };
 struct grid_mark { int row, column; unsigned int marks; };
@@ -64,6 +65,7 @@ enum rung_state {
 	RUNG_NO_GUTTER = 64, /* paper                                           */
 	RUNG_STILL = 256,    /* running, but nothing is scanned: no power anywhere */
 	RUNG_MISSING = 1024, /* the board runs without it                       */
+	RUNG_FOUND = 2048, RUNG_FOUND_NOW = 4096, /* the heading, by a search     */
 	RUNG_ON_GUTTER = 512, /* a sheet, which draws the gutter itself           */
 };
 

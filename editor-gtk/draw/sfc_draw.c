@@ -70,9 +70,24 @@ static void draw_grounds(const struct nib *nib)
 			picture_fill(nib->picture, TOKEN_ACCENT, nib->theme->wash,
 				     box.origin.x, box.origin.y, box.size.width,
 				     box.size.height);
-		if (mark->signs & SFC_FOUND)
-			picture_fill(nib->picture, TOKEN_FOUND, 1, box.origin.x,
-				     box.origin.y, box.size.width, box.size.height);
+	}
+}
+
+/* As in rungs: the current hit of a search covers others of the same place and has a frame. */
+static void draw_found(const struct nib *nib, bool now)
+{
+	for (int i = 0; i < nib->scene->mark_count; i++) {
+		const struct sfc_mark *mark = &nib->scene->mark[i];
+		graphene_rect_t box = mark_box(nib, mark);
+
+		if (!(mark->signs & (now ? SFC_FOUND_NOW : SFC_FOUND)))
+			continue;
+		graphene_rect_inset(&box, -4, mark->use >= 0 ? 0 : -4);
+		picture_fill(nib->picture, now ? TOKEN_FOUND_NOW : TOKEN_FOUND, 1, box.origin.x,
+			     box.origin.y, box.size.width, box.size.height);
+		if (now)
+			picture_frame(nib->picture, TOKEN_INK, STROKE_SOLID, 2, box.origin.x,
+				      box.origin.y, box.size.width, box.size.height);
 	}
 }
 
@@ -350,6 +365,8 @@ void sfc_draw(const struct sfc_scene *scene, struct picture *picture)
 		nib.compared |= scene->mark[i].signs & (SFC_CHANGED | SFC_ADDED | SFC_REMOVED);
 
 	draw_grounds(&nib);
+	draw_found(&nib, false);
+	draw_found(&nib, true);
 	draw_titles(&nib);
 	draw_wires(&nib);
 	for (int i = 0; i < nib.layout->shape_count; i++) {

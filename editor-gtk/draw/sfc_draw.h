@@ -30,6 +30,7 @@ enum sfc_sign {
 	SFC_CURSOR = 1, SFC_SELECTED = 2, SFC_ERROR = 4, SFC_WARNING = 8,
 	SFC_DROP = 16,     /* the dragged step may be dropped here              */
 	SFC_FOUND = 32,
+	SFC_FOUND_NOW = 1024, /* the current one, beside SFC_FOUND                */
 	SFC_CHANGED = 64, SFC_ADDED = 128, SFC_REMOVED = 256, /* in a comparison  */
 	SFC_MISSING = 512, /* the board runs without it                         */
 };

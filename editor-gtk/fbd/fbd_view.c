@@ -58,12 +58,30 @@ static GArray *marks_of(LadderFbdView *view, int network)
 
 		push_at(marks, network, problem->at, problem->marks);
 	}
-	push_at(marks, network, view->found, MARK_FOUND);
+	for (guint i = 0; i < view->found->len; i++) {
+		const struct fbd_problem *found = &g_array_index(view->found, struct fbd_problem, i);
+
+		push_at(marks, network, found->at, found->marks);
+	}
 	push_at(marks, network, view->link, MARK_SELECTED);
 	push_at(marks, network, view->cursor, MARK_CURSOR);
 	if (view->stroke.drawn && view->stroke.from.pin >= 0)
 		push_at(marks, network, view->stroke.to, MARK_DROP);
 	return marks;
+}
+
+/* Hits of a search in the heading. */
+static unsigned int found_state(LadderFbdView *view, int network)
+{
+	unsigned int state = 0;
+
+	for (guint i = 0; i < view->found->len; i++) {
+		const struct fbd_problem *found = &g_array_index(view->found, struct fbd_problem, i);
+
+		if (found->at.network == network && found->at.box < 0)
+			state |= RUNG_FOUND | (found->marks & MARK_FOUND_NOW ? RUNG_FOUND_NOW : 0u);
+	}
+	return state;
 }
 
 static void paint_strip(LadderFbdView *view, GtkSnapshot *snapshot, const struct theme *theme, int network)
@@ -74,7 +92,7 @@ static void paint_strip(LadderFbdView *view, GtkSnapshot *snapshot, const struct
 	struct fbd_scene scene = {
 		.layout = strip->layout, .theme = theme,
 		.mark = (const struct fbd_mark *)(void *)marks->data, .mark_count = (int)marks->len,
-		.state = (view->cursor.network == network ? RUNG_CURRENT : 0u) |
+		.state = (view->cursor.network == network ? RUNG_CURRENT : 0u) | found_state(view, network) |
 			 (ladder_document_is_bookmarked(view->canvas->document, view->canvas->pou, network) ?
 			  RUNG_MARKED : 0u),
 		.width = MAX(view->width, canvas_page(LADDER_CANVAS(view)).size.width),
@@ -984,10 +1002,41 @@ bool ladder_fbd_view_is_at(LadderFbdView *view, int row)
 	return ladder_fbd_view_row(view) == row;
 }
 
-void ladder_fbd_view_set_found(LadderFbdView *view, int row)
+/* The pin whose text has that place of the file, else the box of the line, else the heading. */
+static struct fbd_pos found_at(LadderFbdView *view, int line, int column)
 {
+	const struct fbd_pos at = at_line(view, line, column);
+	int network = -1;
+
+	for (int n = 0; n < view->count && fbd_lines_line(fbd_pou(view), n) <= line; n++) {
+		const struct fbd_graph *graph = fbd_graph_of(view, n);
+
+		network = n;
+		for (int pin = 0; pin < graph->pin_count; pin++)
+			if (graph->pin[pin].line == line && graph->pin[pin].column <= column &&
+			    column < graph->pin[pin].column + graph->pin[pin].len)
+				return (struct fbd_pos){ n, graph->pin[pin].box, pin };
+	}
+	return at.network >= 0 ? at : (struct fbd_pos){ network, -1, -1 };
+}
+
+void ladder_fbd_view_set_found(LadderFbdView *view, const struct find_seen *seen)
+{
+	const struct find_hit *hit;
+	int index = 0;
+	bool now;
+
 	fbd_fresh(view);
-	view->found = row >= 0 && fbd_pou(view) ? at_line(view, fbd_pou(view)->line + row, -1) : FBD_NOWHERE;
+	g_array_set_size(view->found, 0);
+	while (fbd_pou(view) && (hit = find_seen_next(seen, view->canvas->pou, &index, &now)) != NULL) {
+		const struct fbd_problem found = {
+			found_at(view, fbd_pou(view)->line + hit->row, hit->col + 1),
+			MARK_FOUND | (now ? MARK_FOUND_NOW : 0u)
+		};
+
+		if (found.at.network >= 0)
+			g_array_append_val(view->found, found);
+	}
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -1064,6 +1113,7 @@ static void ladder_fbd_view_dispose(GObject *object)
 static void ladder_fbd_view_finalize(GObject *object)
 {
 	g_array_unref(LADDER_FBD_VIEW(object)->marks);
+	g_array_unref(LADDER_FBD_VIEW(object)->found);
 	G_OBJECT_CLASS(ladder_fbd_view_parent_class)->finalize(object);
 }
 
@@ -1110,7 +1160,8 @@ static void ladder_fbd_view_class_init(LadderFbdViewClass *class)
 static void ladder_fbd_view_init(LadderFbdView *view)
 {
 	view->canvas = canvas_state(LADDER_CANVAS(view));
-	view->cursor = view->found = view->link = FBD_NOWHERE;
+	view->found = g_array_new(FALSE, FALSE, sizeof(struct fbd_problem));
+	view->cursor = view->link = FBD_NOWHERE;
 	view->stroke = (struct fbd_stroke){ .from = FBD_NOWHERE, .to = FBD_NOWHERE };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct fbd_problem));
 	take_drops(view);

@@ -9,6 +9,7 @@
 #define EDITOR_FBD_VIEW_H
 
 #include "editor-gtk/canvas/canvas.h"
+#include "editor-gtk/document/find.h"
 
 #define LADDER_TYPE_FBD_VIEW (ladder_fbd_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderFbdView, ladder_fbd_view, LADDER, FBD_VIEW, LadderCanvas)
@@ -33,8 +34,8 @@ void ladder_fbd_view_go_row(LadderFbdView *view, int row, int col);
 int ladder_fbd_view_row(LadderFbdView *view);
 /** ladder_fbd_view_is_at - is the cursor in that line? */
 bool ladder_fbd_view_is_at(LadderFbdView *view, int row);
-/** ladder_fbd_view_set_found - marks a hit of a search in a line; -1: none. */
-void ladder_fbd_view_set_found(LadderFbdView *view, int row);
+/** ladder_fbd_view_set_found - marks the hits of a search in the networks. */
+void ladder_fbd_view_set_found(LadderFbdView *view, const struct find_seen *seen);
 /** ladder_fbd_view_use - of the name at the cursor; NULL: there is none. Borrowed from @xref. */
 const struct xref_use *ladder_fbd_view_use(LadderFbdView *view, const struct xref *xref);
 /** ladder_fbd_view_word - the word of the box at the cursor, "TON"; NULL: none. Borrowed until the next change. */

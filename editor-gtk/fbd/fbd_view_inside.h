@@ -45,7 +45,7 @@ struct _LadderFbdView {
 	float width, height;
 	struct fbd_pos cursor;
 	GArray *marks;           /* struct fbd_problem                          */
-	struct fbd_pos found;     /* hit of a search                             */
+	GArray *found;           /* struct fbd_problem: hits of a search         */
 	struct fbd_pos link;      /* a pin that waits for another one            */
 	struct fbd_stroke stroke;
 	struct live_map *map;    /* of the running program; NULL: none           */

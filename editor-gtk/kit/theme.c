@@ -15,55 +15,56 @@
 		   (float)((rgb) & 0xff) / 255, 1 }
 
 /* A column of the table: sheet, ink, idle, power, force, error, accent, comment, badge,
- * blocks, gutter, line, found. */
-#define COLORS(s, i, w, p, f, e, a, c, b, k, g, l, y) { \
+ * blocks, gutter, line, found, the current one of what is found. */
+#define COLORS(s, i, w, p, f, e, a, c, b, k, g, l, y, n) { \
 	[TOKEN_SHEET] = HEX(s), [TOKEN_INK] = HEX(i), [TOKEN_IDLE] = HEX(w), \
 	[TOKEN_POWER] = HEX(p), [TOKEN_FORCE] = HEX(f), [TOKEN_ERROR] = HEX(e), \
 	[TOKEN_ACCENT] = HEX(a), [TOKEN_COMMENT] = HEX(c), [TOKEN_BADGE] = HEX(b), [TOKEN_BLOCKS] = HEX(k), \
-	[TOKEN_GUTTER] = HEX(g), [TOKEN_LINE] = HEX(l), [TOKEN_FOUND] = HEX(y) }
+	[TOKEN_GUTTER] = HEX(g), [TOKEN_LINE] = HEX(l), [TOKEN_FOUND] = HEX(y), \
+	[TOKEN_FOUND_NOW] = HEX(n) }
 #define SCREEN .idle_width = 1.5f, .power_width = 3, .shape_width = 2, .rail_width = 3
 
 /* With blue power the accent is violet, so that no two meanings share a strong colour. */
 static const struct theme table[THEME_KINDS][THEME_POWERS] = {
 	[THEME_LIGHT] = {
 		{ COLORS(0xffffff, 0x1d2125, 0x77767b, 0x0f8a4c, 0xb35c00, 0xc01c28,
-			 0x1a5fb4, 0x5e5c64, 0xffffff, 0xa0197a, 0xf2f2f2, 0xe4e4e6, 0xf9f06b),
+			 0x1a5fb4, 0x5e5c64, 0xffffff, 0xa0197a, 0xf2f2f2, 0xe4e4e6, 0xf9f06b, 0xffd98a),
 		  SCREEN, .fill = 0.16f, .wash = 0.14f },
 		{ COLORS(0xffffff, 0x1d2125, 0x77767b, 0x1c6fd6, 0xb35c00, 0xc01c28,
-			 0x813d9c, 0x5e5c64, 0xffffff, 0xa0197a, 0xf2f2f2, 0xe4e4e6, 0xf9f06b),
+			 0x813d9c, 0x5e5c64, 0xffffff, 0xa0197a, 0xf2f2f2, 0xe4e4e6, 0xf9f06b, 0xffd98a),
 		  SCREEN, .fill = 0.16f, .wash = 0.14f },
 	},
 	[THEME_DARK] = {
 		{ COLORS(0x1b1c1f, 0xf0f0f0, 0x8b8b92, 0x33d17a, 0xffa348, 0xff7b63,
-			 0x78aeed, 0xb0afb5, 0x1b1c1f, 0xff8fd8, 0x222226, 0x303034, 0x3d3400),
+			 0x78aeed, 0xb0afb5, 0x1b1c1f, 0xff8fd8, 0x222226, 0x303034, 0x3d3400, 0x553000),
 		  SCREEN, .fill = 0.19f, .wash = 0.16f, .dark = true },
 		{ COLORS(0x1b1c1f, 0xf0f0f0, 0x8b8b92, 0x62a0ea, 0xffa348, 0xff7b63,
-			 0xdc8add, 0xb0afb5, 0x1b1c1f, 0xff8fd8, 0x222226, 0x303034, 0x3d3400),
+			 0xdc8add, 0xb0afb5, 0x1b1c1f, 0xff8fd8, 0x222226, 0x303034, 0x3d3400, 0x553000),
 		  SCREEN, .fill = 0.19f, .wash = 0.16f, .dark = true },
 	},
 	[THEME_CONTRAST] = {
 		{ COLORS(0xffffff, 0x000000, 0x3d3d40, 0x00602c, 0x8a4000, 0x9a0010,
-			 0x003c8c, 0x2a2a2d, 0xffffff, 0x7a0060, 0xffffff, 0x77767b, 0xf9f06b),
+			 0x003c8c, 0x2a2a2d, 0xffffff, 0x7a0060, 0xffffff, 0x77767b, 0xf9f06b, 0xffd98a),
 		  .idle_width = 2, .power_width = 4, .shape_width = 2.5f,
 		  .rail_width = 4, .fill = 0.25f, .wash = 0.18f },
 		{ COLORS(0xffffff, 0x000000, 0x3d3d40, 0x003c8c, 0x8a4000, 0x9a0010,
-			 0x5c1f78, 0x2a2a2d, 0xffffff, 0x7a0060, 0xffffff, 0x77767b, 0xf9f06b),
+			 0x5c1f78, 0x2a2a2d, 0xffffff, 0x7a0060, 0xffffff, 0x77767b, 0xf9f06b, 0xffd98a),
 		  .idle_width = 2, .power_width = 4, .shape_width = 2.5f,
 		  .rail_width = 4, .fill = 0.25f, .wash = 0.18f },
 	},
 	[THEME_CONTRAST_DARK] = {
 		{ COLORS(0x000000, 0xffffff, 0xc8c8cc, 0x57f29b, 0xffbe6f, 0xff9c8a,
-			 0x99c9ff, 0xe0e0e3, 0x000000, 0xffb8ec, 0x000000, 0x8b8b92, 0x4a3e00),
+			 0x99c9ff, 0xe0e0e3, 0x000000, 0xffb8ec, 0x000000, 0x8b8b92, 0x4a3e00, 0x683a00),
 		  .idle_width = 2, .power_width = 4, .shape_width = 2.5f,
 		  .rail_width = 4, .fill = 0.30f, .wash = 0.25f, .dark = true },
 		{ COLORS(0x000000, 0xffffff, 0xc8c8cc, 0x99c9ff, 0xffbe6f, 0xff9c8a,
-			 0xf0b3ff, 0xe0e0e3, 0x000000, 0xffb8ec, 0x000000, 0x8b8b92, 0x4a3e00),
+			 0xf0b3ff, 0xe0e0e3, 0x000000, 0xffb8ec, 0x000000, 0x8b8b92, 0x4a3e00, 0x683a00),
 		  .idle_width = 2, .power_width = 4, .shape_width = 2.5f,
 		  .rail_width = 4, .fill = 0.30f, .wash = 0.25f, .dark = true },
 	},
 #define PRINTED { COLORS(0xffffff, 0x000000, 0x000000, 0x000000, 0x000000, 0x000000, \
 			 0x000000, 0x3d3d40, 0xffffff, 0x000000, 0xffffff, 0xb0b0b4, \
-			 0xdededf), \
+			 0xdededf, 0xc6c6c8), \
 		  .idle_width = 1, .power_width = 2, .shape_width = 1.5f, \
 		  .rail_width = 2, .fill = 0.15f, .wash = 0.10f }
 	[THEME_PRINT] = { PRINTED, PRINTED },
@@ -127,7 +128,7 @@ const char *token_name(enum token token)
 {
 	static const char *const name[TOKENS] = {
 		"sheet", "ink", "idle", "power", "force", "error", "accent",
-		"comment", "badge", "blocks", "gutter", "line", "found",
+		"comment", "badge", "blocks", "gutter", "line", "found", "found-now",
 	};
 
 	return name[token];

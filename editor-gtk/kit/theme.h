@@ -39,6 +39,7 @@ enum token {
 	TOKEN_GUTTER,  /* below the rung numbers                               */
 	TOKEN_LINE,    /* between rungs                                        */
 	TOKEN_FOUND,   /* behind a search hit                                  */
+	TOKEN_FOUND_NOW, /* behind the current one                              */
 	TOKENS
 };
 

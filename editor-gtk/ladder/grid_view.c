@@ -58,17 +58,63 @@ static void mark_checks(LadderGridView *view, int rung, GArray *marks)
 	}
 }
 
+/* The first hit of a search in a rung or behind it; they are in the order of the rungs. */
+static guint first_found(LadderGridView *view, int rung)
+{
+	guint from = 0, to = view->found->len;
+
+	while (from < to) {
+		const guint middle = (from + to) / 2;
+
+		if (g_array_index(view->found, struct found_cell, middle).rung < rung)
+			from = middle + 1;
+		else
+			to = middle;
+	}
+	return from;
+}
+
+static void mark_found(LadderGridView *view, int rung, GArray *marks)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	for (guint i = first_found(view, rung); i < view->found->len; i++) {
+		const struct found_cell *cell = &g_array_index(view->found, struct found_cell, i);
+
+		if (cell->rung != rung)
+			break;
+		if (cell->row >= 0 && cell->row < shown->rows && cell->col >= 0 && cell->col < shown->cols)
+			mark_push(marks, cell->row, grid_display_column(shown, view->columns, cell->row, cell->col),
+				  MARK_FOUND | (cell->now ? MARK_FOUND_NOW : 0u));
+	}
+}
+
+/* Hits in the title, the comment or the label of a rung. */
+static unsigned int found_state(LadderGridView *view, int rung)
+{
+	unsigned int state = 0;
+
+	for (guint i = first_found(view, rung); i < view->found->len; i++) {
+		const struct found_cell *cell = &g_array_index(view->found, struct found_cell, i);
+
+		if (cell->rung != rung)
+			break;
+		if (cell->row < 0)
+			state |= RUNG_FOUND | (cell->now ? RUNG_FOUND_NOW : 0u);
+	}
+	return state;
+}
+
 static void marks_push(LadderGridView *view, int rung, GArray *marks)
 {
 	mark_selection(view, rung, marks);
 	mark_checks(view, rung, marks);
-	if (rung == view->found.rung)
-		mark_push(marks, view->found.row, view->found.col, MARK_FOUND);
+	mark_found(view, rung, marks);
 }
 
 static unsigned int marks_state(LadderGridView *view, int rung)
 {
-	unsigned int state = RUNG_ON_GUTTER;
+	unsigned int state = RUNG_ON_GUTTER | found_state(view, rung);
 	int first, last;
 
 	if (rung == view->cursor.at.rung)
@@ -874,16 +920,35 @@ enum drafting_show ladder_grid_view_show(LadderGridView *view)
 	return view->drafting.show;
 }
 
-void ladder_grid_view_set_found(LadderGridView *view, int rung, int row, int col)
+static void redraw_found(LadderGridView *view)
 {
-	const int before = view->found.rung;
-	const struct rung *shown = sheet_rung(view, rung);
+	int before = -1;
 
-	view->found = (struct grid_cursor){ rung, row, col };
-	if (shown && row >= 0 && row < shown->rows && col >= 0 && col < shown->cols)
-		view->found.col = grid_display_column(shown, view->columns, row, col);
-	strips_redraw(view, before);
-	strips_redraw(view, rung);
+	for (guint i = 0; i < view->found->len; i++) {
+		const int rung = g_array_index(view->found, struct found_cell, i).rung;
+
+		if (rung != before)
+			strips_redraw(view, rung);
+		before = rung;
+	}
+}
+
+void ladder_grid_view_set_found(LadderGridView *view, const struct find_seen *seen)
+{
+	const struct find_hit *hit;
+	struct found_cell cell = { 0 };
+	int at = 0;
+
+	redraw_found(view);
+	g_array_set_size(view->found, 0);
+	while ((hit = find_seen_next(seen, view->canvas->pou, &at, &cell.now)) != NULL) {
+		cell.rung = hit->rung - view->first;
+		cell.row = hit->row;
+		cell.col = hit->col;
+		if (hit->rung >= view->first && sheet_rung(view, cell.rung))
+			g_array_append_val(view->found, cell);
+	}
+	redraw_found(view);
 }
 
 void ladder_grid_view_put(LadderGridView *view, enum word word)
@@ -913,6 +978,7 @@ static void ladder_grid_view_finalize(GObject *object)
 	rung_free(view->preview);
 	g_array_unref(view->strips);
 	g_array_unref(view->marks);
+	g_array_unref(view->found);
 	g_array_unref(view->live.blockers);
 	G_OBJECT_CLASS(ladder_grid_view_parent_class)->finalize(object);
 }
@@ -970,7 +1036,8 @@ static void ladder_grid_view_init(LadderGridView *view)
 	view->canvas = canvas_state(LADDER_CANVAS(view));
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
 	view->count = -1;
-	view->found.rung = view->drop.at.rung = view->cursor.came_rung = view->drop.line = -1;
+	view->found = g_array_new(FALSE, TRUE, sizeof(struct found_cell));
+	view->drop.at.rung = view->cursor.came_rung = view->drop.line = -1;
 	strips_init(view);
 	live_init(view);
 	act_init(view);

@@ -10,6 +10,7 @@
 #define EDITOR_GRID_VIEW_H
 
 #include "editor-gtk/canvas/canvas.h"
+#include "editor-gtk/document/find.h"
 #include "editor-gtk/draw/rung_layout.h"
 
 #define LADDER_TYPE_GRID_VIEW (ladder_grid_view_get_type())
@@ -54,8 +55,8 @@ void ladder_grid_view_put(LadderGridView *view, enum word word);
 
 void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show);
 enum drafting_show ladder_grid_view_show(LadderGridView *view);
-/** ladder_grid_view_set_found - marks a hit of a search; @rung -1: none. */
-void ladder_grid_view_set_found(LadderGridView *view, int rung, int row, int col);
+/** ladder_grid_view_set_found - marks the hits of a search in these rungs. */
+void ladder_grid_view_set_found(LadderGridView *view, const struct find_seen *seen);
 
 /** ladder_grid_view_drag - the drag content of a palette tile. */
 GdkContentProvider *ladder_grid_view_drag(enum word word);

@@ -82,6 +82,12 @@ struct sheet_mark {
 	const struct diag *diag;    /* lives with the document's diags         */
 };
 
+/* A hit of a search, likewise. */
+struct found_cell {
+	int rung, row, col;
+	bool now;                   /* the current one                         */
+};
+
 struct _LadderGridView {
 	LadderCanvas parent;
 	const struct canvas_state *canvas;
@@ -99,7 +105,7 @@ struct _LadderGridView {
 	bool asks_value;            /* the popup asks for a value of the running program */
 	struct sheet_cursor cursor;
 	GArray *marks;              /* of struct sheet_mark                     */
-	struct grid_cursor found;   /* rung -1: nothing                        */
+	GArray *found;              /* struct found_cell, of a search, by rung */
 	struct sheet_drop drop;
 	struct sheet_wire wire;
 	struct sheet_press press;

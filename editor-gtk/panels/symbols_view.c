@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/style.h"
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/panels/type_cells.h"
 #include "engine/base/name.h"
@@ -34,11 +35,21 @@ struct _LadderSymbolsView {
 	GtkFileChooserNative *chooser;
 	int table;              /* the table that is shown; -1: all            */
 	char *scope;            /* its symbol_table_name(); NULL: all           */
+	GArray *found;          /* struct found_symbol                          */
 	int tables;             /* of the project when it was shown             */
 	struct panel_message message;
 	bool busy;              /* a drop-down is being filled: ignore its signal */
 	bool turning;           /* the kind of the symbol is being changed     */
 };
+
+/* A hit of a search. */
+struct found_symbol {
+	int table, index;
+	bool now;               /* the current one                              */
+	char *text;             /* what stands there                            */
+};
+
+#define FOUND_NOW (1u << 31) /* beside a bit for each field with a hit          */
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
 
@@ -180,6 +191,81 @@ static void show_kind(LadderSymbolsView *view)
 			       !(row->flags & SYMBOLS_FIXED));
 }
 
+/* ---- hits of a search ---- */
+
+static unsigned int found_in(const LadderPanelRow *row)
+{
+	return GPOINTER_TO_UINT(g_object_get_data(G_OBJECT(row), "found"));
+}
+
+static void dress(GtkWidget *cell, const LadderPanelRow *row, int field)
+{
+	const bool found = found_in(row) >> field & 1;
+	const bool now = found_in(row) & FOUND_NOW;
+
+	style_set(cell, "found", found && !now);
+	style_set(cell, "found-now", found && now);
+}
+
+/* The fields of a row that have the text of its hits. */
+static unsigned int fields_found(LadderSymbolsView *view, const LadderPanelRow *row)
+{
+	unsigned int fields = 0;
+
+	for (guint i = 0; i < view->found->len; i++) {
+		const struct found_symbol *found = &g_array_index(view->found, struct found_symbol, i);
+
+		if (found->table != row->table || found->index != row->index)
+			continue;
+		fields |= found->now ? FOUND_NOW : 0u;
+		for (int field = 0; field < SYMBOL_FIELDS; field++)
+			if (strstr(panel_row_text(row, field), found->text))
+				fields |= 1u << field;
+	}
+	return fields;
+}
+
+static void mark_rows(LadderSymbolsView *view)
+{
+	GListModel *rows = G_LIST_MODEL(view->list.store);
+
+	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
+		LadderPanelRow *row = g_list_model_get_item(rows, i);
+		const unsigned int fields = view->found->len ? fields_found(view, row) : 0;
+
+		if (fields != found_in(row)) {
+			g_object_set_data(G_OBJECT(row), "found", GUINT_TO_POINTER(fields));
+			g_signal_emit_by_name(row, "changed");
+		}
+		g_object_unref(row);
+	}
+}
+
+static void clear_found(gpointer found)
+{
+	g_free(((struct found_symbol *)found)->text);
+}
+
+void ladder_symbols_view_set_found(LadderSymbolsView *view, const struct find_seen *seen)
+{
+	const struct find_hit *hit;
+	int at = 0;
+	bool now;
+
+	g_array_set_size(view->found, 0);
+	for (int pou = -1; pou < view->tables; pou++, at = 0)
+		while ((hit = find_seen_next(seen, pou, &at, &now)) != NULL) {
+			const struct found_symbol found = { hit->table, hit->index, now,
+				g_strndup(hit->text + hit->at, hit->len) };
+
+			if (hit->where == FIND_DECLARATIONS)
+				g_array_append_val(view->found, found);
+			else
+				g_free(found.text);
+		}
+	mark_rows(view);
+}
+
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -190,6 +276,7 @@ static void fill_rows(LadderSymbolsView *view)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
 	panel_cells_update(&view->list, rows);
+	mark_rows(view);
 	show_kind(view);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
@@ -509,6 +596,7 @@ static void dispose(GObject *object)
 	g_clear_pointer(&view->box, gtk_widget_unparent);
 	panel_list_clear(&view->list);
 	g_clear_pointer(&view->scope, g_free);
+	g_clear_pointer(&view->found, g_array_unref);
 	G_OBJECT_CLASS(ladder_symbols_view_parent_class)->dispose(object);
 }
 
@@ -609,7 +697,7 @@ static void add_columns(LadderSymbolsView *view)
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .checks = CHECKS,
 		.name = field_name, .set = set_field, .is_fixed = is_fixed,
-		.choices = choices_of, .open_form = open_form };
+		.choices = choices_of, .open_form = open_form, .dress = dress };
 	type_cells_join(&view->cells);
 	view->cells.choosable |= 1u << SYMBOLS_ACCESS;
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
@@ -649,6 +737,8 @@ static void ladder_symbols_view_init(LadderSymbolsView *view)
 
 	view->table = -1;
 	gtk_widget_init_template(widget);
+	view->found = g_array_new(FALSE, FALSE, sizeof(struct found_symbol));
+	g_array_set_clear_func(view->found, clear_found);
 	panel_list_init(&view->list, view->list.view);
 	panel_message_init(&view->message, view->message.label);
 	add_columns(view);

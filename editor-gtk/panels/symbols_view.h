@@ -11,7 +11,7 @@
 
 #include <gtk/gtk.h>
 
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/document/find.h"
 
 #define LADDER_TYPE_SYMBOLS_VIEW (ladder_symbols_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, LADDER, SYMBOLS_VIEW, GtkWidget)
@@ -22,6 +22,8 @@ void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *d
 bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index);
 /** ladder_symbols_view_enter - focuses the name in the selected row. */
 void ladder_symbols_view_enter(LadderSymbolsView *view);
+/** ladder_symbols_view_set_found - marks the cells with hits of a search. */
+void ladder_symbols_view_set_found(LadderSymbolsView *view, const struct find_seen *seen);
 /** ladder_symbols_view_import - opens a dialog with the changes of an import. @from: file
  * name, for the title. Returns the dialog; it frees itself. */
 GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,

@@ -54,7 +54,7 @@ static GArray *all_marks(LadderSfcView *view)
 
 	for (int i = 0; i < view->sheet->layout->shape_count; i++)
 		push_mark(marks, view->selected[i] ? i : -1, -1, SFC_SELECTED);
-	push_mark(marks, view->found.shape, view->found.use, SFC_FOUND);
+	g_array_append_vals(marks, view->found->data, view->found->len);
 	g_array_append_vals(marks, view->marks->data, view->marks->len);
 	g_array_append_vals(marks, sfc_missing(view)->data, sfc_missing(view)->len);
 	push_mark(marks, view->cursor.shape, view->cursor.use, SFC_CURSOR);
@@ -920,12 +920,37 @@ bool ladder_sfc_view_is_at(LadderSfcView *view, int row)
 
 /* ---- hits of a search ---- */
 
-void ladder_sfc_view_set_found(LadderSfcView *view, int row)
+static bool holds(const struct sfc_body *body, int rung)
 {
+	return sfc_body_has_rungs(body) && rung >= body->first && rung < body->first + body->count;
+}
+
+/* The transition or action whose body has the rung. */
+static struct sfc_at at_rung(const struct sfc *sfc, int rung)
+{
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (holds(&sfc->transition[i].condition, rung))
+			return (struct sfc_at){ sfc->step_count + i, -1, false };
+	for (int i = 0; i < sfc->action_count; i++)
+		if (holds(&sfc->action[i].body, rung))
+			return called_first(sfc, i);
+	return NOWHERE;
+}
+
+void ladder_sfc_view_set_found(LadderSfcView *view, const struct find_seen *seen)
+{
+	const struct find_hit *hit;
+	int index = 0;
+	bool now;
+
 	sfc_fresh(view);
-	view->found = NOWHERE;
-	if (view->sheet && row >= 0)
-		view->found = at_line(view, sfc_pou(view)->line + row);
+	g_array_set_size(view->found, 0);
+	while (view->sheet && (hit = find_seen_next(seen, view->canvas->pou, &index, &now)) != NULL) {
+		const struct sfc_at at = hit->rung >= 0 ? at_rung(view->sheet->layout->sfc, hit->rung) :
+					 at_line(view, sfc_pou(view)->line + hit->row);
+
+		push_mark(view->found, at.shape, at.use, SFC_FOUND | (now ? SFC_FOUND_NOW : 0u));
+	}
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -999,6 +1024,7 @@ static void ladder_sfc_view_finalize(GObject *object)
 	LadderSfcView *view = LADDER_SFC_VIEW(object);
 
 	g_array_unref(view->marks);
+	g_array_unref(view->found);
 	g_clear_pointer(&view->missing, g_array_unref);
 	g_free(view->selected);
 	G_OBJECT_CLASS(ladder_sfc_view_parent_class)->finalize(object);
@@ -1046,7 +1072,8 @@ static void ladder_sfc_view_class_init(LadderSfcViewClass *class)
 static void ladder_sfc_view_init(LadderSfcView *view)
 {
 	view->canvas = canvas_state(LADDER_CANVAS(view));
-	view->cursor = view->found = view->drop = NOWHERE;
+	view->found = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
+	view->cursor = view->drop = NOWHERE;
 	take_drops(view);
 	view->stroke = (struct sfc_stroke){ NOWHERE, NOWHERE, false, { 0, 0 } };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sfc_mark));

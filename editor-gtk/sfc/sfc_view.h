@@ -13,6 +13,7 @@
 #define EDITOR_SFC_VIEW_H
 
 #include "editor-gtk/canvas/canvas.h"
+#include "editor-gtk/document/find.h"
 #include "editor-gtk/draw/sfc_tool.h"
 
 #define LADDER_TYPE_SFC_VIEW (ladder_sfc_view_get_type())
@@ -37,8 +38,8 @@ void ladder_sfc_view_go_row(LadderSfcView *view, int row);
 int ladder_sfc_view_row(LadderSfcView *view);
 /** ladder_sfc_view_is_at - is the cursor where ladder_sfc_view_go_row() would move it? */
 bool ladder_sfc_view_is_at(LadderSfcView *view, int row);
-/** ladder_sfc_view_set_found - marks a hit of a search in a line; -1: none. */
-void ladder_sfc_view_set_found(LadderSfcView *view, int row);
+/** ladder_sfc_view_set_found - marks the hits of a search in the chart. */
+void ladder_sfc_view_set_found(LadderSfcView *view, const struct find_seen *seen);
 /** ladder_sfc_view_use - of the name at the cursor: a step, what a line does, the first
  * name of a condition, a transition; NULL: there is none. Borrowed from @xref. */
 const struct xref_use *ladder_sfc_view_use(LadderSfcView *view, const struct xref *xref);

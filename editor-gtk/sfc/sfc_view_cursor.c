@@ -84,7 +84,8 @@ void sfc_make_sheet(LadderSfcView *view)
 	view->selected = g_new0(bool, view->sheet ? view->sheet->layout->shape_count + 1 : 1);
 	sfc_sheet_free(old);
 	sfc_forget_places(view);
-	view->found = view->stroke.from = view->stroke.to = (struct sfc_at){ -1, -1, false };
+	g_array_set_size(view->found, 0);
+	view->stroke.from = view->stroke.to = (struct sfc_at){ -1, -1, false };
 	view->stroke.drawn = false;
 	g_array_set_size(view->marks, 0);
 	fit_cursor(view);

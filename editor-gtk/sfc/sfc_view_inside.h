@@ -37,7 +37,7 @@ struct _LadderSfcView {
 	GArray *marks;              /* struct sfc_mark: errors and warnings      */
 	GArray *missing;            /* struct sfc_mark: what the board runs without; NULL: not
 				       looked for yet                           */
-	struct sfc_at found;        /* hit of a search; shape -1: none          */
+	GArray *found;              /* struct sfc_mark: hits of a search         */
 	struct sfc_stroke stroke;
 	struct sfc_at drop;         /* where a tool of the palette would be dropped */
 	struct sfc_places places;

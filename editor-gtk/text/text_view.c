@@ -10,6 +10,7 @@
 #include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/text/text_found.h"
 #include "editor-gtk/text/text_folds.h"
 #include "editor-gtk/text/text_mend.h"
 #include "editor-gtk/text/text_stops.h"
@@ -50,6 +51,7 @@ struct _LadderTextView {
 	GtkSourceView *view;     /* the same                                   */
 	GtkSourceBuffer *buffer;
 	GtkTextTag *error, *warning;
+	struct text_found *found; /* hits of a search; NULL: it goes             */
 	GtkLabel *told;          /* why the line of the cursor is wrong         */
 	GtkLabel *call;          /* what the call at the cursor takes           */
 	GArray *faults;          /* of struct flaw, as of the last check       */
@@ -924,24 +926,55 @@ bool ladder_text_view_is_at(LadderTextView *view, int line)
 	return gtk_text_iter_get_line(&at) == line;
 }
 
+/* From 1, of the list as a file holds it, to 0-based, of the shown text. */
+static void shown_place(LadderTextView *view, int *line, int *column)
+{
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+
+	*line = MAX(*line - 1 - view->part.lines, 0);
+	--*column;
+	if (canonical)
+		text_lines_place(shown, canonical, line, column);
+	g_free(shown);
+	g_free(canonical);
+}
+
+int ladder_text_view_row(LadderTextView *view)
+{
+	return view->part.lines + cursor_line(view);
+}
+
+void ladder_text_view_set_found(LadderTextView *view, const struct find_seen *seen)
+{
+	const struct find_hit *hit, *any = NULL;
+	int at = 0, line = -1, column = 0;
+	bool now;
+
+	while ((hit = find_seen_next(seen, view->pou, &at, &now)) != NULL) {
+		if (hit->where != FIND_LISTS)
+			continue;
+		any = hit;
+		if (!now)
+			continue;
+		line = hit->row + 1;
+		column = hit->col + 1;
+		shown_place(view, &line, &column);
+	}
+	text_found_show(view->found, any ? seen->find : NULL, line, column, seen->all);
+}
+
 void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
-	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
 	GtkTextIter at;
 
-	line = MAX(line - 1 - view->part.lines, 0);
-	column--;
-	if (canonical)
-		text_lines_place(shown, canonical, &line, &column);
+	shown_place(view, &line, &column);
 	gtk_text_buffer_get_iter_at_line(buffer, &at, line);
 	if (column > 0 && column < gtk_text_iter_get_bytes_in_line(&at))
 		gtk_text_iter_set_line_index(&at, column);
 	gtk_text_buffer_place_cursor(buffer, &at);
 	text_scroll_to_cursor(GTK_TEXT_VIEW(view->view));
 	gtk_widget_grab_focus(GTK_WIDGET(view->view));
-	g_free(shown);
-	g_free(canonical);
 }
 
 void ladder_text_view_go(LadderTextView *view, int line, int column)
@@ -959,6 +992,7 @@ static void ladder_text_view_dispose(GObject *object)
 	/* Nothing below asks for a timer again. */
 	if (view->buffer)
 		g_signal_handlers_disconnect_by_data(view->buffer, view);
+	g_clear_pointer(&view->found, text_found_free);
 	g_clear_object(&view->buffer);
 	g_clear_handle_id(&view->taking, g_source_remove);
 	g_clear_handle_id(&view->looking, g_source_remove);
@@ -1009,6 +1043,7 @@ static void make_buffer(LadderTextView *view)
 						 PANGO_UNDERLINE_ERROR, NULL);
 	view->warning = gtk_text_buffer_create_tag(buffer, NULL, "underline",
 						   PANGO_UNDERLINE_SINGLE, NULL);
+	view->found = text_found_new(buffer);
 	g_signal_connect_swapped(buffer, "changed", G_CALLBACK(typed), view);
 	g_signal_connect_swapped(buffer, "notify::cursor-position",
 				 G_CALLBACK(tell_line), view);

@@ -8,6 +8,7 @@
 #ifndef EDITOR_TEXT_VIEW_H
 #define EDITOR_TEXT_VIEW_H
 
+#include "editor-gtk/document/find.h"
 #include "editor-gtk/sim/sim.h"
 
 #include <gtksourceview/gtksource.h>
@@ -71,9 +72,13 @@ bool ladder_text_view_run_here(LadderTextView *view);
 bool ladder_text_view_fold(LadderTextView *view, bool fold);
 /** ladder_text_view_fold_all - folds all blocks, or unfolds them. */
 void ladder_text_view_fold_all(LadderTextView *view, bool fold);
+/** ladder_text_view_row - the line of the cursor in the text of the POU, from 0. */
+int ladder_text_view_row(LadderTextView *view);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
  * the one of the cursor. */
 bool ladder_text_view_is_at(LadderTextView *view, int line);
+/** ladder_text_view_set_found - marks the hits of a search in the text. */
+void ladder_text_view_set_found(LadderTextView *view, const struct find_seen *seen);
 /** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
 void ladder_text_view_go(LadderTextView *view, int line, int column);
 /** ladder_text_view_go_here - @line: 1-based, of the list as a file

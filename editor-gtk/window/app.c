@@ -438,12 +438,22 @@ static void define_colors(GtkCssProvider *css)
 	char *force = gdk_rgba_to_string(&theme->color[TOKEN_FORCE]);
 	char *text = gdk_rgba_to_string(&theme->color[TOKEN_BADGE]);
 	char *power = gdk_rgba_to_string(&theme->color[TOKEN_POWER]);
+	char *found = gdk_rgba_to_string(&theme->color[TOKEN_FOUND]);
+	char *found_now = gdk_rgba_to_string(&theme->color[TOKEN_FOUND_NOW]);
+	char *ink = gdk_rgba_to_string(&theme->color[TOKEN_INK]);
 	char *rules = g_strdup_printf("@define-color force_color %s;\n"
 				      "@define-color force_text_color %s;\n"
-				      "@define-color power_color %s;\n", force, text, power);
+				      "@define-color power_color %s;\n"
+				      "@define-color found_color %s;\n"
+				      "@define-color found_now_color %s;\n"
+				      "@define-color found_text_color %s;\n",
+				      force, text, power, found, found_now, ink);
 
 	gtk_css_provider_load_from_data(css, rules, -1);
 	g_free(rules);
+	g_free(ink);
+	g_free(found_now);
+	g_free(found);
 	g_free(power);
 	g_free(text);
 	g_free(force);

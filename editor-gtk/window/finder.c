@@ -18,29 +18,6 @@ static const struct find_hit *hit_of(struct finder *finder)
 	return find && current >= 0 ? find->hit->pdata[current] : NULL;
 }
 
-/* Marks the current hit on its sheet. */
-static void mark_hit(struct finder *finder)
-{
-	LadderGridView *sheet = front_rungs(finder->core->front);
-	LadderSfcView *chart = front_chart(finder->core->front);
-	LadderFbdView *networks = front_networks(finder->core->front);
-	const struct find_hit *hit = hit_of(finder);
-
-	if (networks)
-		ladder_fbd_view_set_found(networks, hit && hit->rung < 0 &&
-			hit->pou == ladder_canvas_pou(LADDER_CANVAS(networks)) ? hit->row : -1);
-	if (chart)
-		ladder_sfc_view_set_found(chart, hit && hit->rung < 0 &&
-			hit->pou == ladder_canvas_pou(LADDER_CANVAS(chart)) ? hit->row : -1);
-	if (!sheet)
-		return;
-	if (hit && hit->rung >= 0 && hit->pou == ladder_canvas_pou(LADDER_CANVAS(sheet)))
-		ladder_grid_view_set_found(sheet, hit->rung - ladder_grid_view_first(sheet),
-					   hit->row, hit->col);
-	else
-		ladder_grid_view_set_found(sheet, -1, 0, 0);
-}
-
 /* The symbol table, if it is in front, else NULL. */
 static LadderSymbolsView *symbols_of(AdwTabPage *page)
 {
@@ -48,6 +25,30 @@ static LadderSymbolsView *symbols_of(AdwTabPage *page)
 	GtkWidget *symbols = ADW_IS_BIN(place) ? adw_bin_get_child(ADW_BIN(place)) : NULL;
 
 	return LADDER_IS_SYMBOLS_VIEW(symbols) ? LADDER_SYMBOLS_VIEW(symbols) : NULL;
+}
+
+/* Marks the hits in what is in front; while the bar is closed, only the one that F3 went to. */
+static void mark_hits(struct finder *finder)
+{
+	LadderFindBar *bar = finder->bar;
+	const struct find_seen seen = { ladder_find_bar_find(bar), ladder_find_bar_current(bar),
+					ladder_find_bar_is_open(bar) };
+	LadderGridView *sheet = front_rungs(finder->core->front);
+	LadderSfcView *chart = front_chart(finder->core->front);
+	LadderFbdView *networks = front_networks(finder->core->front);
+	LadderTextView *text = front_list(finder->core->front);
+	LadderSymbolsView *symbols = symbols_of(front_tab(finder->core->front));
+
+	if (networks)
+		ladder_fbd_view_set_found(networks, &seen);
+	if (chart)
+		ladder_sfc_view_set_found(chart, &seen);
+	if (sheet)
+		ladder_grid_view_set_found(sheet, &seen);
+	if (text)
+		ladder_text_view_set_found(text, &seen);
+	if (symbols)
+		ladder_symbols_view_set_found(symbols, &seen);
 }
 
 /* Focuses the place of the hit, else the page in front. */
@@ -72,16 +73,6 @@ static void give_keys(struct finder *finder)
 
 static void closed(struct finder *finder)
 {
-	LadderGridView *sheet = front_rungs(finder->core->front);
-	LadderSfcView *chart = front_chart(finder->core->front);
-	LadderFbdView *networks = front_networks(finder->core->front);
-
-	if (networks)
-		ladder_fbd_view_set_found(networks, -1);
-	if (chart)
-		ladder_sfc_view_set_found(chart, -1);
-	if (sheet)
-		ladder_grid_view_set_found(sheet, -1, 0, 0);
 	if (ladder_find_bar_has_keys(finder->bar))
 		give_keys(finder);
 }
@@ -104,6 +95,19 @@ static bool is_in_networks(struct finder *finder, LadderFbdView *networks)
 	       ladder_fbd_view_is_at(networks, place[2]);
 }
 
+/* The cursor of a text; in the table of symbols the first declaration is the next hit. */
+static void tell_texts(struct finder *finder)
+{
+	LadderTextView *text = front_list(finder->core->front);
+	const int *place = ladder_find_bar_place(finder->bar);
+	const int pou = text ? ladder_text_view_pou(text) : -1;
+
+	if (symbols_of(front_tab(finder->core->front)) && (!hit_of(finder) || place[0] >= 0))
+		ladder_find_bar_set_place(finder->bar, -2, -1, -1, -1);
+	if (text && (place[0] != pou || place[1] >= 0 || !ladder_text_view_is_at(text, place[2] + 1)))
+		ladder_find_bar_set_place(finder->bar, pou, -1, ladder_text_view_row(text), -1);
+}
+
 static void tell_place(struct finder *finder)
 {
 	LadderGridView *sheet = front_sheet(finder->core->front);
@@ -113,6 +117,7 @@ static void tell_place(struct finder *finder)
 
 	if (ladder_find_bar_has_keys(finder->bar))
 		return; /* the cursor moved from hit to hit */
+	tell_texts(finder);
 	if (networks && !is_in_networks(finder, networks))
 		ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(networks)), -1,
 					  ladder_fbd_view_row(networks), -1);
@@ -136,7 +141,7 @@ void finder_do(struct finder *finder, enum verb verb)
 		ladder_find_bar_open(bar, verb == VERB_replace, NULL);
 	else
 		ladder_find_bar_next(bar, verb == VERB_find_previous);
-	mark_hit(finder);
+	mark_hits(finder);
 }
 
 bool finder_close(struct finder *finder)
@@ -167,7 +172,9 @@ void finder_init(struct finder *finder, struct core *core)
 	finder->bar = LADDER_FIND_BAR(bar);
 	gtk_box_append(finder->place, bar);
 	ladder_find_bar_set_document(finder->bar, core->document);
-	core_connect(core, bar, "hits-changed", G_CALLBACK(mark_hit), finder,
+	core_connect(core, bar, "hits-changed", G_CALLBACK(mark_hits), finder,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->window, "page-changed", G_CALLBACK(mark_hits), finder,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, bar, "closed", G_CALLBACK(closed), finder, G_CONNECT_SWAPPED);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), finder);

@@ -66,6 +66,58 @@ static void test_hits(void)
 	g_object_unref(document);
 }
 
+/* The hits that a sheet of @pou marks, and the number of the current one among them. */
+static int seen(const struct find_seen *of, int pou, int *current)
+{
+	const struct find_hit *hit;
+	int at = 0, hits = 0;
+	bool now;
+
+	*current = -1;
+	while ((hit = find_seen_next(of, pou, &at, &now)) != NULL) {
+		CHECK_AS(hit->pou == pou && hit == of->find->hit->pdata[at - 1], "a hit of this POU");
+		*current = now ? hits : *current;
+		hits++;
+	}
+	return hits;
+}
+
+static void test_seen(void)
+{
+	LadderDocument *document = opened();
+	struct find *find = find_new(document, "motor", (struct find_options){ FIND_EVERYWHERE, false, false });
+	struct find_seen all = { find, 5, true }, one = { find, 5, false }, none = { NULL, -1, true };
+	int now;
+
+	CHECK(seen(&all, -1, &now) == 4 && now < 0);
+	CHECK_AS(seen(&all, 0, &now) == 10 && now == 1, "all in the ladder, the second is the current one");
+	CHECK(seen(&all, 1, &now) == 4 && now < 0);
+	CHECK_AS(seen(&one, 0, &now) == 1 && now == 0, "F3 marks the current one only");
+	CHECK(seen(&one, 1, &now) == 0 && seen(&none, 0, &now) == 0);
+	find_free(find);
+	g_object_unref(document);
+}
+
+/* A sheet of text is marked by the rule of the search. */
+static void test_match(void)
+{
+	LadderDocument *document = opened();
+	struct find *find = find_new(document, "\xc3\xa4r", (struct find_options){ FIND_LISTS, true, false });
+	const char *text = "\xc3\x84r \xc3\xa4rger _\xc3\xa4r (\xc3\xa4R)";
+	gsize from = 0;
+
+	CHECK(find_match(find, text, &from) == 0 && from == 3);
+	CHECK_AS(find_match(find, text, &from) == (gssize)strlen(text) - 4 && from == strlen(text) - 1,
+		 "a whole word, in any case");
+	CHECK(find_match(find, text, &from) < 0);
+	find_free(find);
+	find = find_new(document, "", (struct find_options){ FIND_LISTS, false, false });
+	from = 0;
+	CHECK_AS(find_match(find, text, &from) < 0, "nothing is searched, nothing is found");
+	find_free(find);
+	g_object_unref(document);
+}
+
 /* Motor lies at %QX0.0: two elements show that address, and its declaration contains it. */
 static void test_address(void)
 {
@@ -306,6 +358,8 @@ int main(void)
 {
 	test_statements();
 	test_hits();
+	test_seen();
+	test_match();
 	test_address();
 	test_order();
 	test_replace();

@@ -66,6 +66,7 @@ static void check_theme(const struct theme *theme, const char *name)
 		{ "the cursor", theme_mix(&c[TOKEN_ACCENT], theme->wash, sheet) },
 		{ "a closed contact", theme_mix(&c[TOKEN_POWER], theme->fill, sheet) },
 		{ "what a search found", c[TOKEN_FOUND] },
+		{ "the current one of that", c[TOKEN_FOUND_NOW] },
 		{ "an added rung", theme_mix(&c[TOKEN_POWER], 0.10f, sheet) },
 		{ "a removed rung", theme_mix(&c[TOKEN_ERROR], 0.10f, sheet) },
 	};

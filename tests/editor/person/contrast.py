@@ -218,4 +218,4 @@ def chosen(screen):
 
 light.size = dark.size = chosen.size = '2880x1800x24'
 small_light.size = small_dark.size = '2048x1400x24'
-main([light, dark, small_light, small_dark, chosen])
+if __name__ == "__main__": main([light, dark, small_light, small_dark, chosen])
