@@ -224,9 +224,11 @@ static void put_line(struct pages *pages, const char *line)
 {
 	GString *text = g_string_new(line);
 	float room = pages->room_width - 8;
+	const char *at;
 
 	g_string_replace(text, "\t", "        ", 0);
-	for (const char *at = text->str; at == text->str || *at;) {
+	at = text->str;
+	do { /* once for an empty line, too */
 		struct picture *picture = new_picture(pages);
 		size_t len = lettering_wrap(pages->lettering, LETTER_OPERAND, at, room);
 
@@ -235,7 +237,7 @@ static void put_line(struct pages *pages, const char *line)
 					   (ptrdiff_t)len, 0), 8, 12);
 		put_whole(pages, picture, TEXT_LINE, 1, 0);
 		at += len;
-	}
+	} while (*at);
 	g_string_free(text, TRUE);
 }
 

@@ -9,6 +9,7 @@
 #include "tests/editor/rendered.h"
 
 #include <stdlib.h>
+#include <sys/resource.h>
 
 static bool has_glyphs(const char *text)
 {
@@ -427,6 +428,35 @@ static void check_tabs(void)
 	}
 }
 
+/* An empty line of a list has a line on paper. */
+static void check_empty_lines(void)
+{
+	write_text("empty.rung", "\nVAR\n  A : INT;\nEND_VAR\n\nPROGRAM Main ST\n  A := 1;\n\n\n  A := 2;\nEND_PROGRAM\n"
+		   "\nPROGRAM Other IL\n  LD 1\n\n  ST A\nEND_PROGRAM\n");
+	CHECK(render("OUT/empty.rung -o OUT/empty.pdf") == 0);
+	if (list_boxes("empty"))
+		CHECK(count_of("empty.html", ">PROGRAM</word>") == 2 && has("empty.html", ">2;</word>"));
+}
+
+/* Every sample can be printed. */
+static void check_samples(const char *at)
+{
+	GDir *dir = g_dir_open(at, 0, NULL);
+
+	for (const char *name; dir && (name = g_dir_read_name(dir));) {
+		char *path = g_build_filename(at, name, NULL), *call = g_strdup_printf("%s -o OUT/sample.pdf", path);
+
+		if (g_file_test(path, G_FILE_TEST_IS_DIR))
+			check_samples(path);
+		else if (g_str_has_suffix(name, ".rung"))
+			CHECK_AS(render(call) == 0, path);
+		g_free(call);
+		g_free(path);
+	}
+	if (dir)
+		g_dir_close(dir);
+}
+
 /* Texts that do not fit in their place are listed behind the rungs; a heading has two
  * lines. */
 static void check_told_below(void)
@@ -452,6 +482,8 @@ static void check_told_below(void)
 
 int main(void)
 {
+	/* A guard: a loop without end would take all memory of the machine. */
+	setrlimit(RLIMIT_CPU, &(struct rlimit){ 300, 300 });
 	folder = g_dir_make_tmp("pages-XXXXXX", NULL);
 	if (!CHECK(folder))
 		return tap_done();
@@ -467,6 +499,8 @@ int main(void)
 	check_high_title_block();
 	check_cut_name();
 	check_tabs();
+	check_empty_lines();
+	check_samples("ladders");
 	check_told_below();
 	clear_folder();
 	g_free(folder);
