@@ -3,6 +3,7 @@
  * test_canvas - zoom, scrolling, accessible children and the entry: the same checks for
  * sheets of rungs and of charts.
  */
+#include "editor-gtk/document/find.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
 #include "tests/editor/sheet_window.h"
@@ -212,12 +213,14 @@ static void test_marks(LadderDocument *document)
 static void test_found(LadderDocument *document)
 {
 	GtkWidget *page = ladder_sfc_view_new(document, 1);
+	struct find *find = find_new(document, "Start", (struct find_options){ FIND_EVERYWHERE, false, false });
 	GBytes *before = look_at(page), *found, *after;
 
-	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), 1);
+	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), &(struct find_seen){ find, 0, true });
 	found = look(page);
-	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), -1);
+	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), &(struct find_seen){ NULL, -1, false });
 	after = look(page);
+	find_free(find);
 	CHECK_AS(!g_bytes_equal(before, found), "the first step is marked when it is found");
 	CHECK_AS(g_bytes_equal(before, after), "and no longer when the search ends");
 	g_bytes_unref(before);
