@@ -435,7 +435,7 @@ static void check_empty_lines(void)
 		   "\nPROGRAM Other IL\n  LD 1\n\n  ST A\nEND_PROGRAM\n");
 	CHECK(render("OUT/empty.rung -o OUT/empty.pdf") == 0);
 	if (list_boxes("empty"))
-		CHECK(count_of("empty.html", ">PROGRAM</word>") == 2 && has("empty.html", ">2;</word>"));
+		CHECK(count_of("empty.html", ">PROGRAM</word>") == 4 && has("empty.html", ">2;</word>"));
 }
 
 /* Every sample can be printed. */
