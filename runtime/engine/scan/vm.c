@@ -640,7 +640,7 @@ static inline void look_up(uint8_t *m, const uint32_t *pc)
 	uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
 	uint32_t d = pc[3];
 
-	m[d >> 8] = d >> (i & 31u) & 1u;
+	m[d >> 8] = (d & 1u << (i & 31u)) != 0;
 }
 
 static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
