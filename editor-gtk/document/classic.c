@@ -237,8 +237,7 @@ char *classic_import(const char *path, gsize *len, struct ladder **from, GError 
 	char *text = NULL, *copy;
 
 	*from = NULL;
-	if (!ladder || !ladder_take_classic(ladder, false) || !ladder_take_plcopen(ladder) ||
-	    !ladder_take_others(ladder))
+	if (!ladder || !ladder_take_classic(ladder, false) || !ladder_take_others(ladder))
 		g_error("out of memory");
 	ladder_classic_task(ladder, true);
 	ladder_import_language(ladder, said);

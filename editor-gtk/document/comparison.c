@@ -573,8 +573,7 @@ static bool load_from(struct ladder *ladder, const struct compare_side *side)
 {
 	const char *path = side->path ? side->path : "";
 
-	if (!ladder || !ladder_take_classic(ladder, false) || !ladder_take_plcopen(ladder) ||
-	    !ladder_take_others(ladder))
+	if (!ladder || !ladder_take_classic(ladder, false) || !ladder_take_others(ladder))
 		return false;
 	return (side->text ? ladder_load_text(ladder, path, side->text, side->len) :
 			     ladder_load(ladder, path)) && ladder_project(ladder);

@@ -42,8 +42,8 @@ struct classic_lines;
 bool ladder_take_classic(struct ladder *ladder, bool faithful);
 /** ladder_is_classic - whether @path is such a project, a file or a folder. */
 bool ladder_is_classic(const char *path);
-/** ladder_import_format - the tool whose project @path is: "ClassicLadder", or one of exchange/import.h,
- * or "PLCopen XML". NULL: none of them. Lives for ever. */
+/** ladder_import_format - the tool whose project @path is: "ClassicLadder", or one of exchange/import.h.
+ * NULL: none of them. Lives for ever. */
 const char *ladder_import_format(const char *path);
 /** ladder_classic_task - whether converted projects get a TASK with their period, for
  * text that is saved as a file. Off at first. */
@@ -51,11 +51,9 @@ void ladder_classic_task(struct ladder *ladder, bool task);
 /** ladder_import_language - reports of later loads are in the language of @translate,
  * which gets each text, or printf format, in English. */
 void ladder_import_language(struct ladder *ladder, const char *(*translate)(const char *text));
-/** ladder_take_others - makes later loads accept the formats of exchange/import.h (LDmicro, OpenPLC Editor 4), too. */
+/** ladder_take_others - makes later loads accept the formats of exchange/import.h (LDmicro, OpenPLC Editor 4,
+ * PLCopen XML), too, as ladder_take_classic() does. */
 bool ladder_take_others(struct ladder *ladder);
-/** ladder_take_plcopen - makes later loads accept projects in PLCopen XML, too, as
- * ladder_take_classic() does. */
-bool ladder_take_plcopen(struct ladder *ladder);
 /**
  * ladder_export_plcopen - the project as PLCopen XML (exchange/plcopen/plcopen_write.h)
  *

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_others - the facade's import of the formats of exchange/import.h.
+ * ladder_others - the facade's import of the formats of exchange/import.h, and its export as PLCopen XML.
  *
  * A separate file, so that a program that does not use it does not link it.
  */
 #include "engine/ladder.h"
 
 #include "engine/exchange/import.h"
-#include "engine/exchange/plcopen/plcopen.h"
+#include "engine/exchange/plcopen/plcopen_write.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-static const struct import_format *const formats[] = { &ldmicro_format, &openplc_format };
+static const struct import_format *const formats[] = { &ldmicro_format, &openplc_format, &plcopen_format };
 #define FORMATS (sizeof(formats) / sizeof(*formats))
 
 struct other_foreign {
@@ -26,6 +26,7 @@ struct other_foreign {
 	const char *path;         /* as the user wrote it                      */
 	const char *name;         /* the file of the text's lines; NULL: nothing was read */
 	bool folder;
+	bool declares_more;       /* of the format                             */
 };
 
 /* The format of a file, or of a folder if @bytes is NULL; NULL: none of them. */
@@ -70,6 +71,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path, const
 				struct diag_list *diags)
 {
 	struct other_foreign *other = (struct other_foreign *)foreign;
+	const struct import_format *format = format_of(path, bytes, len);
 	struct import import = {
 		.path = path, .bytes = bytes, .len = len, .task = foreign->task,
 		.arena = &other->arena, .report = &other->report, .diags = diags,
@@ -79,7 +81,8 @@ static const char *read_foreign(struct foreign *foreign, const char *path, const
 	forget(foreign);
 	other->path = path;
 	other->folder = !bytes;
-	if (!format_of(path, bytes, len)->read(&import))
+	other->declares_more = format->declares_more;
+	if (!format->read(&import))
 		return NULL;
 	other->text = import.text;
 	other->drawings = import.drawings;
@@ -121,9 +124,8 @@ static void place_diags(struct foreign *foreign, struct diag_list *diags)
 	struct other_foreign *other = (struct other_foreign *)foreign;
 	int kept = 0;
 
-	/* The import declares everything that a script can name: nobody left it unused. */
 	for (int i = 0; i < diags->count; i++)
-		if (!other->name || foreign->task || diags->diag[i].id != DIAG_UNUSED)
+		if (!other->name || !other->declares_more || foreign->task || diags->diag[i].id != DIAG_UNUSED)
 			diags->diag[kept++] = diags->diag[i];
 	diags->count = kept;
 	for (int i = 0; other->name && i < diags->count; i++) {
@@ -183,5 +185,12 @@ const char *ladder_import_format(const char *path)
 		return "ClassicLadder";
 	len = read_head(path, head, sizeof(head));
 	format = format_of(path, head, len);
-	return format ? format->name : plcopen_is(head, len) ? "PLCopen XML" : NULL;
+	return format ? format->name : NULL;
+}
+
+char *ladder_export_plcopen(struct ladder *ladder, size_t *len, struct classic_report *report)
+{
+	struct project *project = ladder_read_project(ladder);
+
+	return project ? plcopen_write(project, len, report) : NULL;
 }

@@ -254,8 +254,7 @@ struct ladder *program_new(bool faithful)
 {
 	struct ladder *ladder = ladder_new();
 
-	if (ladder && (!ladder_take_classic(ladder, faithful) || !ladder_take_plcopen(ladder) ||
-		       !ladder_take_others(ladder))) {
+	if (ladder && (!ladder_take_classic(ladder, faithful) || !ladder_take_others(ladder))) {
 		ladder_free(ladder);
 		return NULL;
 	}

@@ -121,7 +121,7 @@ static void come_back(struct ladder *ladder)
 	report_init(&report);
 	xml = ladder_export_plcopen(ladder, &len, &report);
 	text = ladder_write(ladder, &text_len);
-	fuzz_expect(other && xml && text && ladder_take_plcopen(other), "memory");
+	fuzz_expect(other && xml && text && ladder_take_others(other), "memory");
 	fuzz_expect(ladder_load_text(other, "again.xml", xml, len), "what was exported can be read");
 	again = ladder_write(other, &again_len);
 	fuzz_expect(again && again_len == text_len && !memcmp(text, again, text_len), "it is the same project");
@@ -150,7 +150,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 
 	if (made)
 		text = drawing = make(bytes, len, &size);
-	fuzz_expect(ladder && text && ladder_take_plcopen(ladder), "memory");
+	fuzz_expect(ladder && text && ladder_take_others(ladder), "memory");
 	if (!ladder_load_text(ladder, xml ? "fuzz.xml" : "fuzz.rung", text, size))
 		fuzz_expect(ladder_diags(ladder)->errors > 0, "a refused file has an error");
 	else if (!ladder_build(ladder))

@@ -31,7 +31,8 @@ struct import_format {
 	bool (*is)(const void *bytes, size_t len);  /* by its first bytes          */
 	bool (*is_folder)(const char *path);        /* NULL: it has no folders     */
 	bool (*read)(struct import *import);        /* false after a diagnostic    */
+	bool declares_more;      /* it declares what the program may not use: no message says so */
 };
 
-extern const struct import_format ldmicro_format, openplc_format;
+extern const struct import_format ldmicro_format, openplc_format, plcopen_format;
 #endif

@@ -232,4 +232,4 @@ static bool read(struct import *import)
 	return ldmicro_to_rung(import, program) || diag_add(import->diags, place, "%s", "");
 }
 
-const struct import_format ldmicro_format = { "LDmicro", ldmicro_is, NULL, read };
+const struct import_format ldmicro_format = { "LDmicro", ldmicro_is, NULL, read, true };

@@ -962,9 +962,12 @@ static bool convert(struct openplc *c)
 {
 	struct import *import = c->import;
 	const int lines = import->report->count, diags = import->diags->count;
-	struct plcopen_text out = { .text = NULL };
-	const bool good = plcopen_to_rung(import->path, c->w.out.text, c->w.out.len, import->arena, &out,
-					  import->report, import->diags);
+	struct import xml = *import;
+	bool good;
+
+	xml.bytes = c->w.out.text;
+	xml.len = c->w.out.len;
+	good = plcopen_format.read(&xml);
 
 	for (int i = lines; i < import->report->count; i++) {
 		struct report_line *line = &import->report->line[i];
@@ -985,18 +988,13 @@ static bool convert(struct openplc *c)
 	}
 	if (!good)
 		return false;
-	import->text = (struct foreign_text){ .text = out.text, .len = out.len };
-	import->drawings = out.drawings;
-	for (int i = 0; i < out.drawings.count; i++)
-		out.drawings.one[i].line = place_of(c, out.drawings.one[i].line).line;
-	for (int i = 0; i < out.lines; i++) {
-		struct foreign_place *slot = arena_push(import->arena, &import->text.place, &import->text.lines,
-							sizeof(*slot));
-
-		if (slot)
-			*slot = place_of(c, out.line[i]);
-	}
-	return !import->arena->failed;
+	import->text = xml.text;
+	import->drawings = xml.drawings;
+	for (int i = 0; i < xml.drawings.count; i++)
+		xml.drawings.one[i].line = place_of(c, xml.drawings.one[i].line).line;
+	for (int i = 0; i < xml.text.lines; i++)
+		xml.text.place[i] = place_of(c, xml.text.place[i].line);
+	return true;
 }
 
 static bool read(struct import *import)
@@ -1068,4 +1066,4 @@ static bool is_folder(const char *path)
 	return is_project(head, got);
 }
 
-const struct import_format openplc_format = { "OpenPLC Editor", is_project, is_folder, read };
+const struct import_format openplc_format = { "OpenPLC Editor", is_project, is_folder, read, true };

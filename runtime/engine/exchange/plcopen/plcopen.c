@@ -350,12 +350,14 @@ static void report_counts(struct plcopen *c)
 			   c->count.steps);
 }
 
-static bool finish(struct plcopen *c, struct plcopen_text *out)
+static bool finish(struct plcopen *c, struct import *import)
 {
+	struct foreign_text *out = &import->text;
 	const struct diag place = { .id = DIAG_NO_MEMORY, .file = c->file };
 	const bool good = !c->arena->failed && !c->text.failed;
 
-	*out = (struct plcopen_text){ NULL, c->text.len, c->place, c->lines, c->drawings };
+	import->drawings = c->drawings;
+	*out = (struct foreign_text){ NULL, c->text.len, c->place, c->lines };
 	if (good)
 		out->text = arena_copy(c->arena, sink_memory_text(&c->text), c->text.len);
 	if (!out->text)
@@ -363,27 +365,28 @@ static bool finish(struct plcopen *c, struct plcopen_text *out)
 	return out->text != NULL;
 }
 
-bool plcopen_to_rung(const char *file, const void *bytes, size_t len, struct arena *arena,
-		     struct plcopen_text *out, struct classic_report *report,
-		     struct diag_list *diags)
+static bool read_xml(struct import *import)
 {
-	struct plcopen c = { .arena = arena, .file = file, .report = report, .diags = diags, .at = 1 };
-	const int errors = diags->errors;
+	struct classic_report *report = import->report;
+	struct arena *arena = import->arena;
+	struct plcopen c = { .arena = arena, .file = import->path, .report = report,
+			     .diags = import->diags, .at = 1 };
+	const int errors = import->diags->errors;
 	struct arena tree;
 	struct xml_node *root;
 	const char *space;
 	bool good = false;
 
 	arena_init(&tree);
-	root = xml_read(&tree, file, bytes, len, &space, diags);
+	root = xml_read(&tree, import->path, import->bytes, import->len, &space, import->diags);
 	if (root && check_root(&c, root, space)) {
 		sink_memory_init(&c.text);
 		c.out = sink_to_memory(&c.text);
 		put_all(&c, root);
-		if (diags->errors == errors) {
+		if (import->diags->errors == errors) {
 			plc_leftovers(&c, root);
 			report_counts(&c);
-			good = finish(&c, out);
+			good = finish(&c, import);
 		}
 		sink_memory_free(&c.text);
 	}
@@ -394,3 +397,5 @@ bool plcopen_to_rung(const char *file, const void *bytes, size_t len, struct are
 	arena_free(&tree);
 	return good;
 }
+
+const struct import_format plcopen_format = { "PLCopen XML", plcopen_is, NULL, read_xml, false };

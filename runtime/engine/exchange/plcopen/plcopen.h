@@ -9,28 +9,9 @@
 #ifndef PLCOPEN_H
 #define PLCOPEN_H
 
-#include "engine/base/diag.h"
-#include "engine/exchange/drawing.h"
-#include "engine/exchange/report.h"
-
-struct plcopen_text {
-	char *text;         /* ends with a NUL                                      */
-	size_t len;
-	const int *line;    /* in the XML, of each line of the text                 */
-	int lines;
-	struct drawings drawings; /* of rungs and networks, as they stand in the XML        */
-};
+#include "engine/exchange/import.h"
 
 /** plcopen_is - whether @bytes begin as such a file. Scan-safe: yes. */
 bool plcopen_is(const void *bytes, size_t len);
-/**
- * plcopen_to_rung - the text of the project, and where each line of it comes from
- * @file:   for messages
- * @report: gets what was taken, changed and lost
- *
- * Owns: @arena.   Scan-safe: no.   Fails: false after a diagnostic.
- */
-bool plcopen_to_rung(const char *file, const void *bytes, size_t len, struct arena *arena,
-		     struct plcopen_text *out, struct classic_report *report,
-		     struct diag_list *diags);
+/* `plcopen_format` (exchange/import.h) reads one. */
 #endif

@@ -53,7 +53,7 @@ void plc_part_swap(struct plcopen *c, struct plc_part *part)
 void plc_part_append(struct plcopen *c, struct plc_part *part)
 {
 	const char *text = sink_memory_text(&part->text);
-	int *place;
+	struct foreign_place *place;
 
 	for (int i = 0; i < part->lines; i++) {
 		place = arena_push(c->arena, &c->place, &c->lines, sizeof(*place));

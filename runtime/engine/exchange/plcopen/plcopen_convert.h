@@ -24,7 +24,7 @@ struct plcopen_pou {
 };
 
 /* Text that waits until what stands above it is written. */
-struct plc_part { struct sink_memory text; int *place, lines; };
+struct plc_part { struct sink_memory text; struct foreign_place *place; int lines; };
 
 struct plcopen {
 	struct arena *arena;
@@ -33,7 +33,8 @@ struct plcopen {
 	struct diag_list *diags;
 	struct sink_memory text;
 	struct sink out;
-	int *place, lines;      /* of the lines that are written               */
+	struct foreign_place *place; /* of the lines that are written, from line 1 on */
+	int lines;
 	int at;                 /* the line of the XML that is written now     */
 	const char *pou_name;   /* for the report; NULL: outside of POUs        */
 	int rungs;              /* rungs or networks written in this POU       */

@@ -17,13 +17,13 @@ enum { CLIP = 120 }; /* bytes of a text in a line of the report */
 static void write_text(struct plcopen *c, const char *text, size_t len, bool follows)
 {
 	for (size_t i = 0; i < len; i++) {
-		int *place;
+		struct foreign_place *place;
 
 		if (text[i] != '\n')
 			continue;
 		place = arena_push(c->arena, &c->place, &c->lines, sizeof(*place));
 		if (place)
-			*place = c->at;
+			*place = (struct foreign_place){ "", c->at };
 		if (follows)
 			c->at++;
 	}

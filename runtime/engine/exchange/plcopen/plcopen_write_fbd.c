@@ -155,13 +155,14 @@ static const char *modifiers(struct diagram *d, struct input input)
 
 /* ---- boxes ---- */
 
-/* @enable: NULL: it has no EN. */
-static void put_move(struct diagram *d, int x, int y, const struct input *enable, struct input value, int id)
+/* A box with one input and one output. @enable: NULL: it has no EN. */
+static void put_unary(struct diagram *d, const char *name, int height, int x, int y,
+		      const struct input *enable, struct input value, int id)
 {
 	struct out *out = d->out;
 
-	plco_open(out, "block localId=\"%d\" typeName=\"MOVE\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", id,
-		  3 * PIN, WIDTH, ++out->order);
+	plco_open(out, "block localId=\"%d\" typeName=\"%s\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", id,
+		  name, height, WIDTH, ++out->order);
 	put_position(out, x, y);
 	plco_open(out, "inputVariables");
 	if (enable) {
@@ -209,7 +210,7 @@ static void keep_enable(struct diagram *d, int number)
 		return;
 	id = ++d->out->ids;
 	plco_place(d->out, id, x + WIDTH, y);
-	put_move(d, x, y, NULL, d->input[pin], id);
+	put_unary(d, "MOVE", 3 * PIN, x, y, NULL, d->input[pin], id);
 	d->input[pin] = (struct input){ id, "OUT", false, NULL };
 }
 
@@ -226,7 +227,8 @@ static struct input enabled(struct diagram *d, int box, int pin)
 		return value;
 	id = ++d->out->ids;
 	plco_place(d->out, id, x_of(d, box) + WIDTH + PIN + WIDTH, y_of(d, box) + PIN);
-	put_move(d, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, &d->input[enable], value, id);
+	put_unary(d, "MOVE", 3 * PIN, x_of(d, box) + WIDTH + PIN, y_of(d, box) + PIN, &d->input[enable],
+		  value, id);
 	return (struct input){ id, "OUT", false, NULL };
 }
 
@@ -322,20 +324,8 @@ static void give_condition(struct diagram *d, int number)
 		return;
 	id = ++out->ids;
 	plco_place(out, id, x_of(d, number) - PIN, y_of(d, number));
-	plco_open(out, "block localId=\"%d\" typeName=\"NOT\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"", id,
-		  2 * PIN, WIDTH, ++out->order);
-	put_position(out, x_of(d, number) - WIDTH - PIN, y_of(d, number));
-	plco_open(out, "inputVariables");
-	plco_open(out, "variable formalParameter=\"IN\"");
 	input->negated = false;
-	put_connection(d, *input);
-	plco_close(out, "variable");
-	plco_close(out, "inputVariables");
-	plco_line(out, "inOutVariables");
-	plco_open(out, "outputVariables");
-	plco_output(out, "OUT", false, WIDTH);
-	plco_close(out, "outputVariables");
-	plco_close(out, "block");
+	put_unary(d, "NOT", 2 * PIN, x_of(d, number) - WIDTH - PIN, y_of(d, number), NULL, *input, id);
 	*input = (struct input){ id, "OUT", false, NULL };
 }
 
