@@ -26,7 +26,7 @@ runtime/engine/exchange   engine/base engine/check/reserved.h
 runtime/engine/exchange/classic engine/base engine/model engine/check engine/text engine/translate engine/xref engine/exchange engine/classic.def
 runtime/engine/exchange/iec_file engine/base engine/text
 runtime/engine/exchange/ldmicro engine/base engine/exchange
-runtime/engine/exchange/openplc engine/base engine/exchange engine/exchange/plcopen
+runtime/engine/exchange/openplc engine/base engine/exchange
 runtime/engine/exchange/plcopen engine/base engine/model engine/exchange engine/check engine/text engine/xref
 runtime/engine/exchange/image engine/base engine/scan engine/exchange
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def

@@ -17,6 +17,7 @@
 struct naming {
 	AdwMessageDialog *dialog;
 	GtkWidget *box, *entry, *why;
+	char *proposed;                /* NULL: nothing                          */
 	const struct naming_how *how;
 	void (*other)(gpointer data); /* of naming_other()                       */
 	gpointer data;
@@ -28,17 +29,19 @@ static void naming_free(gpointer data, GClosure *closure)
 
 	(void)closure;
 	naming->how->free(naming->data);
+	g_free(naming->proposed);
 	g_free(naming);
 }
 
-char *naming_get(const struct naming *naming)
+/* Without blanks around it; the caller frees it. */
+static char *name_of(const struct naming *naming)
 {
 	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(naming->entry))));
 }
 
 void naming_judge(struct naming *naming)
 {
-	char *name = naming_get(naming), *why = naming->how->refusal(naming->data, name);
+	char *name = name_of(naming), *why = naming->how->refusal(naming->data, name);
 
 	gtk_label_set_text(GTK_LABEL(naming->why), why ? why : "");
 	adw_message_dialog_set_response_enabled(naming->dialog, TAKE, !why);
@@ -46,11 +49,27 @@ void naming_judge(struct naming *naming)
 	g_free(name);
 }
 
-void naming_set(struct naming *naming, const char *name)
+void naming_propose(struct naming *naming, char *name)
 {
+	g_free(naming->proposed);
+	naming->proposed = name;
 	gtk_editable_set_text(GTK_EDITABLE(naming->entry), name);
 	gtk_editable_select_region(GTK_EDITABLE(naming->entry), 0, -1);
 	naming_judge(naming);
+}
+
+void naming_set(struct naming *naming, const char *name)
+{
+	naming_propose(naming, g_strdup(name));
+}
+
+bool naming_is_proposed(const struct naming *naming)
+{
+	char *name = name_of(naming);
+	const bool same = g_strcmp0(name, naming->proposed) == 0;
+
+	g_free(name);
+	return same;
 }
 
 void naming_add(struct naming *naming, GtkWidget *widget, bool first)
@@ -81,7 +100,7 @@ void naming_say(struct naming *naming, const char *body)
 
 static void answered(AdwMessageDialog *dialog, const char *answer, struct naming *naming)
 {
-	char *name = naming_get(naming);
+	char *name = name_of(naming);
 
 	(void)dialog;
 	if (strcmp(answer, TAKE) == 0)

@@ -39,8 +39,10 @@ void naming_say(struct naming *naming, const char *body);
 void naming_other(struct naming *naming, const char *label, void (*other)(gpointer data));
 /** naming_set - proposes a name. */
 void naming_set(struct naming *naming, const char *name);
-/** naming_get - the name in the entry. Caller frees. */
-char *naming_get(const struct naming *naming);
+/** naming_propose - as naming_set(), and takes @name over. */
+void naming_propose(struct naming *naming, char *name);
+/** naming_is_proposed - whether the entry still has the name that was proposed last. */
+bool naming_is_proposed(const struct naming *naming);
 /** naming_judge - asks again whether the name is refused. */
 void naming_judge(struct naming *naming);
 void naming_show(struct naming *naming);

@@ -23,7 +23,6 @@ struct fresh {
 	struct naming *naming;
 	GtkDropDown *kind, *language; /* NULL: a copy                          */
 	char *original;               /* the POU that is copied; NULL: a new one */
-	char *proposed;
 	enum pou_kind kind_now;
 };
 
@@ -32,7 +31,6 @@ static void fresh_free(gpointer data)
 	struct fresh *fresh = data;
 
 	g_free(fresh->original);
-	g_free(fresh->proposed);
 	g_free(fresh);
 }
 
@@ -41,14 +39,6 @@ static char *refusal(gpointer data, const char *name)
 	const struct fresh *fresh = data;
 
 	return pou_name_refusal(fresh->core->document, fresh->kind_now, name);
-}
-
-/* @name: taken over. */
-static void propose(struct fresh *fresh, char *name)
-{
-	g_free(fresh->proposed);
-	fresh->proposed = name;
-	naming_set(fresh->naming, name);
 }
 
 /* ---- making it ---- */
@@ -121,15 +111,14 @@ static void kind_chosen(struct fresh *fresh)
 {
 	const enum pou_language language =
 		languages[gtk_drop_down_get_selected(fresh->language)];
-	char *name = naming_get(fresh->naming);
+	const bool proposed = naming_is_proposed(fresh->naming);
 
 	fresh->kind_now = kinds[gtk_drop_down_get_selected(fresh->kind)];
 	fill_languages(fresh, language);
-	if (strcmp(name, fresh->proposed) == 0)
-		propose(fresh, pou_free_name(fresh->core->document, fresh->kind_now));
+	if (proposed)
+		naming_propose(fresh->naming, pou_free_name(fresh->core->document, fresh->kind_now));
 	else
 		naming_judge(fresh->naming);
-	g_free(name);
 }
 
 static void add_choices(struct fresh *fresh, enum pou_language language)
@@ -156,7 +145,7 @@ static void ask(struct fresh *fresh, const char *heading, const char *label, cha
 	fresh->naming = naming_new(fresh->core->window, heading, label, _("Name"), &how, fresh);
 	if (!fresh->original)
 		add_choices(fresh, language);
-	propose(fresh, name);
+	naming_propose(fresh->naming, name);
 	naming_show(fresh->naming);
 }
 

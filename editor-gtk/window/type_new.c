@@ -10,14 +10,11 @@
 #include "editor-gtk/window/naming.h"
 #include "editor-gtk/window/tabs.h"
 
-#include <string.h>
-
 struct fresh {
 	struct core *core;
 	struct naming *naming;
 	GtkDropDown *kind;   /* NULL: a copy                                   */
 	char *original;      /* NULL: a new one                               */
-	char *proposed;
 };
 
 static void fresh_free(gpointer data)
@@ -25,7 +22,6 @@ static void fresh_free(gpointer data)
 	struct fresh *fresh = data;
 
 	g_free(fresh->original);
-	g_free(fresh->proposed);
 	g_free(fresh);
 }
 
@@ -69,14 +65,6 @@ static void take(gpointer data, const char *name)
 
 static const struct naming_how how = { refusal, take, fresh_free };
 
-/* The name is proposed. @name: taken over. */
-static void propose(struct fresh *fresh, char *name)
-{
-	g_free(fresh->proposed);
-	fresh->proposed = name;
-	naming_set(fresh->naming, name);
-}
-
 static char *free_name(const struct fresh *fresh)
 {
 	static const char *const like[TYPE_KINDS] = {
@@ -91,11 +79,8 @@ static char *free_name(const struct fresh *fresh)
 /* A name that was proposed becomes one of the other kind. */
 static void kind_chosen(struct fresh *fresh)
 {
-	char *name = naming_get(fresh->naming);
-
-	if (strcmp(name, fresh->proposed) == 0)
-		propose(fresh, free_name(fresh));
-	g_free(name);
+	if (naming_is_proposed(fresh->naming))
+		naming_propose(fresh->naming, free_name(fresh));
 }
 
 static void add_kinds(struct fresh *fresh)
@@ -124,7 +109,7 @@ void type_new_ask(struct core *core, const char *original)
 				   _("Name"), &how, fresh);
 	if (!original)
 		add_kinds(fresh);
-	propose(fresh, free_name(fresh));
+	naming_propose(fresh->naming, free_name(fresh));
 	naming_show(fresh->naming);
 	g_free(heading);
 }

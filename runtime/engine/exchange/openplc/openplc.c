@@ -12,7 +12,6 @@
 #include "engine/base/file.h"
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
-#include "engine/exchange/plcopen/plcopen.h"
 
 #include <dirent.h>
 #include <stdio.h>

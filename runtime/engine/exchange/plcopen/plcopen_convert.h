@@ -7,7 +7,7 @@
 #define PLCOPEN_CONVERT_H
 
 #include "engine/base/sink.h"
-#include "engine/exchange/plcopen/plcopen.h"
+#include "engine/exchange/import.h"
 #include "engine/exchange/plcopen/xml_tree.h"
 
 enum plcopen_language {
