@@ -149,7 +149,7 @@ static void tell_missing(struct ldmicro_conversion *c, const struct ldmicro_node
 		if (node->first)
 			tell_missing(c, node->first);
 		else if (!node->piece && node->word != LDM_SERIES && node->word != LDM_PARALLEL)
-			w_tell(&c->w, REPORT_LOST, "it does not stand in the program: %s",
+			w_tell(&c->w, REPORT_LOST, "this element is missing in the result: %s",
 			       w_string(&c->w, node->text, 70));
 	}
 }
@@ -167,7 +167,7 @@ static void tell_all(struct ldmicro_conversion *c)
 	w_tell(&c->w, REPORT_TAKEN, "rungs: %d, elements: %d", c->program->rungs, done);
 	for (int i = 0; i < c->program->settings; i++) {
 		c->w.at.line = c->program->setting[i].line;
-		w_tell(&c->w, REPORT_LOST, "it has no meaning here: %s",
+		w_tell(&c->w, REPORT_LOST, "this setting is not needed here: %s",
 		       w_string(&c->w, c->program->setting[i].name, 70));
 	}
 }

@@ -274,7 +274,7 @@ static void put_instance(struct out *out, const struct config_entry *entry)
 	sink_text(&out->sink, "/>\n");
 	if (entry->values)
 		plco_lost(out, REPORT_LOST, entry->line, 0, report_said(out->report,
-			 REPORTED("what the program %s is connected with is left out")), plco_id(out, entry->name));
+			 REPORTED("the connections of the program %s in the CONFIGURATION are left out")), plco_id(out, entry->name));
 }
 
 static void put_task(struct out *out, const struct config_entry *task)

@@ -126,7 +126,7 @@ static struct input find_input(struct diagram *d, int pin, int depth)
 		input = find_input(d, from->first_pin, depth + 1);
 		if (p->negated || input.edge)
 			plco_lost(d->out, REPORT_CHANGED, p->line, d->number, "%s", report_said(d->out->report,
-				  REPORTED("the edge here is at the pin, behind what inverts the value")));
+				  REPORTED("the edge is detected at the pin, after the value is inverted")));
 		input.edge = *from->type == 'R' ? "rising" : "falling";
 		input.negated = input.negated != p->negated;
 		return input;
@@ -135,7 +135,7 @@ static struct input find_input(struct diagram *d, int pin, int depth)
 	input.pin = pin_name(d, from, source);
 	if (p->previous && from->kind != FBD_BLOCK && index_of(d, from) < p->box)
 		plco_lost(d->out, REPORT_CHANGED, p->line, d->number, "%s", report_said(d->out->report,
-			  REPORTED("the value of the scan before is that of this scan there")));
+			  REPORTED("other tools have no PREVIOUS( ): they use the value of this scan")));
 	return input;
 }
 

@@ -192,7 +192,7 @@ void plco_own(struct out *out)
 		cut(out, len);
 	if (!all)
 		plco_lost(out, REPORT_LOST, 0, 0, "%s", report_said(out->report,
-			  REPORTED("a control character in a comment or text cannot stand in XML: what is lost for other tools does not come back")));
+			  REPORTED("a comment or text has a control character, which XML does not allow: what is lost for other tools does not come back")));
 	if (all && any_lost(out->report))
 		plco_lost(out, REPORT_TAKEN, 0, 0, "%s", report_said(out->report,
 			  REPORTED("an import here brings back what is lost for other tools, as long as they do not change the file")));
