@@ -304,7 +304,7 @@ const char *pou_move(LadderDocument *document, int pou, int beside, bool behind)
 	gsize at;
 
 	if (!project || !ladder_document_is_whole(document))
-		return _("Nothing can be moved while a text of the project cannot be read");
+		return _("Nothing can be moved until the whole project can be read. Correct its errors first");
 	if (pou == beside)
 		return NULL;
 	all = pou_part(document, pou, &moves);

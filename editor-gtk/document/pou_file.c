@@ -416,8 +416,7 @@ bool pou_to_file(LadderDocument *document, int pou, const char *path, GString *t
 
 	g_string_truncate(told, 0);
 	if (!project || !ladder_document_is_whole(document))
-		return refuse(&moving, g_strdup(_("Nothing can be copied or moved while a text of the "
-			"project cannot be read")));
+		return refuse(&moving, g_strdup(_("Nothing can be copied or moved until the whole project can be read. Correct its errors first")));
 	if (!own)
 		return refuse(&moving, g_strdup(_("Save the project first. The other file is found "
 			"beside it.")));

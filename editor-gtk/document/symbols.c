@@ -1268,7 +1268,7 @@ static bool may_give(const struct symbol_row *symbol, char **why)
 	if (!may_change(symbol, why))
 		return false;
 	if (!symbol->exports)
-		return refuse(why, g_strdup(_("Only values of programs and global ones can be given to operators")));
+		return refuse(why, g_strdup(_("Only variables of programs and global variables can be given to operators")));
 	return !symbol->foreign || refuse(why, g_strdup(_("It is declared in another file")));
 }
 

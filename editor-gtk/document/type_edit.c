@@ -203,8 +203,7 @@ static bool put(LadderDocument *document, gsize at, gsize removed, const char *w
 static bool is_readable(LadderDocument *document, char **why)
 {
 	return (ladder_document_project(document) && ladder_document_is_whole(document)) ||
-	       refuse(why, g_strdup(_("Nothing can be changed while a text of the project "
-				      "cannot be read")));
+	       refuse(why, g_strdup(_("Nothing can be changed until the whole project can be read. Correct its errors first")));
 }
 
 /* ---- names ---- */
@@ -454,7 +453,7 @@ bool type_delete(LadderDocument *document, int structure, char **why)
 	else
 		ladder_document_cancel(document);
 	g_free(name);
-	return good || refuse(why, g_strdup(_("Another file cannot be read without it")));
+	return good || refuse(why, g_strdup(_("Another file uses it and could not be read without it")));
 }
 
 /* ---- members ---- */

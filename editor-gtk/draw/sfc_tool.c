@@ -9,7 +9,7 @@
 static const struct { const char *name, *told; enum verb verb; } tools[] = {
 	[TOOL_STEP] = { N_("Step"), N_("a new step and the transition before it"),
 			VERB_step_below },
-	[TOOL_INITIAL] = { N_("Initial step"), N_("the chart begins at this step, or no longer"),
+	[TOOL_INITIAL] = { N_("Initial step"), N_("makes this step the initial step, or an ordinary one again"),
 			   VERB_step_kind },
 	[TOOL_MACRO] = { N_("Macro-step"), N_("puts the selected steps into one box"),
 			 VERB_macro_make },
@@ -21,7 +21,7 @@ static const struct { const char *name, *told; enum verb verb; } tools[] = {
 	[TOOL_SIMULTANEOUS] = { N_("Simultaneous"),
 				N_("another step that becomes active at the same time"),
 				VERB_step_parallel },
-	[TOOL_JUMP] = { N_("Jump"), N_("a way to a step that the chart has"), VERB_lead_to },
+	[TOOL_JUMP] = { N_("Jump"), N_("a jump to a step of the chart"), VERB_lead_to },
 	[TOOL_WAIT] = { N_("Wait"), N_("the transition also waits for another step"),
 			VERB_wait_for },
 };

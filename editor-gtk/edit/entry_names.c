@@ -286,11 +286,9 @@ static bool find_special(const struct entry_place *place, const char *text, size
 	if (!*special.ours && addressed)
 		iec_addr_print(out->addr, out->instead, sizeof(out->instead));
 	fail(out, *special.ours ? N_("“%s” is set by other controllers themselves: write %s, which is the same here") :
-	     addressed && out->addr.area == AREA_SM ? N_("“%s” has another meaning in other controllers: "
-			    "write %s if the one of Rungboard is meant") :
-	     addressed ? N_("“%s” is set by other controllers themselves, but by nothing here: "
-			    "write %s if an ordinary address is meant") :
-	     N_("“%s” is set by other controllers themselves, and nothing here does that"));
+	     addressed && out->addr.area == AREA_SM ? N_("“%s” has another meaning in other controllers: write %s if you mean the one of Rungboard") :
+	     addressed ? N_("“%s” is set by other controllers themselves; nothing sets it here: write %s if you mean an ordinary address") :
+	     N_("“%s” is set by other controllers themselves; nothing sets it here"));
 	return true;
 }
 

@@ -272,7 +272,7 @@ static int put_inside(struct group *group)
 	int macro;
 
 	if (is_too_deep(group))
-		return refuse(group, N_("macro-steps are nested too deep")) - 1;
+		return refuse(group, N_("macro-steps are nested too deeply")) - 1;
 	macro = sfc_edit_push_step(group->edit, STEP_MACRO, group->macro);
 	/* @step has no entry for the new one */
 	if (macro < 0 || !gather(group, macro) || !lead_to_macro(group, macro))

@@ -577,7 +577,7 @@ static bool toggle(LadderFbdView *view)
 	if (at.type == IEC_BOOL && !at.constant)
 		toggle_it(view, at, name);
 	else
-		canvas_tell(LADDER_CANVAS(view), _("Nothing here has a value that can be set."));
+		canvas_tell(LADDER_CANVAS(view), _("Nothing at the cursor has a value that can be set."));
 	g_free(name);
 	return true;
 }

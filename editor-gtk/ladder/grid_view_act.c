@@ -306,7 +306,7 @@ static void set_here(LadderGridView *view)
 	if (!cell || cell->at.constant)
 		canvas_refuse(LADDER_CANVAS(view), _(verb_row(VERB_set_value)->label),
 			      canvas_is_live(LADDER_CANVAS(view)) ?
-			      _("Nothing here has a value that can be set.") :
+			      _("Nothing at the cursor has a value that can be set.") :
 			      _("The simulation is not running."));
 	else
 		ask(view, cell->parts || cell->bit ? cell->name : name, cell->at);

@@ -138,7 +138,7 @@ static void was_set(gpointer data, struct board_answer *answer)
 	clock->asking = false;
 	if (answer->end == DESK_REFUSED && answer->refusal == REFUSAL_TIME_KEPT) {
 		question(clock, _("Set the clock all the same?"),
-			 _("A time server keeps the clock of this board. It will take the change back."), true);
+			 _("A time server sets the clock of this board and will undo your change."), true);
 		return;
 	}
 	gtk_label_set_text(clock->why, answer->text);

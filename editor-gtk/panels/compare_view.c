@@ -314,7 +314,7 @@ static void show_state(LadderCompareView *view)
 	const struct comparison *of = view->of;
 	char *title = g_strdup_printf(_("Changes from “%s” to “%s”"), of->a.name, of->b.name);
 	char *why = unreadable(of);
-	char *equal = g_markup_printf_escaped(_("“%s” and “%s” say the same."), of->a.name,
+	char *equal = g_markup_printf_escaped(_("“%s” and “%s” do not differ."), of->a.name,
 					      of->b.name);
 
 	gtk_label_set_text(GTK_LABEL(view->title), title);

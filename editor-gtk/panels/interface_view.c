@@ -273,8 +273,8 @@ static void show_state(LadderInterfaceView *view)
 	const bool may = may_edit(view);
 
 	if (!may)
-		tell(view, g_strdup(_("They can be changed when all texts of the project can be "
-				      "read again")), false);
+		tell(view, g_strdup(_("Nothing can be changed until the whole project can be read. "
+				      "Correct its errors first")), false);
 	else if (!view->editable)
 		tell(view, NULL, false);
 	view->editable = may;

@@ -413,8 +413,7 @@ static void tell_order(struct tree *tree, const char *name)
 	if (project->pou[pou].kind != POU_PROGRAM)
 		return;
 	if (!pou_order_counts(tree->document))
-		text = g_strdup(_("The order in which programs run stays: the CONFIGURATION "
-				  "says it"));
+		text = g_strdup(_("The order in which programs run does not change: the CONFIGURATION sets it"));
 	else if (before < 0)
 		text = g_strdup_printf(_("“%s” now runs first in each scan"), name);
 	else

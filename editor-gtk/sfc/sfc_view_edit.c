@@ -232,7 +232,7 @@ void sfc_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
 		good = sfc_edit_set_ways(edit, a->index, true, project_text(
 			view->sheet->project, layout->sfc->step[b->index].name));
 	} else {
-		edit->why = N_("Draw a way from a step or a transition to a step.");
+		edit->why = N_("Draw from a step or a transition to a step.");
 	}
 	sfc_put(view, edit, good, _("Draw a way"), PIECE_TRANSITION, made);
 }

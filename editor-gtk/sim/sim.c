@@ -1020,7 +1020,7 @@ static void exchange(LadderSim *sim, struct sim_program *program)
 	if (sim_program_is_same(sim->newest, program))
 		return;
 	if (sim->view.frames)
-		tell(sim, _("The program was changed: the scan that stood ended with the program before"),
+		tell(sim, _("The program was changed. The scan that had stopped was finished with the old program"),
 		     false);
 	sim_thread_change(sim->thread, program);
 	sim_program_unref(sim->newest);

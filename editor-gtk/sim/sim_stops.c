@@ -353,8 +353,7 @@ char *sim_stops_check(LadderDocument *document, int pou, const char *condition, 
 		why = first_error(ladder_diags(ladder), line, column);
 	}
 	if (!why && !reads(document, pou, condition))
-		why = g_strdup(_("This cannot be computed while the program stands: no calls, and no "
-				 "variables of a function"));
+		why = g_strdup(_("While the program stands, a condition with a call or a variable of a function cannot be computed"));
 	g_free(text);
 	ladder_free(ladder);
 	return why;

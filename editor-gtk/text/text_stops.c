@@ -396,7 +396,7 @@ static void make_question(struct text_stops *stops)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 8);
 	GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-	GtkWidget *label = gtk_label_new(_("The program stands here only while this is TRUE:"));
+	GtkWidget *label = gtk_label_new(_("Stop here only while this is TRUE:"));
 	GtkWidget *set = button(stops, _("Set"), G_CALLBACK(take_condition));
 
 	stops->entry = gtk_entry_new();

@@ -282,7 +282,7 @@ void blockers_ask(struct blockers *blockers)
 	}
 	if (!sheet && front_list(blockers->core->front)) {
 		tell_text(blockers, GTK_WIDGET(front_list(blockers->core->front)),
-			  _("No condition begins in this line whose values are known."));
+			  _("No condition with known values begins in this line."));
 		return;
 	}
 	if (!sheet || !meant(sheet, &row, &col)) {

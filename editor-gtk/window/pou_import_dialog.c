@@ -282,8 +282,7 @@ static void ask_move(struct leaving *leaving, int pou)
 	struct naming *naming = naming_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
 		heading, _("Move to new file"), _("Name of the file"), &new_file, leaving);
 
-	naming_say(naming, _("The project includes the file, so all that uses it goes on to "
-			     "work."));
+	naming_say(naming, _("The project includes the new file, so all callers still work."));
 	naming_other(naming, _("Existing file…"), other_wanted);
 	naming_set(naming, name);
 	naming_show(naming);
@@ -323,8 +322,7 @@ static const char *leaving_refusal(LadderDocument *document, int pou, bool moves
 	const struct project *project = ladder_document_project(document);
 
 	if (!project || !ladder_document_is_whole(document))
-		return _("Nothing can be copied or moved while a text of the project cannot be "
-			 "read");
+		return _("Nothing can be copied or moved until the whole project can be read. Correct its errors first");
 	if (pou < 0 || project->pou[pou].included)
 		return _("It is declared in another file");
 	return moves && !ladder_document_path(document) ?

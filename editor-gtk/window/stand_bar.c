@@ -200,7 +200,7 @@ static void make_callers(struct stand_bar *bar)
 	bar->callers = GTK_MENU_BUTTON(gtk_menu_button_new());
 	gtk_menu_button_set_label(bar->callers, _("Callers"));
 	gtk_menu_button_set_popover(bar->callers, popover);
-	tip_set(GTK_WIDGET(bar->callers), _("Who called this body; choose a line to go there"));
+	tip_set(GTK_WIDGET(bar->callers), _("Callers of this body; choose one to go there"));
 }
 
 void stand_bar_init(struct stand_bar *bar, struct core *core, GtkWidget *above)

@@ -485,7 +485,7 @@ static void do_text(LadderWindow *window, enum verb verb)
 	if (verb == VERB_format && !ladder_text_view_format(list))
 		messages_tell(window->core.messages, _("The text cannot be read yet. Mend its errors first."));
 	if (verb == VERB_mend && !ladder_text_view_mend(list))
-		messages_tell(window->core.messages, _("No error of this line can be mended by itself."));
+		messages_tell(window->core.messages, _("No error in this line can be mended automatically."));
 	if (verb == VERB_fold && !ladder_text_view_fold(list, true))
 		messages_tell(window->core.messages, _("No block is around this line."));
 	if (verb == VERB_unfold && !ladder_text_view_fold(list, false))

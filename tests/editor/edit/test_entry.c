@@ -280,18 +280,18 @@ static const struct { const char *line, *means; } lines[] = {
 	/* what other tools set by themselves */
 	{ "M8000", "! “M8000” is set by other controllers themselves: write SYS_ALWAYS_ON, which is the same here" },
 	{ "XIC m8013", "! “m8013” is set by other controllers themselves: write SYS_CLOCK_1S, which is the same here" },
-	{ "M8020", "! “M8020” is set by other controllers themselves, but by nothing here: "
-		   "write %MX1002.4 if an ordinary address is meant" },
+	{ "M8020", "! “M8020” is set by other controllers themselves; nothing sets it here: "
+		   "write %MX1002.4 if you mean an ordinary address" },
 	{ "M7999", "NO %MX999.7" }, { "M8512", "NO %MX1064.0" }, { "%MX1000.0", "NO %MX1000.0" },
-	{ "D8000 > 5", "! “D8000” is set by other controllers themselves, and nothing here does that" },
+	{ "D8000 > 5", "! “D8000” is set by other controllers themselves; nothing sets it here" },
 	{ "SM400", "! “SM400” is set by other controllers themselves: write SYS_ALWAYS_ON, which is the same here" },
 	{ "SM0.0", "NO %SMX0.0" }, { "SM0.5", "NO %SMX0.5" }, { "%SMX0.6", "NO %SMX0.6" },
 	{ "SM0.6", "! “SM0.6” has another meaning in other controllers: "
-		   "write %SMX0.6 if the one of Rungboard is meant" },
+		   "write %SMX0.6 if you mean the one of Rungboard" },
 	{ "%S0", "! “%S0” is set by other controllers themselves: write SYS_CLOCK_1S, which is the same here" },
 	{ "%S4 AND Level > 5", "! “%S4” is set by other controllers themselves: write SYS_FIRST_SCAN, which is the same here" },
-	{ "%S9", "! “%S9” is set by other controllers themselves, but by nothing here: "
-		 "write %SX1.1 if an ordinary address is meant" },
+	{ "%S9", "! “%S9” is set by other controllers themselves; nothing sets it here: "
+		 "write %SX1.1 if you mean an ordinary address" },
 	{ "S9", "NO %SX1.1" }, { "%SX0.0", "NO %SX0.0" },
 	{ "NO M8002", "! “M8002” is set by other controllers themselves: write SYS_FIRST_SCAN, which is the same here" },
 	/* addresses in an expression: the name of the variable there, else our spelling */

@@ -155,7 +155,7 @@ def others(screen):
     editor.shot('compare-unreadable')
     choose(editor, 'The last saved state')
     editor.says('No differences')
-    editor.says('“pump.rung, as saved” and “pump.rung, as it is now” say the same.')
+    editor.says('“pump.rung, as saved” and “pump.rung, as it is now” do not differ.')
     editor.shot('compare-equal')
     editor.keys(*['ctrl+Page_Up'] * 4)
     editor.to_sheet()

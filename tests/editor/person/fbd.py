@@ -283,7 +283,7 @@ def shown(screen):
     at(editor, 'LT, output OUT: wire Low, TRUE')
     on_sheet(editor)
     editor.keys('space')
-    editor.says('Nothing here has a value that can be set.')
+    editor.says('Nothing at the cursor has a value that can be set.')
     editor.finish()
 
 

@@ -226,7 +226,7 @@ def formatted(screen):
     until(lambda: '  IF Start THEN\n    Lamp := TRUE;\n  END_IF;\n' in view.text(), 'the formatted text')
     editor.shot('st-formatted')
     editor.keys('ctrl+alt+m')
-    editor.says('No error of this line can be mended')
+    editor.says('No error in this line can be mended')
     editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
     editor.type('Lamp = Start;')
     editor.says('Ctrl+Alt+M: Mend the line')
