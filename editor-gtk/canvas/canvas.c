@@ -13,6 +13,8 @@
  */
 #include "editor-gtk/canvas/canvas.h"
 
+#include "editor-gtk/document/spelled.h"
+
 #include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
@@ -359,6 +361,15 @@ static void set_label(GtkWidget *widget, const char *name)
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 }
 
+/* Its addresses are spelled as on the sheet. @text: taken over; may be NULL. */
+static char *spelled_name(LadderCanvas *canvas, char *text)
+{
+	char *shown = text ? spelled_shown(state_of(canvas)->document, text) : NULL;
+
+	g_free(text);
+	return shown;
+}
+
 /* @name: taken over. */
 static void cell_set_name(struct canvas_cell *cell, char *name)
 {
@@ -388,7 +399,7 @@ void canvas_add_cell(LadderCanvas *canvas, struct canvas_spot spot, bool current
 	}
 	cell = cell_at(canvas, cells->listed++);
 	cell->spot = spot;
-	cell_set_name(cell, class_of(canvas)->cell_name(canvas, spot));
+	cell_set_name(cell, spelled_name(canvas, class_of(canvas)->cell_name(canvas, spot)));
 	gtk_accessible_update_state(GTK_ACCESSIBLE(cell->widget),
 				    GTK_ACCESSIBLE_STATE_SELECTED, current, -1);
 }
@@ -470,7 +481,7 @@ void canvas_say_again(LadderCanvas *canvas)
 void canvas_cells_rename(LadderCanvas *canvas)
 {
 	for (guint i = 0; i < own_of(canvas)->cells.cell->len; i++) {
-		char *name = class_of(canvas)->cell_name(canvas, cell_at(canvas, i)->spot);
+		char *name = spelled_name(canvas, class_of(canvas)->cell_name(canvas, cell_at(canvas, i)->spot));
 
 		if (name)
 			cell_set_name(cell_at(canvas, i), name);
@@ -691,10 +702,13 @@ static char *line_changed(void *data, const char *line, int cursor, bool *good)
 static bool line_taken(void *data, const char *line)
 {
 	struct canvas_own *own = own_of(data);
+	char *canonical = own->question.spells ? spelled_canonical(state_of(data)->document, line) :
+			  g_strdup(line);
 	bool good;
 
 	own->taking = true;
-	good = own->question.taken(own->question.context, line);
+	good = own->question.taken(own->question.context, canonical);
+	g_free(canonical);
 	own->taking = false;
 	if (good)
 		g_clear_pointer(&own->refusal, g_free);
@@ -730,7 +744,10 @@ void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question)
 		.changed = line_changed, .taken = line_taken, .gone = line_gone,
 		.context = canvas, .left = question->drops ? NULL : line_left,
 		.proposes = question->proposes,
+		.spelling = spelled_rule(state_of(canvas)->document, spelling_screen()),
 	};
+	char *text = question->spells ? spelled_shown(state_of(canvas)->document, question->text) :
+		     g_strdup(question->text);
 	const graphene_rect_t rect = canvas_rect(canvas, class_of(canvas)->cursor_box(canvas));
 	GtkWidget *entry;
 
@@ -739,8 +756,9 @@ void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question)
 	forget_question(canvas);
 	g_clear_pointer(&own_of(canvas)->refusal, g_free);
 	own_of(canvas)->question = *question;
-	entry = ladder_entry_popup_new(GTK_WIDGET(canvas), question->prompt, question->text,
-				       question->typed, &calls);
+	own_of(canvas)->question.text = NULL; /* the caller's */
+	entry = ladder_entry_popup_new(GTK_WIDGET(canvas), question->prompt, text, question->typed, &calls);
+	g_free(text);
 	state_of(canvas)->entry = entry;
 	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(entry));
 	ladder_entry_popup_show(LADDER_ENTRY_POPUP(entry), &(GdkRectangle){
@@ -1105,7 +1123,7 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 
 	if (state_of(canvas)->entry || is_covered(canvas))
 		return FALSE;
-	text = class_of(canvas)->tip(canvas, x, y, by_keys);
+	text = spelled_name(canvas, class_of(canvas)->tip(canvas, x, y, by_keys));
 	shown = tip_show(tooltip, text);
 	g_free(text);
 	return shown;
@@ -1197,6 +1215,7 @@ void canvas_show(LadderCanvas *canvas, LadderDocument *document, int pou)
 {
 	state_of(canvas)->document = g_object_ref(document);
 	state_of(canvas)->pou = pou;
+	lettering_spell(state_of(canvas)->lettering, spelled_rule(document, spelling_screen()));
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(rungs_changed), canvas);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
 				 canvas);
@@ -1384,6 +1403,17 @@ static void ladder_canvas_finalize(GObject *object)
 	G_OBJECT_CLASS(ladder_canvas_parent_class)->finalize(object);
 }
 
+/* Addresses get another spelling. */
+static void respell(LadderCanvas *canvas)
+{
+	struct canvas_state *state = state_of(canvas);
+
+	lettering_spell(state->lettering, spelled_rule(state->document, spelling_screen()));
+	class_of(canvas)->project_changed(canvas);
+	gtk_widget_queue_draw(GTK_WIDGET(canvas));
+	canvas_cells_later(canvas);
+}
+
 /* Not in ladder_canvas_init(): the class of the subclass is unknown there. */
 static void ladder_canvas_constructed(GObject *object)
 {
@@ -1397,9 +1427,12 @@ static void ladder_canvas_constructed(GObject *object)
 	state_of(canvas)->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(canvas)),
 					  NULL);
 	theme_follow(canvas, G_CALLBACK(restyle));
-	if (settings_get())
+	if (settings_get()) {
 		g_signal_connect_object(settings_get(), "changed::power", G_CALLBACK(restyle),
 					canvas, G_CONNECT_SWAPPED);
+		g_signal_connect_object(settings_get(), "changed::spelling", G_CALLBACK(respell),
+					canvas, G_CONNECT_SWAPPED);
+	}
 	g_signal_connect(canvas, "notify::scale-factor", G_CALLBACK(restyle), NULL);
 	set_label(GTK_WIDGET(canvas), _(class_of(canvas)->name));
 	add_keys(canvas);

@@ -209,6 +209,8 @@ struct canvas_question {
 	const char *text;       /* in the entry at first                           */
 	bool typed;             /* the person typed @text: it is not selected        */
 	bool proposes;          /* a click elsewhere takes an unchanged text, too    */
+	bool spells;            /* @text has operands: their addresses are spelled as the preferences
+				   ask for; what is taken has them as files do */
 	bool drops;             /* a click elsewhere drops a wrong text silently     */
 	/** Adds candidates to the popup (canvas_state.entry); as in entry_popup.h. */
 	char *(*changed)(void *context, const char *line, int cursor, bool *good);

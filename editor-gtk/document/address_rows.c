@@ -7,6 +7,7 @@
 #include "editor-gtk/document/address_rows.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/spelling.h"
 
 #include <string.h>
 
@@ -277,7 +278,7 @@ static void append_address(GString *out, enum iec_area area, unsigned int bits, 
 	const struct iec_addr addr = { area, (uint8_t)bits, (uint8_t)bit, byte };
 	char text[32];
 
-	iec_addr_print(addr, text, sizeof(text));
+	spelling_address(spelling_screen(), addr, text, sizeof(text));
 	g_string_append(out, text);
 }
 

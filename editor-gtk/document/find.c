@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/find.h"
 
+#include "editor-gtk/document/spelled.h"
 #include "editor-gtk/draw/grid_names.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
@@ -374,6 +375,18 @@ static void search_project(struct search *search, LadderDocument *document)
 	g_array_unref(span);
 }
 
+/* A text has addresses as files do, whatever the sheets show. Caller: g_free. */
+static char *as_written(LadderDocument *document, const char *wanted)
+{
+	char *valid = g_utf8_make_valid(wanted, -1), *canonical;
+
+	if (spelling_screen() == SPELLING_IEC)
+		return valid;
+	canonical = spelled_canonical(document, valid);
+	g_free(valid);
+	return canonical;
+}
+
 struct find *find_new(LadderDocument *document, const char *wanted,
 		      struct find_options options)
 {
@@ -381,7 +394,7 @@ struct find *find_new(LadderDocument *document, const char *wanted,
 	struct search search = { .find = find };
 
 	find->hit = g_ptr_array_new_with_free_func(clear_hit);
-	find->wanted = g_utf8_make_valid(wanted, -1);
+	find->wanted = as_written(document, wanted);
 	find->options = options;
 	search.project = ladder_document_project(document);
 	find->folded = fold(find->wanted, options.match_case);

@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/style.h"
+#include "editor-gtk/kit/settings.h"
 
 /* ---- cells ---- */
 
@@ -874,6 +875,7 @@ struct panel_watch {
 	GSignalGroup *group;
 	guint timer;
 	bool dirty;
+	gulong respelled;
 };
 
 static void refresh(struct panel_watch *watch)
@@ -962,6 +964,9 @@ struct panel_watch *panel_watch_new(GtkWidget *owner, bool checks,
 		g_signal_group_connect(watch->group, "checked", G_CALLBACK(whole_changed),
 				       watch);
 	g_signal_connect_after(owner, "map", G_CALLBACK(seen), watch);
+	if (settings_get()) /* addresses get another spelling */
+		watch->respelled = g_signal_connect_swapped(settings_get(), "changed::spelling",
+							    G_CALLBACK(panel_watch_later), watch);
 	return watch;
 }
 
@@ -971,6 +976,8 @@ void panel_watch_free(struct panel_watch *watch)
 		return;
 	g_clear_handle_id(&watch->timer, g_source_remove);
 	g_signal_handlers_disconnect_by_data(watch->owner, watch);
+	if (watch->respelled)
+		g_signal_handler_disconnect(settings_get(), watch->respelled);
 	g_signal_group_set_target(watch->group, NULL);
 	g_clear_object(&watch->group);
 	g_clear_object(&watch->document);

@@ -59,7 +59,9 @@ bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 	case ADDR_OK:
 		return true;
 	case ADDR_RANGE:
-		*why = N_("“%s” is not an address of this project");
+		*why = iec_addr_fault(text, len, out) == DIAG_BAD_BIT ?
+		       N_("“%s” is not an address: the bits of a byte are 0 to 7") :
+		       N_("“%s” is not an address of this project");
 		return true;
 	case ADDR_NONE:
 		break;

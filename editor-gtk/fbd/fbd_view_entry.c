@@ -643,6 +643,7 @@ void fbd_ask(LadderFbdView *view, enum fbd_asked what, const char *typed)
 	question.prompt = prompt_of(asked);
 	question.context = asked;
 	question.text = text;
+	question.spells = what == FBD_ASK_HERE || what == FBD_ASK_ADD || what == FBD_ASK_INSERT || what == FBD_ASK_STORE;
 	canvas_ask(LADDER_CANVAS(view), &question);
 	g_free(text);
 }

@@ -66,6 +66,12 @@ static gboolean row_equal(gconstpointer a, gconstpointer b)
 	return strcmp(one->text, other->text) == 0 && strcmp(one->line, other->line) == 0;
 }
 
+static char *spelled(LadderEntryPopup *popup, const char *text)
+{
+	return !text || popup->calls.spelling.spelling == SPELLING_IEC ? g_strdup(text) :
+	       spelling_text(&popup->calls.spelling, text);
+}
+
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row)
 {
 	struct entry_popup_row *copy;
@@ -74,8 +80,8 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 		return;
 	copy = g_new(struct entry_popup_row, 1);
 	*copy = (struct entry_popup_row){
-		g_strdup(row->text), g_strdup(row->address), g_strdup(row->note),
-		g_strdup(row->kind), g_strdup(row->line), row->marked,
+		spelled(popup, row->text), spelled(popup, row->address), g_strdup(row->note),
+		g_strdup(row->kind), spelled(popup, row->line), row->marked,
 	};
 	g_ptr_array_add(popup->rows, copy);
 	g_hash_table_add(popup->known, copy);
@@ -171,13 +177,16 @@ static const char *line_of(LadderEntryPopup *popup)
 void ladder_entry_popup_ask(LadderEntryPopup *popup)
 {
 	bool good = true;
-	char *told;
+	char *told, *said;
 
 	g_clear_handle_id(&popup->asking, g_source_remove);
 	clear_rows(popup);
 	told = popup->calls.changed(popup->calls.context, line_of(popup),
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
 				    &good);
+	said = spelled(popup, told ? told : "");
+	g_free(told);
+	told = said;
 	make_first(popup);
 	popover_tell(GTK_LABEL(popup->told), told ? told : "");
 	gtk_accessible_update_property(GTK_ACCESSIBLE(popup->line),

@@ -8,6 +8,8 @@
 #ifndef EDITOR_ENTRY_POPUP_H
 #define EDITOR_ENTRY_POPUP_H
 
+#include "editor-gtk/kit/spelling.h"
+
 #include <gtk/gtk.h>
 #include <stdbool.h>
 
@@ -34,6 +36,7 @@ struct entry_popup_calls {
 	/** A click elsewhere takes the line as Enter does. Called if that fails, to show
 	 * the reason. NULL: a click elsewhere drops the line. */
 	void (*left)(void *context, const char *line);
+	struct spelling_rule spelling; /* of addresses in candidates and in what it says */
 	bool proposes; /* the first text is a proposal: a click elsewhere takes it even if
 			  nothing was typed */
 };

@@ -42,6 +42,8 @@ struct lettering {
 	GHashTable *known;
 	/* Laid out texts: shaping is most of the cost of a drawing. */
 	GHashTable *laid[LETTERS];
+	struct spelling_rule rule;
+	bool spells;
 };
 
 const struct letter_style *letter_style(enum letter letter)
@@ -139,6 +141,13 @@ void lettering_free(struct lettering *lettering)
 	g_free(lettering);
 }
 
+void lettering_spell(struct lettering *lettering, struct spelling_rule rule)
+{
+	lettering->rule = rule;
+	lettering->spells = true;
+	g_hash_table_remove_all(lettering->known);
+}
+
 void lettering_trim(struct lettering *lettering)
 {
 	if (g_hash_table_size(lettering->known) > TRIM_AT)
@@ -216,6 +225,19 @@ static char *harmless(const char *text, size_t len)
 	return valid;
 }
 
+/* @text: taken over. */
+static char *spelled(const struct lettering *lettering, enum letter letter, char *text)
+{
+	char *other;
+
+	if (!lettering->spells ||
+	    (letter != LETTER_SYMBOL && letter != LETTER_ADDRESS && letter != LETTER_OPERAND))
+		return text;
+	other = spelling_text(&lettering->rule, text);
+	g_free(text);
+	return other;
+}
+
 static struct known *learn(struct lettering *lettering, const struct known *key,
 			   const char *text, float bound)
 {
@@ -223,7 +245,7 @@ static struct known *learn(struct lettering *lettering, const struct known *key,
 
 	*known = *key;
 	memcpy(known->text, text, key->len + 1);
-	known->fit = harmless(text, key->len);
+	known->fit = spelled(lettering, key->letter, harmless(text, key->len));
 	known->width = measure(lettering, key->letter, known->fit, strlen(known->fit));
 	if (bound > 0 && known->width > bound) {
 		char *whole = known->fit;

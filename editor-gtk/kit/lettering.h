@@ -9,6 +9,8 @@
 #ifndef EDITOR_LETTERING_H
 #define EDITOR_LETTERING_H
 
+#include "editor-gtk/kit/spelling.h"
+
 #include <pango/pango.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -50,6 +52,9 @@ void lettering_free(struct lettering *lettering);
 /** lettering_context - a context that needs no display.
  * Owns: the caller, g_object_unref. */
 PangoContext *lettering_context(void);
+/** lettering_spell - addresses in names, operands and addresses are drawn by this rule from now on; without
+ * it they are drawn as they are written. All texts of it end. */
+void lettering_spell(struct lettering *lettering, struct spelling_rule rule);
 /** lettering_trim - forgets texts if there are very many. Call it between drawings. */
 void lettering_trim(struct lettering *lettering);
 

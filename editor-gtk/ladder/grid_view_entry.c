@@ -222,7 +222,7 @@ static void open_element(struct asked *asked, const char *prompt, const char *te
 			 bool typed)
 {
 	open_entry(asked, (struct canvas_question){
-		.prompt = prompt, .text = text, .typed = typed,
+		.prompt = prompt, .text = text, .typed = typed, .spells = true,
 		.proposes = !asked->edit && asked->word != ELEM_EMPTY,
 		.changed = element_changed, .taken = element_taken,
 	});
@@ -659,7 +659,7 @@ static void ask_pin(LadderGridView *view, const char *text)
 	asked->before = true; /* an output cannot feed it */
 	open_entry(asked, (struct canvas_question){
 		.prompt = _("input and operand, such as R ResetCount"), .text = text,
-		.changed = pin_changed, .taken = pin_taken,
+		.spells = true, .changed = pin_changed, .taken = pin_taken,
 	});
 	ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), strlen(text),
 				  strlen(text));

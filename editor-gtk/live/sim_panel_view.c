@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/style.h"
 #include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/kit/spelling.h"
 
 #include "engine/trial/value.h"
 
@@ -86,9 +87,8 @@ static void speak(LadderSimRowView *view)
 	const bool step = row->kind == SIM_STEP;
 	const char *state = !sim_row_is_bit(row) && !step ? "" :
 		(step ? view->done_seen.value.i : view->value_seen.value.i) ? _("on") : _("off");
-	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), row->name,
-				     row->address ? ", " : "",
-				     row->address ? row->address : "",
+	char *own = spelling_shown(row->name), *address = spelling_shown(row->address ? row->address : "");
+	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), own, *address ? ", " : "", address,
 				     row->pin ? ", " : "", row->pin ? row->pin : "");
 	const char *folds = !row->parts ? "" : row->folded ? _("folded") : _("unfolded");
 	const char *quality = live_quality_word(view->value_seen.quality);
@@ -104,6 +104,8 @@ static void speak(LadderSimRowView *view)
 	set_name(view->lamp, all);
 	g_free(all);
 	g_free(name);
+	g_free(address);
+	g_free(own);
 }
 
 /* ---- what changed ---- */
@@ -506,10 +508,13 @@ static void show_range(LadderSimRowView *view)
 
 static char *tooltip_of(const LadderSimRow *row)
 {
-	GString *out = g_string_new(row->name);
+	char *name = spelling_shown(row->name), *address = spelling_shown(row->address ? row->address : "");
+	GString *out = g_string_new(name);
 
 	if (row->address)
-		g_string_append_printf(out, "  %s", row->address);
+		g_string_append_printf(out, "  %s", address);
+	g_free(address);
+	g_free(name);
 	if (row->block || row->at.type != IEC_NONE)
 		g_string_append_printf(out, "  %s", row->block ? row->block :
 				       live_named_type(row->named, row->at.type));
@@ -542,18 +547,26 @@ static void show_heading(LadderSimRowView *view)
 	g_free(spoken);
 }
 
+static void set_spelled(GtkWidget *label, const char *text)
+{
+	char *shown = spelling_shown(text);
+
+	gtk_label_set_text(GTK_LABEL(label), shown);
+	g_free(shown);
+}
+
 static void show_line(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
 	const bool bit = sim_row_is_bit(row), given = row->kind == SIM_SWITCH;
 	char *tooltip = tooltip_of(row);
 
-	gtk_label_set_text(GTK_LABEL(view->name), sim_row_label(row));
+	set_spelled(view->name, sim_row_label(row));
 	gtk_widget_set_margin_start(view->line, row->owner ? PART_INDENT : 0);
 	gtk_widget_set_visible(view->unfold, row->parts != NULL);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->unfold), row->folded ?
 				     "pan-end-symbolic" : "pan-down-symbolic");
-	gtk_label_set_text(GTK_LABEL(view->address), row->address ? row->address : "");
+	set_spelled(view->address, row->address ? row->address : "");
 	gtk_widget_set_visible(view->address, row->address != NULL);
 	gtk_label_set_text(GTK_LABEL(view->pin), row->pin ? row->pin : "");
 	gtk_widget_set_visible(view->pin, row->pin && !row->driven); /* the plant drives it; the tip has both */

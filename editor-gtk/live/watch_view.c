@@ -20,6 +20,7 @@
 #include "editor-gtk/kit/left.h"
 #include "editor-gtk/kit/style.h"
 #include "editor-gtk/live/watch_names.h"
+#include "editor-gtk/kit/spelling.h"
 
 #include <string.h>
 
@@ -981,15 +982,16 @@ static void setup(gpointer column, GtkListItem *item)
 static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 {
 	const bool unknown = watch_row_is_unknown(row);
-	char *tip = unknown ? g_strdup_printf(_("\"%s\" is not declared in the program"),
-					      row->line->name) : NULL;
+	char *shown = spelling_shown(row->line->name);
+	char *tip = unknown ? g_strdup_printf(_("\"%s\" is not declared in the program"), shown) : NULL;
 
-	gtk_label_set_text(GTK_LABEL(cell), row->line->name);
+	gtk_label_set_text(GTK_LABEL(cell), shown);
 	style_set(cell, "error", unknown);
 	style_set(cell, "watch-unknown", unknown);
-	tip_set(cell, tip ? tip : row->line->name);
-	spoken_name(cell, tip ? tip : row->line->name);
+	tip_set(cell, tip ? tip : shown);
+	spoken_name(cell, tip ? tip : shown);
 	g_free(tip);
+	g_free(shown);
 }
 
 static void bind_type(GtkWidget *cell, LadderWatchRow *row)

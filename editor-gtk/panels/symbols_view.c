@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/spelled.h"
 #include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
@@ -111,7 +112,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	bool warning = false;
 
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
-		row->text[i] = g_strdup(symbol->text[i]);
+		row->text[i] = i == FIELD_ADDRESS ? spelled_shown(document, symbol->text[i]) :
+			       g_strdup(symbol->text[i]);
 	row->text[SYMBOLS_SCOPE] = scope_of(symbol);
 	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
 	row->text[SYMBOLS_ACCESS] = symbol_access_text(document, symbol, symbol->access);

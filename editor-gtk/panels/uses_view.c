@@ -7,6 +7,7 @@
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/spelling.h"
 
 #include "engine/base/name.h"
 #include "engine/xref/address_map.h"
@@ -95,9 +96,9 @@ static char *address_text(struct project *project, const struct xref_target *tar
 	char text[32] = "";
 
 	if (var)
-		return g_strdup(project_text(project, var->at_text));
+		return spelling_shown(project_text(project, var->at_text));
 	if (target->what == XREF_ADDRESS)
-		iec_addr_print(target->addr, text, sizeof(text));
+		spelling_address(spelling_screen(), target->addr, text, sizeof(text));
 	return g_strdup(text);
 }
 
@@ -126,12 +127,12 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 	char name[3 * LIMIT_NAME + 8];
 
 	xref_name(project, &use->target, use, name, sizeof(name));
-	row->text[USES_NAME] = g_utf8_make_valid(name, -1);
+	row->text[USES_NAME] = use->target.what == XREF_ADDRESS ? address_text(project, &use->target) :
+			       g_utf8_make_valid(name, -1);
 	row->text[USES_ADDRESS] = address_text(project, &use->target);
 	row->text[USES_KIND] = g_strdup(kind_text(use));
 	row->text[USES_PLACE] = place_text(maker, use);
-	row->text[USES_TEXT] = g_strdup(use->kind == XREF_DECLARED ? "" :
-					xref_text(&maker->xref, use));
+	row->text[USES_TEXT] = spelling_shown(use->kind == XREF_DECLARED ? "" : xref_text(&maker->xref, use));
 	row->pou = use->pou;
 	row->rung = use->rung - 1;
 	row->row = use->row - 1;

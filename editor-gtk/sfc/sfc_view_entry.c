@@ -637,6 +637,7 @@ void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed)
 	text = typed ? g_strdup(typed) : text_now(asked);
 	question.context = asked;
 	question.text = text;
+	question.spells = what == ASK_CONDITION || what == ASK_DOES || what == ASK_ANOTHER || what == ASK_TIMES;
 	canvas_ask(LADDER_CANVAS(view), &question);
 	g_free(text);
 }

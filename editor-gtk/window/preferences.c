@@ -79,6 +79,7 @@ static void add_looks(AdwPreferencesPage *page)
 	const char *power[] = { _("green"), _("blue"), NULL };
 	const char *show[] = { _("symbol and address"), _("symbols"), _("addresses"),
 			       NULL };
+	const char *spelling[] = { _("IEC 61131-3: %IX0.0 %MW4"), _("Siemens: I0.0 MW4"), NULL };
 	AdwPreferencesGroup *group = add_group(page, _("Drawing"));
 
 	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);
@@ -87,6 +88,8 @@ static void add_looks(AdwPreferencesPage *page)
 	add_choice(group, "power", _("Colour of power"),
 		   _("Power is also drawn thicker, so colour is not needed to see it"), power);
 	add_choice(group, "show", _("Above an element"), NULL, show);
+	add_choice(group, "spelling", _("Addresses"),
+		   _("Both forms can be typed; files have the first"), spelling);
 }
 
 static void add_keys(AdwPreferencesPage *page)

@@ -109,7 +109,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "O:0/10", "NO %QX1.2" }, { "%B3", "NO %MX0.3" }, { "SM0.5", "NO %SMX0.5" },
 	{ "X10", "! “X10” is octal in some controllers and hexadecimal in others: "
 		 "write %IX1.0" },
-	{ "%IX0.9", "! “%IX0.9” is not an address of this project" },
+	{ "%IX0.9", "! “%IX0.9” is not an address: the bits of a byte are 0 to 7" },
 	{ "%ZX0.9", "! “%ZX0.9” is not an address" },
 	{ "SYS_FIRST_SCAN", "NO SYS_FIRST_SCAN" },
 	/* boxes */
@@ -192,7 +192,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "Level : INT", "! “Level” is not a BOOL: compare it, as in Level > 5" },
 	{ "OUT Start %IX0.0", "! “Start” cannot be written" },
 	{ "Open %IW2", "! “%IW2” is not the address of a BOOL" },
-	{ "Open %IX0.9", "! “%IX0.9” is not an address of this project" },
+	{ "Open %IX0.9", "! “%IX0.9” is not an address: the bits of a byte are 0 to 7" },
 	{ "Open %IX60000.0", "! “%IX60000.0” is not an address of this project" },
 	{ "Open %ZX0.1 : BOOL", "! “%ZX0.1” is not an address" },
 	{ "Open AT Start", "! “Start” is not an address" },

@@ -63,7 +63,7 @@ def refused(screen):
     assert editor.asked()[0].text() == 'OUT Start_of_belt %QX0.1'
     editor.keys('ctrl+a')
     editor.type('OUT Lamp %QX0.9')
-    editor.says('“%QX0.9” is not an address of this project')
+    editor.says('“%QX0.9” is not an address: the bits of a byte are 0 to 7')
     editor.keys('ctrl+a')
     editor.type('OUT Lamp : LAMP')
     editor.says('“LAMP” is not a type')

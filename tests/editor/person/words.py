@@ -193,7 +193,7 @@ def other_keys(screen):
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
     editor.focus_on('Light or dark')
-    for row in 'Contrast', 'Colour of power', 'Above an element', 'Key scheme':
+    for row in 'Contrast', 'Colour of power', 'Above an element', 'Addresses', 'Key scheme':
         editor.keys('Tab')
         editor.focus_on(row)
     editor.keys('Return')
