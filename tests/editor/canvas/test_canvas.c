@@ -3,7 +3,6 @@
  * test_canvas - zoom, scrolling, accessible children and the entry: the same checks for
  * sheets of rungs and of charts.
  */
-#include "editor-gtk/document/find.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
 #include "tests/editor/sheet_window.h"
@@ -209,23 +208,40 @@ static void test_marks(LadderDocument *document)
 	g_bytes_unref(later);
 }
 
-/* What a search has found is marked, also the first step of a chart. */
-static void test_found(LadderDocument *document)
+/* Marks the hits of a search in a sheet of any kind. */
+static void mark(GtkWidget *page, const struct find_seen *seen)
 {
-	GtkWidget *page = ladder_sfc_view_new(document, 1);
-	struct find *find = find_new(document, "Start", (struct find_options){ FIND_EVERYWHERE, false, false });
-	GBytes *before = look_at(page), *found, *after;
+	if (LADDER_IS_SFC_VIEW(page))
+		ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), seen);
+	else
+		ladder_grid_view_set_found(LADDER_GRID_VIEW(page), seen);
+}
 
-	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), &(struct find_seen){ find, 0, true });
+/* What a search has found is marked, the current hit otherwise, and nothing when the search ends. */
+static void test_found_on(LadderDocument *document, GtkWidget *page, const char *wanted)
+{
+	struct find *find = find_new(document, wanted, (struct find_options){ FIND_EVERYWHERE, false, false });
+	struct find_seen all = { find, -1, true }, one = { find, 0, false }, none = { NULL, -1, true };
+	GBytes *before = look_at(page), *found, *now, *after;
+
+	while (one.current < (int)find->hit->len &&
+	       ((const struct find_hit *)find->hit->pdata[one.current])->pou != ladder_canvas_pou(LADDER_CANVAS(page)))
+		one.current++;
+	CHECK_AS(one.current < (int)find->hit->len, "there is a hit on this sheet");
+	mark(page, &all);
 	found = look(page);
-	ladder_sfc_view_set_found(LADDER_SFC_VIEW(page), &(struct find_seen){ NULL, -1, false });
+	mark(page, &one);
+	now = look(page);
+	mark(page, &none);
 	after = look(page);
-	find_free(find);
-	CHECK_AS(!g_bytes_equal(before, found), "the first step is marked when it is found");
-	CHECK_AS(g_bytes_equal(before, after), "and no longer when the search ends");
+	CHECK_AS(!g_bytes_equal(before, found), "hits are marked");
+	CHECK_AS(!g_bytes_equal(before, now) && !g_bytes_equal(found, now), "the current one in another way");
+	CHECK_AS(g_bytes_equal(before, after), "and nothing when the search ends");
 	g_bytes_unref(before);
 	g_bytes_unref(found);
+	g_bytes_unref(now);
 	g_bytes_unref(after);
+	find_free(find);
 }
 
 static int cell_count(GtkWidget *page)
@@ -275,7 +291,8 @@ int main(void)
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	test_drag(document);
 	test_marks(document);
-	test_found(document);
+	test_found_on(document, ladder_sfc_view_new(document, 1), "Start");
+	test_found_on(document, ladder_grid_view_new(document, 0), "%QX");
 	test_grows();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
