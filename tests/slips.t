@@ -29,6 +29,8 @@ VAR
   Rest : TOF;
   Parts : CTU;
   Pulse : TP;
+  Rise : R_TRIG;
+  Fall : F_TRIG;
 END_VAR
 
 END
@@ -118,4 +120,23 @@ judge('negated outputs of a box', "PROGRAM Main LD\nRUNG", qr/LD159: "NOT Q=>Hor
 judge('negated outputs in a list', 'PROGRAM Main IL', qr/LD246: "NOT Q => Horn": .*; write Q => Horn, and behind/,
 	'CAL Delay(IN := Ready, NOT Q => Horn)', 'CAL Delay(NOT Q => Horn)', 'CAL Delay(IN := Ready, Q => NOT Horn)',
 	'CAL Delay(NOT Q => Horn, IN := Ready)');
+# The power first, as in other tools; the contact that it was meant to be is the only one in front.
+my @powers = map { my $line = $_; map { "| $line$_ | COIL Lamp |" } '', ' (* hand *)' }
+	'TON Delay Ready 5s', 'TON Delay Ready T#5s', 'TON Delay Ready, 5s', 'TOF Rest Ready 200ms', 'TP Pulse %IX0.3 T#1s',
+	'CTU Parts Ready 10', 'CTU Parts Ready, Horn, 10';
+
+judge('the power of a block among its values', "PROGRAM Main LD\nRUNG", qr/^$/, @powers);
+
+my @edges = map { my $word = $_; map { "| $word $_ | COIL Lamp |" } 'A > 5', 'A = 5', 'A <> B', 'Ready AND Horn', '(A > 5)',
+	'A + B > 7' } 'P', 'N';
+
+judge('edges of what is no BOOL', "PROGRAM Main LD\nRUNG", qr/^$/, @edges);
+
+# What Logix sets by itself.
+my @bodies = (["PROGRAM Main LD\nRUNG", '| NO %s | COIL Lamp |', '| NC %s | COIL Lamp |', '| [ %s OR Ready ] | COIL Lamp |'],
+	['PROGRAM Main IL', "LD %s\n  ST Lamp", "LDN %s\n  ST Lamp"]);
+
+judge("bits of Logix, $_->[0]", $_->[0], qr/LD754: "S:(?:V|MINOR|4\/0)": controllers of Logix/,
+	map { my $form = $_; map { sprintf $form, $_ } qw(S:FS S:1/15 S:V S:MINOR S:4/0) } @{$_}[1 .. $#$_])
+	for @bodies;
 done_testing();

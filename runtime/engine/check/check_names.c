@@ -977,11 +977,14 @@ static void note_il(struct names_check *c, const struct pou *pou)
 		const struct il_line *line = &pou->il.line[i];
 		unsigned int use = use_of_line(line);
 		const struct meaning *m;
+		char told[LIMIT_PARTS];
 		enum diag_id why;
 
 		if (!use || !line->operand)
 			continue;
 		m = scope_find(c->scope, pou, line->operand, &why);
+		if (m && operand_special(text_of(c, line->operand), m, told, sizeof(told)))
+			report_line(c, DIAG_SET_BY_OTHERS, pou, (int)line->line, told);
 		if (m)
 			uses_add_index(&c->uses, c->scope, pou, line->operand, m);
 		if (m && m->kind == MEANING_INSTANCE && m->action) /* an action may be called beside its block */

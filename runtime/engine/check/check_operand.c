@@ -131,19 +131,27 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 }
 
 /* M8000: an address without a variable that other tools set by themselves. */
-static void said_special(struct operand_check *c, struct operand_spot at, const char *name,
-			 const struct meaning *m)
+bool operand_special(const char *name, const struct meaning *m, char *out, size_t size)
 {
 	struct dialect_special special;
-	char text[LIMIT_PARTS], address[40];
+	char address[40];
 
 	if (m->kind != MEANING_ADDRESS || m->var || m->addr.area == AREA_SM || *name == '%' ||
 	    !dialect_special(name, strlen(name), &special))
-		return;
+		return false;
 	iec_addr_print(m->addr, address, sizeof(address));
-	snprintf(text, sizeof(text), "%.40s" DIAG_AND "%s" DIAG_AND "%s", name, special.tool,
+	snprintf(out, size, "%.40s" DIAG_AND "%s" DIAG_AND "%s", name, special.tool,
 		 *special.ours ? special.ours : address);
-	operand_report(c, DIAG_SET_BY_OTHERS, at, text);
+	return true;
+}
+
+static void said_special(struct operand_check *c, struct operand_spot at, const char *name,
+			 const struct meaning *m)
+{
+	char text[LIMIT_PARTS];
+
+	if (operand_special(name, m, text, sizeof(text)))
+		operand_report(c, DIAG_SET_BY_OTHERS, at, text);
 }
 
 /* The meaning of @id, or NULL after a diagnostic. */

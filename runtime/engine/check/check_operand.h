@@ -43,6 +43,9 @@ enum operand_use {
 	OPERAND_CHANGED,   /* VAR_IN_OUT: is read and written                 */
 	OPERAND_CALLED,    /* an instance                                     */
 };
+/** operand_special - the argument of DIAG_SET_BY_OTHERS for an operand as it is written; false: no other tool
+ * sets it. Owns: nothing. Scan-safe: yes. */
+bool operand_special(const char *name, const struct meaning *m, char *out, size_t size);
 /** check_part - the names of an expression of c->item; notes the uses. @expr: parsed; what may be
  * an array is marked in it. Scan-safe: no. Fails: as check_operands(). */
 bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use);

@@ -246,6 +246,9 @@ static const struct { const char *name, *tool, *ours; } special_names[] = {
 	{ "SM1.1", "STEP 7-Micro/WIN", "" }, { "SM1.2", "STEP 7-Micro/WIN", "" },
 	{ "%S0", "ClassicLadder", "SYS_CLOCK_1S" }, { "%S4", "ClassicLadder", "SYS_FIRST_SCAN" },
 	{ "%S7", "ClassicLadder", "SYS_MATH_ERROR" },
+	{ "S:FS", "Logix", "SYS_FIRST_SCAN" }, { "S:1/15", "Logix", "SYS_FIRST_SCAN" },
+	{ "S:V", "Logix", "" }, { "S:C", "Logix", "" }, { "S:Z", "Logix", "" }, { "S:N", "Logix", "" },
+	{ "S:MINOR", "Logix", "" },
 };
 
 /* A head and a number without a dot. */
@@ -255,6 +258,16 @@ static const struct { const char *head; int low, high; const char *tool; } speci
 	{ "%S", 0, 255, "ClassicLadder" }, { "%SW", 0, 255, "ClassicLadder" },
 };
 
+/* S:4/0: a bit or word of the status file. */
+static bool is_status(const char *text, size_t len)
+{
+	const char *at = text + 2, *end = text + len;
+
+	if (len < 3 || ascii_upper(text[0]) != 'S' || text[1] != ':' || number(&at, end, 10) < 0)
+		return false;
+	return at == end || (*at++ == '/' && number(&at, end, 10) >= 0 && at == end);
+}
+
 bool dialect_special(const char *text, size_t len, struct dialect_special *out)
 {
 	for (size_t i = 0; i < COUNT(special_names); i++)
@@ -262,6 +275,10 @@ bool dialect_special(const char *text, size_t len, struct dialect_special *out)
 			*out = (struct dialect_special){ special_names[i].tool, special_names[i].ours };
 			return true;
 		}
+	if (is_status(text, len)) {
+		*out = (struct dialect_special){ "Logix", "" };
+		return true;
+	}
 	for (size_t i = 0; i < COUNT(special_ranges); i++) {
 		const size_t head = ascii_prefix(special_ranges[i].head, text, len);
 		const char *at = text + head;
@@ -296,4 +313,20 @@ bool dialect_find(const char *text, size_t len, int index, struct dialect *out)
 		return true;
 	memset(out, 0, sizeof(*out));
 	return false;
+}
+
+static bool is_word(char c)
+{
+	return ascii_digit(c) || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') || c == '_';
+}
+
+size_t dialect_around(const char *begin, const char *end, const char *colon, const char **from)
+{
+	const char *to = colon + 1;
+
+	for (*from = colon; *from > begin && is_word((*from)[-1]);)
+		--*from;
+	while (to < end && (is_word(*to) || (*to == '/' && to + 1 < end && is_word(to[1]))))
+		to++;
+	return (size_t)(to - *from);
 }

@@ -39,6 +39,10 @@ struct dialect_special {
  * Owns: nothing. Scan-safe: yes. */
 bool dialect_special(const char *text, size_t len, struct dialect_special *out);
 
+/** dialect_around - the word around a colon, such as S:FS or I:1/3, in @begin … @end; *@from: where it
+ * begins. Returns its bytes. Owns: nothing. Scan-safe: yes. */
+size_t dialect_around(const char *begin, const char *end, const char *colon, const char **from);
+
 /**
  * dialect_find - the meaning of a name in another tool
  * @index: 0; and on for the other names that a step can have here

@@ -358,14 +358,24 @@ static size_t take_dialect(struct mender *m, size_t at)
 {
 	const char *text = m->text + at;
 	size_t len = *text == '%';
+	struct dialect_special special;
 	struct dialect found;
 	struct iec_addr addr;
 	char made[MADE];
+	bool first;
 
 	if (!(m->where & (ROWS | IN_LIST | IN_NAME)) || (at && mend_is_word(text[-1])))
 		return at;
 	while (mend_is_word(text[len]) || (text[len] && strchr(".:/", text[len]) && mend_is_word(text[len + 1])))
 		len++;
+	if (memchr(text, ':', len) && dialect_special(text, len, &special) && *special.ours) {
+		first = !m->changed;
+		change(m, at, len, special.ours);
+		if (first && m->changed)
+			m->out->id = DIAG_SPECIAL_INSTEAD;
+		pass(m, special.ours, strlen(special.ours));
+		return at + strlen(special.ours);
+	}
 	if ((*text != '%' && !memchr(text, ':', len)) ||
 	    iec_addr_parse(text, len, &addr) != ADDR_NONE || !dialect_find(text, len, 0, &found) ||
 	    (found.kind == DIALECT_STEP && !take_step(m, text, len, &found)))
@@ -790,6 +800,12 @@ static bool mend_more(struct mender *m, const struct word_row *row, size_t at, s
 	return true;
 }
 
+/* What is declared for the edge of a value. */
+static const char *edge_block(const struct word_row *row)
+{
+	return strcmp(row->word, "N") == 0 ? "Fall : F_TRIG" : "Rise : R_TRIG";
+}
+
 /* P (NOT Start) → N Start, NO (Start) → NO Start, NO A AND B → [ A AND B ]. */
 static bool mend_contact(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
 {
@@ -801,8 +817,7 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 	bool turn;
 	char made[MADE];
 
-	if (row->edge == EDGE_NONE || row->operand == OPND_BOOL_W)
-		to = compare_again(m, from, to);
+	to = compare_again(m, from, to);
 	if (at >= to) /* nothing stands there */
 		return false;
 	end = to;
@@ -831,6 +846,16 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 		snprintf(made, sizeof(made), "%s %.*s", other, (int)bare, m->text + at + len);
 	} else if (mend_more(m, row, skip_blanks(m, from + word), to)) {
 		return true;
+	} else if (row->edge != EDGE_NONE && row->operand == OPND_BOOL_R && to - at < MADE - 32 && has_operator(m, at, to)) {
+		at = skip_blanks(m, from + word);
+		snprintf(made, sizeof(made), "[ %.*s ] | %s %.4s", (int)(to - at), m->text + at, edge_block(row) + 7,
+			 edge_block(row));
+		m->changed = false;
+		change(m, from, to - from, made);
+		m->out->id = DIAG_EDGE_OF_VALUE;
+		snprintf(m->out->from, sizeof(m->out->from), "%s", row->word);
+		snprintf(m->out->to, sizeof(m->out->to), "%s", edge_block(row));
+		return true;
 	} else if (plain && to - at < MADE - 20 && has_operator(m, at, to)) {
 		snprintf(made, sizeof(made), negated ? "[ NOT (%.*s) ]" : "[ %.*s ]", (int)(to - at), m->text + at);
 		at = from;
@@ -844,13 +869,38 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 	return true;
 }
 
-/* TON Delay 5s → TON Delay PT:=T#5s, ADD A B Sum → ADD IN1:=A IN2:=B OUT=>Sum: the pins in their
+/* More values than inputs that are no BOOL: the first one is the power, as TON Delay Start 5s says it in other
+ * tools. 1: the others are those inputs; 2: all inputs behind the first; 0: none is the power. */
+static int given_bits(const struct word_row *row, int count)
+{
+	int values = 0, inputs = 0;
+
+	for (int i = 0; i < row->pin_count; i++) {
+		inputs += row->pin[i].dir == PIN_IN;
+		values += row->pin[i].dir == PIN_IN && row->pin[i].type != IEC_BOOL;
+	}
+	return count == values + 1 && inputs > values ? 1 : count > values && count == inputs ? 2 : 0;
+}
+
+/* The pin that a value without a name belongs to: from @pin on, and behind the first bit if that is the power. */
+static int next_pin(const struct word_row *row, int pin, int bits, bool behind_power)
+{
+	while (pin < row->pin_count && (row->pin[pin].dir != PIN_IN ||
+	       (row->pin[pin].type == IEC_BOOL && (bits < 2 || behind_power)))) {
+		behind_power = behind_power && (row->pin[pin].dir != PIN_IN || row->pin[pin].type != IEC_BOOL);
+		pin++;
+	}
+	return pin;
+}
+
+/* TON Delay 5s → TON Delay PT:=T#5s, TON Delay Start 5s → NO Start | TON Delay PT:=T#5s, ADD A B Sum → ADD IN1:=A IN2:=B OUT=>Sum: the pins in their
  * order, of a block without those that are BOOL. */
 static bool mend_values(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
 {
 	size_t at = skip_blanks(m, from + word), first = 0, len, value[8], size[8];
-	char made[MADE] = "", last[24];
-	int count = 0, pin = 0;
+	char made[MADE] = "", last[24], contact[MADE];
+	int count = 0, pin = 0, bits;
+	size_t power;
 	size_t named = 0, used = 0;
 
 	if (row->kind == WORD_FB) {
@@ -887,13 +937,16 @@ static bool mend_values(struct mender *m, const struct word_row *row, size_t fro
 	}
 	if (!count || at < to || (row->kind == WORD_FN && row->pin_count == 0))
 		return false;
-	for (int i = 0; i < count; i++, pin++) {
+	bits = row->kind == WORD_FB && !named ? given_bits(row, count) : 0;
+	power = bits ? value[0] : 0;
+	if (power && ascii_digit(m->text[power]))
+		return false;
+	snprintf(contact, sizeof(contact), "NO %.*s | ", (int)(power ? size[0] : 0), m->text + power);
+	for (int i = power ? 1 : 0; i < count; i++, pin++) {
 		const bool result = row->kind == WORD_FN && i == count - 1 && count > 1 && !word_is_test(row);
 		const char *name = NULL;
 
-		while (row->kind == WORD_FB && pin < row->pin_count &&
-		       (row->pin[pin].dir != PIN_IN || row->pin[pin].type == IEC_BOOL))
-			pin++;
+		pin = row->kind == WORD_FB ? next_pin(row, pin, bits, i == 1 && power) : pin;
 		if (result) {
 			name = "OUT";
 		} else if (pin < row->pin_count) {
@@ -912,6 +965,8 @@ static bool mend_values(struct mender *m, const struct word_row *row, size_t fro
 	const bool told = m->changed;
 
 	change(m, first, to - first, made);
+	if (power)
+		change(m, from, 0, contact);
 	if (!m->full && (!told || m->out->id == DIAG_WRITE_INSTEAD)) {
 		m->out->id = DIAG_MISSING;
 		m->out->column = (int)value[0] + 1;

@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/model/fbd.h"
+#include "engine/model/dialect.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -236,6 +237,35 @@ static bool said_end(struct fbd_reader *f, const struct lex *lex, int count, int
 	return said_at(f, DIAG_FBD_LINE_ENDS, &end);
 }
 
+/* S:FS, I:1/3: an address of another tool is told instead of the error at its colon. */
+static bool said_elsewhere(struct fbd_reader *f, const struct lex *line, const struct token *token, int count, int errors)
+{
+	struct diag_list *diags = f->r->diags;
+	struct diag place = f->r->place;
+	struct dialect_special special = { "", "" };
+	struct dialect found;
+	const char *text;
+	char right[40] = "";
+	size_t len;
+
+	if (token->len != 1 || *token->text != ':' || diags->dropped > 0)
+		return false;
+	len = dialect_around(line->token.text, line->end, token->text, &text);
+	if (dialect_special(text, len, &special))
+		snprintf(right, sizeof(right), "%s", special.ours);
+	else if (dialect_find(text, len, 0, &found) && found.kind == DIALECT_ADDRESS)
+		iec_addr_print(found.addr, right, sizeof(right));
+	else
+		return false;
+	diags->count = count;
+	diags->errors = errors;
+	place.id = *right ? DIAG_ST_FOREIGN : DIAG_SPECIAL_NOTHING;
+	place.line = token->line;
+	place.column = token->column - (int)(token->text - text);
+	diag_add(diags, place, "%.*s%s%s", (int)(len < 40 ? len : 40), text, *right ? DIAG_AND : "", right);
+	return true;
+}
+
 /* Reads the parts; @lex: only this line. */
 static bool read_parts(struct fbd_reader *f, enum st_kind kind, const struct lex *lex)
 {
@@ -247,9 +277,13 @@ static bool read_parts(struct fbd_reader *f, enum st_kind kind, const struct lex
 		return false;
 	do {
 		if (!st_next(&walk, &part, &f->r->expr, f->r->diags, f->r->place))
-			return said_end(f, &walk.lex, count, errors);
+			return !said_elsewhere(f, lex, &walk.lex.token, count, errors) &&
+			       said_end(f, &walk.lex, count, errors);
 	} while (part.role != ST_NO_PART);
-	return walk.lex.token.kind == TOKEN_END || said_at(f, DIAG_FBD_REST, &walk.lex.token);
+	if (walk.lex.token.kind == TOKEN_END)
+		return true;
+	return !said_elsewhere(f, lex, &walk.lex.token, f->r->diags->count, f->r->diags->errors) &&
+	       said_at(f, DIAG_FBD_REST, &walk.lex.token);
 }
 
 static void read_line(struct fbd_reader *f)

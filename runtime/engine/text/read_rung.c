@@ -100,9 +100,12 @@ static bool has_bad_literal(const struct expr *expr)
 static enum word check_expression(struct reader *r)
 {
 	struct diag place = r->place;
-	struct lex lex = r->lex;
+	struct lex lex = r->lex, ahead;
 
 	lex.comments = false;
+	for (ahead = lex; ahead.token.kind != TOKEN_END && !lex_is(&ahead, "]"); lex_next(&ahead))
+		if (reader_special(r, &ahead.token))
+			return WORD_COUNT;
 	lex_next(&lex);
 	place.line = lex.token.line;
 	place.column = lex.token.column;

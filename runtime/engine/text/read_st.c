@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/iec.h"
+#include "engine/model/dialect.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -689,6 +690,31 @@ static bool said_changed(struct st_reader *s, const struct lex *first, const str
 	return true;
 }
 
+/* S:FS, I:1/3: an address of another tool, at its colon. */
+static bool said_elsewhere(struct st_reader *s, const struct lex *first, const struct token *token)
+{
+	struct token at = *token;
+	struct dialect_special special = { "", "" };
+	struct dialect found;
+	char address[40];
+
+	if (token->len != 1 || *token->text != ':')
+		return false;
+	at.len = dialect_around(first->token.text, first->end, token->text, &at.text);
+	at.column -= (int)(token->text - at.text);
+	if (dialect_special(at.text, at.len, &special) && !*special.ours) {
+		said_of(s, DIAG_SPECIAL_NOTHING, &at, "");
+	} else if (*special.ours) {
+		said_of(s, DIAG_ST_FOREIGN, &at, special.ours);
+	} else if (dialect_find(at.text, at.len, 0, &found) && found.kind == DIALECT_ADDRESS) {
+		iec_addr_print(found.addr, address, sizeof(address));
+		said_of(s, DIAG_ST_FOREIGN, &at, address);
+	} else {
+		return false;
+	}
+	return true;
+}
+
 /* Does a type stand behind the colon at @lex? */
 static bool is_type(struct lex lex)
 {
@@ -704,7 +730,7 @@ static bool said_sign(struct st_reader *s, enum st_kind kind, const struct lex *
 	const bool tests = st_form(kind)->tests;
 	struct token at = *token;
 
-	if (said_quotes(s, token))
+	if (said_quotes(s, token) || said_elsewhere(s, first, token))
 		return true;
 	if (lex_is(first, "-") && first->token.text[1] == '-') {
 		said_foreign(s, &first->token, first->token.text, 2, "//");

@@ -9,6 +9,7 @@
 #include "engine/base/name.h"
 
 #include "engine/model/advice.h"
+#include "engine/model/dialect.h"
 #include "engine/text/mend.h"
 
 #include <stdio.h>
@@ -113,12 +114,31 @@ static bool mend_as(struct reader *r, enum mend_kind kind, const char *text, int
 		for (int i = 1; i < out.column - 1; i++)
 			place.col += text[i] == '|' && memchr(text, '|', (size_t)i);
 	}
-	if (out.id == DIAG_WRITE_INSTEAD)
+	if (out.id == DIAG_WRITE_INSTEAD || out.id == DIAG_SPECIAL_INSTEAD || out.id == DIAG_EDGE_OF_VALUE)
 		diag_add(r->diags, place, "%s" DIAG_AND "%s" DIAG_AND "%s", out.from, out.to,
 			 out.line);
 	else
 		diag_add(r->diags, place, "%s" DIAG_AND "%s",
 			 out.id == DIAG_MISSING ? out.to : out.from, out.line);
+	return true;
+}
+
+bool reader_special(struct reader *r, const struct token *token)
+{
+	struct dialect_special special;
+	struct diag place = r->place;
+	const char *text;
+	size_t len;
+
+	if (token->len != 1 || *token->text != ':')
+		return false;
+	len = dialect_around(r->begin, r->lex.end, token->text, &text);
+	if (!dialect_special(text, len, &special) || *special.ours)
+		return false;
+	place.id = DIAG_SPECIAL_NOTHING;
+	place.line = r->mended = token->line;
+	place.column = token->column - (int)(token->text - text);
+	diag_add(r->diags, place, "%.*s", (int)len, text);
 	return true;
 }
 
@@ -135,6 +155,8 @@ bool reader_mend(struct reader *r, enum diag_id id)
 		return true;
 	if (!is_form(id) || r->diags->count >= MEND_MOST)
 		return false;
+	if (reader_special(r, token))
+		return true;
 	text = line_of(r, token->text, declares && r->across_lines && line > r->begun,
 		       &line);
 	if (line == r->mended)

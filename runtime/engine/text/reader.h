@@ -137,6 +137,9 @@ bool reader_fail_token(struct reader *r, enum diag_id id);
 /** reader_mend - reports the line of an error of form as it should be written. False: nobody
  * can mend it, or its message needs no such line. */
 bool reader_mend(struct reader *r, enum diag_id id);
+/** reader_special - tells that S:Z, at its colon @token, is set by other controllers alone. False: it is no such
+ * name, or one that has a word here. */
+bool reader_special(struct reader *r, const struct token *token);
 /** reader_mend_last - the same in place of the last message, if that is about an expression.
  * False always. */
 bool reader_mend_last(struct reader *r);
