@@ -127,6 +127,14 @@ my @powers = map { my $line = $_; map { "| $line$_ | COIL Lamp |" } '', ' (* han
 
 judge('the power of a block among its values', "PROGRAM Main LD\nRUNG", qr/^$/, @powers);
 
+# Words and signs of other tools and other languages.
+my @others = map { "| $_ | COIL Lamp |" } 'LD Ready', 'LDI Ready', 'ANI Ready', 'RISING Ready', 'FALLING Ready', 'CMP A > 5',
+	'CMP A = B', 'Ready AND NOT Horn', 'Ready OR Horn', 'Ready & Horn', 'NO "Ready"', 'NC "Ready"', 'P "Ready"', 'NO %I0,3',
+	'[ A > 1FH ]', '[ A = 0FFh ]', 'NO Ready | TON Delay (PT:=T#5s)', 'NO Ready | CTU Parts (PV:=3)';
+push @others, map { "| NO Ready | $_ |" } 'PULSE Lamp', 'PLS Lamp', 'PLF Lamp', 'COIL "Lamp"', 'S "Lamp"', 'COIL %Q0,3',
+	'MOVE 5 -> A', 'ADD A, B -> Sum', 'ADD A B => Sum', 'SUB 7 A => Sum', 'MUL(A, 2) ';
+judge('words and signs of others', "PROGRAM Main LD\nRUNG", qr/error LD121: "\("/, @others);
+
 my @edges = map { my $word = $_; map { "| $word $_ | COIL Lamp |" } 'A > 5', 'A = 5', 'A <> B', 'Ready AND Horn', '(A > 5)',
 	'A + B > 7' } 'P', 'N';
 

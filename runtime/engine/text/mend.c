@@ -84,6 +84,9 @@ static const struct rule {
 	{ "RESET", "R", IN_CELL }, { "RST", "R", IN_CELL }, { "LATCH", "S", IN_CELL },
 	{ "UNLATCH", "R", IN_CELL }, { "OUT", "COIL", IN_CELL },
 	{ "OUTPUT", "COIL", IN_CELL }, { "CONTACT", "NO", IN_CELL },
+	{ "LD", "NO", IN_CELL }, { "LDI", "NC", IN_CELL }, { "LDN", "NC", IN_CELL }, { "ANI", "NC", IN_CELL },
+	{ "RISING", "P", IN_CELL }, { "FALLING", "N", IN_CELL }, { "PULSE", "COILP", IN_CELL },
+	{ "PLS", "COILP", IN_CELL }, { "PLF", "COILN", IN_CELL },
 	{ "ONS", "P", IN_CELL }, { "OSR", "P", IN_CELL }, { "OSF", "N", IN_CELL },
 	{ "TIMER", "TON", IN_CELL }, { "TMR", "TON", IN_CELL }, { "RTO", "TONR", IN_CELL },
 	{ "COUNTER", "CTU", IN_CELL }, { "CTR", "CTU", IN_CELL },
@@ -389,6 +392,20 @@ static size_t take_dialect(struct mender *m, size_t at)
 	return at + strlen(made);
 }
 
+/* 1FH → 16#1F. */
+static void take_hex(struct mender *m, size_t at)
+{
+	const char *text = m->text + at;
+	const size_t digits = strspn(text, "0123456789ABCDEFabcdef");
+	char made[MADE];
+
+	if (digits > 16 || ascii_upper(text[digits]) != 'H' || mend_is_word(text[digits + 1]) ||
+	    !(m->where & (IN_EXPR | IN_VALUE | IN_ROW | IN_LIST)))
+		return;
+	snprintf(made, sizeof(made), "16#%.*s", (int)digits, text);
+	change(m, at, digits + 1, made);
+}
+
 static size_t take_one(struct mender *m, size_t at)
 {
 	const struct rule *rule;
@@ -419,8 +436,12 @@ static size_t take_one(struct mender *m, size_t at)
 	}
 	if (ascii_digit(*text)) {
 		pass(m, "0", 1);
+		take_hex(m, at);
 		return take_number(m, at);
 	}
+	len = mend_word_length(text + (*text == '%')) + (*text == '%');
+	if (*text == '%' && len > 1 && text[len] == ',' && ascii_digit(text[len + 1]) && m->where & (ROWS | LISTS))
+		change(m, at + len, 1, "."); /* %I0,0 */
 	len = mend_word_length(text);
 	if (len && text[len] == '#')
 		len++;
@@ -800,6 +821,29 @@ static bool mend_more(struct mender *m, const struct word_row *row, size_t at, s
 	return true;
 }
 
+/* NO "Start": quotes around a name. */
+static bool drop_quotes(struct mender *m, size_t at, size_t to)
+{
+	char made[MADE], from[sizeof(m->out->from)];
+
+	if (to - at < 3 || m->text[at] != '\'' || m->text[to - 1] != '\'' ||
+	    mend_word_length(m->text + at + 1) != to - at - 2)
+		return false;
+	memcpy(from, m->out->from, sizeof(from));
+	snprintf(made, sizeof(made), "%.*s", (int)(to - at - 2), m->text + at + 1);
+	if (!m->changed || (size_t)m->out->column == at + 1) {
+		const bool told = m->changed;
+
+		m->changed = false;
+		change(m, at, to - at, made);
+		if (told)
+			memcpy(m->out->from, from, sizeof(from));
+	} else {
+		change(m, at, to - at, made);
+	}
+	return true;
+}
+
 /* What is declared for the edge of a value. */
 static const char *edge_block(const struct word_row *row)
 {
@@ -820,6 +864,8 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 	to = compare_again(m, from, to);
 	if (at >= to) /* nothing stands there */
 		return false;
+	if (drop_quotes(m, at, to))
+		return true;
 	end = to;
 	while (end - at > 2 && m->text[at] == '(' && m->text[end - 1] == ')') {
 		at = skip_blanks(m, at + 1);
@@ -869,6 +915,15 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 	return true;
 }
 
+/* Blanks and the arrow before a result, as in ADD A B => Sum: its bytes; 0: there is none. */
+static size_t result_arrow(const struct mender *m, size_t at)
+{
+	const size_t blanks = strspn(m->text + at, " ");
+	const char *text = m->text + at + blanks;
+
+	return text[0] == '=' && text[1] == '>' ? blanks + 2 + strspn(text + 2, " ") : 0;
+}
+
 /* More values than inputs that are no BOOL: the first one is the power, as TON Delay Start 5s says it in other
  * tools. 1: the others are those inputs; 2: all inputs behind the first; 0: none is the power. */
 static int given_bits(const struct word_row *row, int count)
@@ -893,6 +948,24 @@ static int next_pin(const struct word_row *row, int pin, int bits, bool behind_p
 	return pin;
 }
 
+/* Behind the name of an instance at @at, without the brackets around what follows, as in TON Delay(PT:=5s);
+ * @at: there is no name. @to: the end of the cell. */
+static size_t behind_name(struct mender *m, size_t at, size_t *to)
+{
+	size_t len = mend_word_length(m->text + at);
+	const size_t open = at + len + strspn(m->text + at + len, " ");
+
+	if (!len)
+		return at;
+	if (m->text[open] == '(' && m->text[*to - 1] == ')') {
+		change(m, --*to, 1, "");
+		change(m, open, 1, " ");
+	}
+	if (strchr("[.", m->text[at + len]))
+		len = plain_length(m, at, *to);
+	return at + len;
+}
+
 /* TON Delay 5s → TON Delay PT:=T#5s, TON Delay Start 5s → NO Start | TON Delay PT:=T#5s, ADD A B Sum → ADD IN1:=A IN2:=B OUT=>Sum: the pins in their
  * order, of a block without those that are BOOL. */
 static bool mend_values(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
@@ -904,16 +977,9 @@ static bool mend_values(struct mender *m, const struct word_row *row, size_t fro
 	size_t named = 0, used = 0;
 
 	if (row->kind == WORD_FB) {
-		len = mend_word_length(m->text + at);
-		if (!len)
+		first = behind_name(m, at, &to);
+		if (first == at)
 			return false;
-		if (m->text[at + len] == '(' && m->text[to - 1] == ')') { /* TON Delay(PT:=5s) */
-			change(m, --to, 1, "");
-			change(m, at + len, 1, " ");
-		}
-		if (strchr("[.", m->text[at + len]))
-			len = plain_length(m, at, to);
-		first = at + len;
 		at = skip_blanks(m, first);
 	}
 	first = first ? first : at;
@@ -929,8 +995,9 @@ static bool mend_values(struct mender *m, const struct word_row *row, size_t fro
 		}
 		len = row->kind == WORD_FN && count == 1 && ascii_same(m->text + at, "TO ", 3) ? 3 : 0;
 		at += len;
+		at += row->kind == WORD_FN && count ? result_arrow(m, at) : 0;
 		len = plain_length(m, at, to);
-		if (!len || operator_follows(m, at + len))
+		if (!len || (operator_follows(m, at + len) && !(row->kind == WORD_FN && result_arrow(m, at + len))))
 			return false;
 		value[count] = at;
 		size[count++] = len;
@@ -988,6 +1055,19 @@ static bool mend_known(struct mender *m, size_t from, size_t word, size_t to)
 	       mend_contact(m, row, from, word, to);
 }
 
+/* Does a word join values, as in Start AND NOT Stop? A sign may be a part of a name that is none here: Start-1. */
+static bool joins(const struct mender *m, size_t from, size_t to)
+{
+	struct lex lex;
+	bool is = false;
+
+	lex_init(&lex, m->text + from, to - from);
+	lex_next(&lex);
+	while (lex_next(&lex) != TOKEN_END && !is)
+		is = lex_is(&lex, "AND") || lex_is(&lex, "OR") || lex_is(&lex, "XOR") || lex_is(&lex, "&");
+	return is;
+}
+
 /* Start → NO Start, (Motor) → COIL Motor, N := 1 → [ N := 1 ], TON(D, PT := …) → TON D PT:=… */
 static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 {
@@ -997,6 +1077,13 @@ static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 				   WORD_COUNT;
 	size_t at = from;
 
+	if (ascii_same(m->text + from, "CMP ", 4) && to - from > 4) {
+		change(m, to, 0, " ]");
+		m->changed = false;
+		change(m, from, 4, "");
+		change(m, from, 0, "[ ");
+		return;
+	}
 	if (m->text[from] == '(' && m->text[to - 1] == ')') {
 		char made[MADE];
 
@@ -1033,7 +1120,7 @@ static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 		return;
 	while (at < to && !is_operator(m->text[at]))
 		at++;
-	if (at < to) {
+	if (at < to || joins(m, from, to)) {
 		change(m, to, 0, " ]");
 		change(m, from, 0, "[ ");
 		snprintf(m->out->to, sizeof(m->out->to), "[ ]");
