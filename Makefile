@@ -233,7 +233,7 @@ $(HAL_TEST)/uapi/%.o: tests/hal/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(HAL_TEST)/suite_%: $(HAL_TEST)/%/suite.o $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=malloc,--wrap=calloc,--wrap=mmap64 -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 $(HAL_TEST)/suite_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/suite_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/suite_uapi: $(call HAL_FAKE,uapi,gpio_uapi)

@@ -67,6 +67,22 @@ void fake_unplug(int chip)
 	}
 }
 
+void *fake_new(size_t size)
+{
+	void *object = aligned_alloc(16, (size + 15) & ~(size_t)15);
+
+	return object ? memset(object, 0, size) : NULL;
+}
+
+bool fake_fails(void)
+{
+	if (fake.good_calls == 0 || --fake.good_calls > 0)
+		return false;
+	fake.call_failed = true;
+	errno = fake.call_error;
+	return true;
+}
+
 struct fake_chip *fake_open(const char *path)
 {
 	const char *name = strstr(path, "gpiochip");
@@ -75,6 +91,8 @@ struct fake_chip *fake_open(const char *path)
 
 	if (fake_at_open)
 		fake_at_open();
+	if (fake_fails())
+		return NULL;
 	if (number < 0 || number >= FAKE_CHIPS ||
 	    !fake.chip[number].present) {
 		errno = ENOENT;
@@ -105,6 +123,8 @@ int fake_take(struct fake_request *request, struct fake_chip *chip,
 		errno = fake.take_error;
 		return -1;
 	}
+	if (fake_fails())
+		return -1;
 	for (size_t i = 0; i < request->count; i++) {
 		if (request->offset[i] >= chip->lines ||
 		    fake_line(chip, request->offset[i]).used) {
@@ -143,6 +163,8 @@ void fake_release(struct fake_request *request)
 
 static int answer(const struct fake_request *request, int error)
 {
+	if (fake_fails())
+		return -1;
 	if (request->generation != request->chip->generation)
 		error = ENODEV;
 	errno = error;

@@ -46,6 +46,9 @@ struct fake {
 	int reads, writes, takes, releases, opens, closes;
 	int read_error, write_error, take_error; /* errno, until 0          */
 	int settings;             /* objects of libgpiod that are not freed */
+	int good_calls;           /* that many calls until one fails; 0: none fails */
+	int call_error;           /* errno of that call                     */
+	bool call_failed;         /* it was made                            */
 };
 extern struct fake fake;
 
@@ -56,7 +59,11 @@ void fake_unplug(int chip);
 void fake_settings(int more);
 /* A line as it is now; another thread may be at it. */
 struct fake_line fake_line(const struct fake_chip *chip, unsigned int offset);
+/* Whether this call is the one that fails; then errno is set. */
+bool fake_fails(void);
 
+/* Memory of a fake, all zero. It is not from malloc() or calloc(), of which a test may give too little. */
+void *fake_new(size_t size);
 /* The work of a libgpiod. Return -1 and set errno on failure. */
 struct fake_chip *fake_open(const char *path);
 void fake_close(void);

@@ -89,6 +89,8 @@ static void copy_text(char *out, const char *text)
 
 static int chip_about(const struct fake_chip *chip, struct gpiochip_info *out)
 {
+	if (fake_fails())
+		return -1;
 	copy_text(out->label, chip->label);
 	out->lines = chip->lines;
 	return 0;
@@ -98,6 +100,8 @@ static int line_about(const struct fake_chip *chip, struct gpio_v2_line_info *ou
 {
 	struct fake_line line;
 
+	if (fake_fails())
+		return -1;
 	if (out->offset >= chip->lines) {
 		errno = EINVAL;
 		return -1;
@@ -141,7 +145,7 @@ static int value_of(const struct gpio_v2_line_config *config, uint32_t i)
 static int take(struct fake_chip *chip, struct gpio_v2_line_request *ask)
 {
 	static char owner[GPIO_MAX_NAME_SIZE];
-	struct fake_request *request = calloc(1, sizeof(*request));
+	struct fake_request *request = fake_new(sizeof(*request));
 	struct opened what = { .request = request };
 	char bias[FAKE_MOST], drive[FAKE_MOST];
 	int values[FAKE_MOST];

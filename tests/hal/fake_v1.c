@@ -22,7 +22,7 @@ struct gpiod_chip {
 struct gpiod_chip *gpiod_chip_open(const char *path)
 {
 	struct fake_chip *fake_chip = fake_open(path);
-	struct gpiod_chip *chip = fake_chip ? calloc(1, sizeof(*chip)) : NULL;
+	struct gpiod_chip *chip = fake_chip ? fake_new(sizeof(*chip)) : NULL;
 
 	if (!chip)
 		return NULL;
@@ -51,6 +51,8 @@ unsigned int gpiod_chip_num_lines(struct gpiod_chip *chip)
 struct gpiod_line *gpiod_chip_get_line(struct gpiod_chip *chip,
 				       unsigned int offset)
 {
+	if (fake_fails())
+		return NULL;
 	if (offset < chip->fake->lines)
 		return &chip->line[offset];
 	errno = EINVAL;
@@ -118,7 +120,7 @@ int gpiod_line_request_bulk(struct gpiod_line_bulk *bulk,
 			    const int *default_vals)
 {
 	struct gpiod_chip *chip = bulk->lines[0]->chip;
-	struct fake_request *request = calloc(1, sizeof(*request));
+	struct fake_request *request = fake_new(sizeof(*request));
 	char bias[FAKE_MOST], drive[FAKE_MOST];
 	int flags = config->flags;
 

@@ -30,8 +30,11 @@ struct gpiod_line_request { struct fake_request fake; };
 /* Counts the objects that must be freed. */
 static void *new_object(size_t size)
 {
-	fake_settings(1);
-	return calloc(1, size);
+	void *object = fake_fails() ? NULL : fake_new(size);
+
+	if (object)
+		fake_settings(1);
+	return object;
 }
 
 static void free_object(void *object)
@@ -46,9 +49,12 @@ struct gpiod_chip *gpiod_chip_open(const char *path)
 	struct fake_chip *fake_chip = fake_open(path);
 	struct gpiod_chip *chip;
 
-	if (!fake_chip)
+	chip = fake_chip ? new_object(sizeof(*chip)) : NULL;
+	if (!chip) {
+		if (fake_chip)
+			fake_close();
 		return NULL;
-	chip = new_object(sizeof(*chip));
+	}
 	chip->fake = fake_chip;
 	return chip;
 }
@@ -63,6 +69,8 @@ struct gpiod_chip_info *gpiod_chip_get_info(struct gpiod_chip *chip)
 {
 	struct gpiod_chip_info *info = new_object(sizeof(*info));
 
+	if (!info)
+		return NULL;
 	info->fake = chip->fake;
 	return info;
 }
@@ -92,6 +100,8 @@ struct gpiod_line_info *gpiod_chip_get_line_info(struct gpiod_chip *chip,
 		return NULL;
 	}
 	info = new_object(sizeof(*info));
+	if (!info)
+		return NULL;
 	info->line = fake_line(chip->fake, offset);
 	return info;
 }
@@ -146,7 +156,8 @@ struct gpiod_line_settings *gpiod_line_settings_new(void)
 {
 	struct gpiod_line_settings *settings = new_object(sizeof(*settings));
 
-	gpiod_line_settings_reset(settings);
+	if (settings)
+		gpiod_line_settings_reset(settings);
 	return settings;
 }
 
@@ -167,7 +178,7 @@ int gpiod_line_settings_set_direction(struct gpiod_line_settings *settings,
 				      enum gpiod_line_direction direction)
 {
 	settings->direction = direction;
-	return 0;
+	return fake_fails() ? -1 : 0;
 }
 
 int gpiod_line_settings_set_bias(struct gpiod_line_settings *settings,
@@ -182,7 +193,7 @@ int gpiod_line_settings_set_bias(struct gpiod_line_settings *settings,
 	};
 
 	settings->bias = letter[bias];
-	return 0;
+	return fake_fails() ? -1 : 0;
 }
 
 int gpiod_line_settings_set_drive(struct gpiod_line_settings *settings,
@@ -195,14 +206,14 @@ int gpiod_line_settings_set_drive(struct gpiod_line_settings *settings,
 	};
 
 	settings->drive = letter[drive];
-	return 0;
+	return fake_fails() ? -1 : 0;
 }
 
 int gpiod_line_settings_set_output_value(struct gpiod_line_settings *settings,
 					 enum gpiod_line_value value)
 {
 	settings->value = value == GPIOD_LINE_VALUE_ACTIVE;
-	return 0;
+	return fake_fails() ? -1 : 0;
 }
 
 struct gpiod_line_config *gpiod_line_config_new(void)
@@ -220,6 +231,8 @@ int gpiod_line_config_add_line_settings(struct gpiod_line_config *config,
 					size_t num_offsets,
 					struct gpiod_line_settings *settings)
 {
+	if (fake_fails())
+		return -1;
 	for (size_t i = 0; i < num_offsets; i++) {
 		if (config->count == FAKE_MOST) {
 			errno = E2BIG;
@@ -256,6 +269,8 @@ gpiod_chip_request_lines(struct gpiod_chip *chip,
 	char bias[FAKE_MOST], drive[FAKE_MOST];
 	int values[FAKE_MOST];
 
+	if (!request)
+		return NULL;
 	request->fake.count = line_cfg->count;
 	request->fake.output = line_cfg->settings[0].direction ==
 			       GPIOD_LINE_DIRECTION_OUTPUT;

@@ -7,6 +7,8 @@
  */
 #include "tests/hal/bench.h"
 
+#include <sys/mman.h>
+
 static void test_order(void)
 {
 	struct bench b;
@@ -686,6 +688,437 @@ static void test_check(void)
 	bench_end(&b);
 }
 
+/* ---- what fails ---- */
+
+static bool nothing_is_open(void)
+{
+	bool none = fake.opens == fake.closes && fake.settings == 0;
+
+	for (int chip = 0; chip < FAKE_CHIPS; chip++)
+		for (int i = 0; i < FAKE_LINES; i++)
+			none = none && !fake.chip[chip].line[i].used;
+	return none;
+}
+
+/* Four lines, so that a map makes few calls: IN0, IN1, IN2, OUT0. */
+static void few_lines(void)
+{
+	chips();
+	fake.chip[0].lines = 4;
+	fake.chip[0].line[3].name = "OUT0";
+	fake.chip[1].present = false;
+}
+
+static const char few_points[] = "BOARD \"x\"\n%IX0.0 gpio line=IN0\n%IX0.1 gpio chip=panel offset=2 pull-up\n"
+	"%QX0.0 gpio line=OUT0\n";
+
+/* Each call of the library or the kernel fails once. @error: its errno. */
+static void each_call_fails(int error, const char *as)
+{
+	int silent = 0, open = 0, dead = 0, count = 0;
+
+	for (bool failed = true; failed; count++) {
+		struct bench b;
+		bool good;
+
+		few_lines();
+		fake.good_calls = count + 1;
+		fake.call_error = error;
+		bench_begin(&b);
+		good = bench_map(&b, few_points) && hal_open(&b.hal, &b.map, &b.arena, &b.diags);
+		failed = fake.call_failed;
+		diag_print(&b.diags.diag[0], b.text, sizeof(b.text));
+		silent += good ? b.diags.errors != 0 :
+				 b.diags.errors != 1 || !strstr(b.text, "error LD5");
+		dead += good && !scan(&b, 0);
+		bench_end(&b);
+		open += !nothing_is_open();
+	}
+	CHECK_AS(silent == 0 && dead == 0, as);
+	CHECK_AS(open == 0, "after a call that failed nothing stays open");
+	CHECK_AS(count > 20, "there are calls that can fail");
+}
+
+static void test_calls_that_fail(void)
+{
+	each_call_fails(EIO, "a call fails with EIO: one message");
+	each_call_fails(EACCES, "a call fails with EACCES: one message");
+	each_call_fails(ENODEV, "a call fails with ENODEV: one message");
+	each_call_fails(EBUSY, "a call fails with EBUSY: one message");
+	if (strncmp(gpio_version(), "2.", 2) == 0)
+		each_call_fails(0, "a call fails without an errno: one message");
+}
+
+/* A reopened line whose calls fail stays in fault; the next try may succeed. */
+static void test_reopening_fails(void)
+{
+	int wrong = 0, count = 0;
+
+	for (bool failed = true; failed; count++) {
+		struct bench b;
+		bool good;
+
+		few_lines();
+		if (!CHECK(bench_open(&b, few_points)))
+			return;
+		fake.read_error = fake.write_error = EIO;
+		for (int i = 0; i < HAL_FAILURES; i++) {
+			output(&b, 0, i % 2 == 0);
+			scan(&b, i);
+		}
+		fake.read_error = fake.write_error = 0;
+		fake.good_calls = count + 1;
+		fake.call_error = EIO;
+		fake.call_failed = false;
+		good = hal_reopen(&b.hal);
+		failed = fake.call_failed;
+		wrong += good != (hal_quality(&b.hal) == QUALITY_GOOD) || (!good && !failed);
+		fake.good_calls = 0;
+		wrong += !hal_reopen(&b.hal) || hal_quality(&b.hal) != QUALITY_GOOD;
+		bench_end(&b);
+		wrong += !nothing_is_open();
+	}
+	CHECK_AS(wrong == 0 && count > 10, "a line that cannot be reopened is in fault until it can");
+}
+
+static int listed, listed_biases;
+static void see_bias(void *context, const struct line_seen *line)
+{
+	static const enum io_bias want[] = { BIAS_UP, BIAS_DOWN, BIAS_NONE, BIAS_AS_IS };
+
+	(void)context;
+	listed++;
+	listed_biases += line->bias == want[line->offset];
+}
+
+static void test_list_what_answers(void)
+{
+	int count = 0, wrong = 0;
+
+	for (bool failed = true; failed; count++) {
+		struct bench b;
+		bool good;
+
+		few_lines();
+		for (int i = 0; i < 4; i++)
+			fake.chip[0].line[i].bias = "udn-"[i];
+		fake.good_calls = count + 1;
+		fake.call_error = EIO;
+		listed = listed_biases = 0;
+		bench_begin(&b);
+		good = hal_list(bench_dev(), see_bias, NULL, &b.diags);
+		failed = fake.call_failed;
+		wrong += listed != listed_biases ||
+			 (good ? listed != (failed ? 3 : 4) : !failed || (listed != 0 && listed != 4));
+		wrong += good != (b.diags.errors == 0) || !nothing_is_open();
+		bench_end(&b);
+	}
+	CHECK_AS(wrong == 0 && count > 4, "lines that answer are listed with their bias, one that fails is left out");
+}
+
+/* Another program takes or removes something between the search and the request. */
+static int opens_left, meanwhile;
+static void meanwhile_at_open(void)
+{
+	char path[250];
+
+	if (opens_left-- != 0)
+		return;
+	if (meanwhile) {
+		snprintf(path, sizeof(path), "%s/gpiochip0", bench_dev());
+		unlink(path);
+		fake.chip[0].open_error = EACCES;
+	} else {
+		fake.chip[0].line[0].used = true;
+		fake.chip[0].line[0].owner = fake.chip[0].label ? "other" : NULL;
+	}
+}
+
+static bool meanwhile_says(const char *lines, int opens, int what, const char *label, const char *want)
+{
+	struct bench b;
+	FILE *file;
+	char path[250];
+	bool good;
+
+	few_lines();
+	fake.chip[0].label = label;
+	opens_left = opens;
+	meanwhile = what;
+	fake_at_open = meanwhile_at_open;
+	good = refused_like(&b, lines, want);
+	fake_at_open = NULL;
+	snprintf(path, sizeof(path), "%s/gpiochip0", bench_dev());
+	file = fopen(path, "w");
+	if (file)
+		fclose(file);
+	return good;
+}
+
+static void test_meanwhile(void)
+{
+	struct bench b;
+
+	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, "panel", "LD510: \"IN0\" is in use by other"));
+	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, NULL, "LD510: \"IN0\" is in use by the kernel"));
+	CHECK(meanwhile_says("%IX0.1 gpio line=IN1\n%IX0.0 gpio line=IN0", 2, 0, "panel",
+			     "LD510: \"IN0\" is in use by other"));
+	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 0, 1, "panel", "gpiochip0 (?)"));
+	few_lines();
+	fake.take_error = EPERM;
+	CHECK(bench_deny(0, 0600, 0));
+	fake.chip[0].open_error = 0;
+	CHECK(refused_like(&b, "%IX0.0 gpio line=IN0", "LD511"));
+	few_lines();
+	fake.take_error = EBUSY;
+	CHECK_AS(refused_like(&b, "%IX0.0 gpio line=IN0", "LD513"), "no line of the request is in use");
+	few_lines();
+	fake.chip[0].open_error = EIO;
+	CHECK(refused(&b, "%IX0.0 gpio line=IN0",
+		      "LD513: \"gpiochip0\": the kernel refuses access: Input/output error"));
+	bench_begin(&b);
+	CHECK(!hal_list(bench_dev(), see_bias, NULL, &b.diags) && b.diags.errors == 1);
+	diag_print(&b.diags.diag[0], b.text, sizeof(b.text));
+	CHECK_AS(strstr(b.text, "gpiochip0") && strstr(b.text, "Input/output error"), "a list names the chip that fails");
+	bench_end(&b);
+	bench_begin(&b);
+	listed = 0;
+	CHECK_AS(hal_list("/nowhere", see_bias, NULL, &b.diags) && listed == 0, "a machine without chips has no lines");
+	bench_end(&b);
+}
+
+/* Files in /dev that only look like chips, and a chip that is named by its path. */
+static void test_names_of_chips(void)
+{
+	static const char *const odd[] = { "gpiochip", "gpiochipx", "gpiochip1x", "gpiochip99999999999", "gpio0" };
+	struct bench b;
+	char path[250], text[400];
+
+	few_lines();
+	for (size_t i = 0; i < sizeof(odd) / sizeof(odd[0]); i++) {
+		snprintf(path, sizeof(path), "%s/%s", bench_dev(), odd[i]);
+		fclose(fopen(path, "w"));
+	}
+	snprintf(text, sizeof(text), "BOARD \"x\"\n%%IX0.0 gpio chip=\"%s/gpiochip0\" offset=1\n", bench_dev());
+	CHECK_AS(bench_open(&b, text), "a chip may be named by its path");
+	bench_end(&b);
+	snprintf(text, sizeof(text), "%%IX0.0 gpio chip=\"%sx/gpiochip0\" offset=1", bench_dev());
+	CHECK_AS(refused_like(&b, text, "LD512"), "a path into another folder is no chip");
+	CHECK(refused_like(&b, "%IX0.0 gpio chip=gpiochip1x offset=1", "LD512"));
+	CHECK(refused_like(&b, "%IX0.0 gpio chip=gpiochip99999999999 offset=1", "LD512"));
+	CHECK(fake.opens == fake.closes);
+	for (size_t i = 0; i < sizeof(odd) / sizeof(odd[0]); i++) {
+		snprintf(path, sizeof(path), "%s/%s", bench_dev(), odd[i]);
+		unlink(path);
+	}
+	few_lines();
+	fake.chip[0].line[1].name = fake.chip[0].line[2].name = "IN0";
+	CHECK_AS(refused(&b, "%IX0.0 gpio line=IN0", "on gpiochip0, 0; give chip= and offset="),
+		 "three lines of a name: the first two are told");
+}
+
+/* Each line of a request has another bias and drive. The kernel takes ten kinds in one request. */
+static void test_kinds_of_lines(void)
+{
+	static const char *const bias[] = { "", "no-pull", "pull-up", "pull-down" };
+	static const char *const drive[] = { "", "open-drain", "open-source" };
+	const bool uapi = strcmp(gpio_library(), "uAPI") == 0;
+
+	for (int kinds = 1; kinds <= 12; kinds++) {
+		struct bench b;
+		char text[2000];
+		size_t len = (size_t)snprintf(text, sizeof(text), "BOARD \"x\"\n");
+		bool good;
+
+		for (int i = 0; i < 2 * kinds; i++)
+			len += (size_t)snprintf(text + len, sizeof(text) - len, "%%QX%d.%d gpio line=OUT%d %s %s\n",
+						i / 8, i % 8, i, bias[i / 2 % 4], drive[i / 2 / 4]);
+		chips();
+		bench_begin(&b);
+		good = bench_map(&b, text) && hal_open(&b.hal, &b.map, &b.arena, &b.diags);
+		CHECK_AS(good == (!uapi || kinds <= 10), "lines of several kinds");
+		if (good)
+			for (int i = 0; i < 2 * kinds; i++) {
+				const struct fake_line *line = &fake.chip[0].line[100 + i];
+
+				if (line->bias != "-nud"[i / 2 % 4] || line->drive != "-os"[i / 2 / 4])
+					CHECK_AS(false, "each line has its own bias and drive");
+			}
+		else
+			CHECK(b.diags.errors == 1 && b.diags.diag[0].id == DIAG_IO_REQUEST);
+		bench_end(&b);
+		CHECK(nothing_is_open());
+	}
+}
+
+/* ---- memory runs out ---- */
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_mmap64(void *at, size_t size, int prot, int flags, int file, off_t offset);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int file, off_t offset);
+
+static int blocks_left = -1; /* -1: all that one wants */
+static bool has_refused;
+
+static bool may_have_block(void)
+{
+	if (blocks_left == 0) {
+		has_refused = true;
+		errno = ENOMEM;
+		return false;
+	}
+	blocks_left -= blocks_left > 0;
+	return true;
+}
+
+void *__wrap_malloc(size_t size)
+{
+	return may_have_block() ? __real_malloc(size) : NULL;
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+	return may_have_block() ? __real_calloc(count, size) : NULL;
+}
+
+void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int file, off_t offset)
+{
+	return may_have_block() ? __real_mmap64(at, size, prot, flags, file, offset) : MAP_FAILED;
+}
+
+static bool told_no_memory(const struct bench *b)
+{
+	for (int i = 0; i < b->diags.count; i++)
+		if (b->diags.diag[i].id == DIAG_NO_MEMORY)
+			return true;
+	return false;
+}
+
+/* The first chunk of an arena has 4000 bytes. */
+static void leave_room(struct arena *arena, size_t room)
+{
+	arena_alloc(arena, 8);
+	arena_alloc(arena, 4000 - 8 - room);
+}
+
+static const char roomy_map[] = "BOARD \"x\"\nBUS plant modbus-tcp host=10.0.0.20\n%IX0.0 gpio line=IN0\n"
+	"%IX0.1 gpio chip=panel offset=1\n%QX0.0 gpio line=OUT0 safe=1\n%QX9.0 gpio line=FAR0\n"
+	"%IW10 modbus bus=plant unit=1 input-register=5\n%QW10 modbus bus=plant unit=1 holding-register=7\n"
+	"%IX200.0 quality of=%IW10\n";
+
+/* Behind each eight bytes of an arena, and at each block. @room: of the arena; -1: as much as it wants. */
+static bool opens_with(int room, int blocks)
+{
+	struct bench b;
+	struct arena arena;
+	bool good;
+
+	chips();
+	bench_begin(&b);
+	arena_init(&arena);
+	if (!bench_map(&b, roomy_map))
+		return CHECK(false);
+	if (room >= 0)
+		leave_room(&arena, (size_t)room);
+	has_refused = false;
+	blocks_left = blocks;
+	good = hal_open(&b.hal, &b.map, &arena, &b.diags);
+	blocks_left = -1;
+	if (good ? has_refused : !told_no_memory(&b))
+		CHECK_AS(false, "without memory a map is refused, and that is told");
+	bench_end(&b);
+	arena_free(&arena);
+	if (!nothing_is_open())
+		CHECK_AS(false, "without memory nothing stays open");
+	return good;
+}
+
+static bool exchanges_with(int room, int blocks)
+{
+	struct bench b;
+	struct arena arena;
+	struct hal next;
+	enum hal_beside result;
+
+	chips();
+	arena_init(&arena);
+	if (!CHECK(bench_open(&b, map_a) && iomap_read(&other_map, &b.arena, "other.io", roomy_map,
+							     strlen(roomy_map), &b.diags)))
+		return true;
+	other_map.dev = bench_dev();
+	scan(&b, 0);
+	if (room >= 0)
+		leave_room(&arena, (size_t)room);
+	has_refused = false;
+	blocks_left = blocks;
+	result = hal_beside(&next, &b.hal, &other_map, &arena, &b.diags, needs);
+	blocks_left = -1;
+	if (result == BESIDE_GOOD ? has_refused : !told_no_memory(&b) || result != BESIDE_REFUSED)
+		CHECK_AS(false, "without memory another map is refused, and that is told");
+	if (result == BESIDE_GOOD && hal_open_new(&next, &b.diags)) {
+		hal_exchange(&b.hal, &next);
+		hal_close_rest(&next);
+	}
+	output(&b, 0, true);
+	if (!scan(&b, 10 * MS) || level("OUT0") != 1)
+		CHECK_AS(false, "without memory the old map goes on, with it the new one");
+	bench_end(&b);
+	arena_free(&arena);
+	if (!nothing_is_open())
+		CHECK_AS(false, "without memory nothing stays open");
+	return result == BESIDE_GOOD;
+}
+
+static const char rich_map[] = "BOARD \"x\"\nBUS a modbus-rtu port=/dev/ttyS1 baud=9600\nBUS t modbus-tcp host=[::1]:502\n"
+	"SERVE s modbus-tcp listen=[::1]:1502\nWINDOW s coil=0..7 %QX0.0 read-write\n"
+	"BUS p peer interface=lo group=239.1.1.1:5\nPUBLISH me A,B, C every=1s bus=p\n"
+	"DEVICE a unit=1 read-registers=9 gap=0\nMODULE M di=3 discrete-input=7\n%XIB0..2 module bus=a unit=2 type=M substitute=hold\n"
+	"%AIW0 iio device=\"d e\" channel=voltage0 range=-5..5 at -10V..10mV limits=-11V..1V\n"
+	"%IX20.0..1 modbus bus=a unit=1 input-register=3 bit=0 ask=Drive\n%ID8 peer bus=p from=x name=y\n"
+	"%IX30.0 gpio line=IN0\n%IX30.1 gpio chip=panel offset=1\n%IB32 quality of=%ID8\n";
+
+static bool reads_with(int room, int blocks)
+{
+	struct bench b;
+	bool good;
+
+	bench_begin(&b);
+	if (room >= 0)
+		leave_room(&b.arena, (size_t)room);
+	has_refused = false;
+	blocks_left = blocks;
+	good = bench_map(&b, rich_map);
+	blocks_left = -1;
+	if (good ? has_refused : !told_no_memory(&b))
+		CHECK_AS(false, "without memory a map is not read, and that is told");
+	diag_print(&b.diags.diag[0], b.text, sizeof(b.text));
+	arena_free(&b.arena);
+	return good;
+}
+
+/* The blocks that it takes until there are enough of them; then with one less, wherever the arena needs it. */
+static void each_block_is_missing(bool (*try)(int room, int blocks), const char *as)
+{
+	int blocks = 0;
+
+	while (blocks < 100 && !try(-1, blocks))
+		blocks++;
+	CHECK_AS(blocks > 0 && blocks < 100, as);
+	for (int most = blocks; blocks >= 0 && most - blocks < 8; blocks--)
+		for (int room = 0; room < 3900 && !try(room, blocks); room += 8)
+			;
+}
+
+static void test_no_memory(void)
+{
+	each_block_is_missing(reads_with, "a map is read as soon as there is memory");
+	each_block_is_missing(opens_with, "a map opens as soon as there is memory");
+	each_block_is_missing(exchanges_with, "another map is taken as soon as there is memory");
+}
+
 int main(void)
 {
 	if (!bench_dev())
@@ -712,6 +1145,13 @@ int main(void)
 	test_another_map_keeps();
 	test_a_map_without_lines();
 	test_maps_that_cannot_be_exchanged();
+	test_calls_that_fail();
+	test_reopening_fails();
+	test_list_what_answers();
+	test_meanwhile();
+	test_names_of_chips();
+	test_kinds_of_lines();
+	test_no_memory();
 	bench_remove_dev();
 	return tap_done();
 }
