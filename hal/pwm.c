@@ -210,7 +210,7 @@ struct chip_list {
 static void see_channel(const struct chip_list *list, const char *chip, const char *device,
 			unsigned number)
 {
-	char channel[12], folder[DEVICE_PATH], path[DEVICE_PATH];
+	char channel[12], of_channel[16], folder[DEVICE_PATH], path[DEVICE_PATH];
 	double duty = 0, period = 0;
 	struct device_seen seen = {
 		.driver = DRIVER_pwm, .device = chip, .label = device, .channel = channel,
@@ -218,8 +218,9 @@ static void see_channel(const struct chip_list *list, const char *chip, const ch
 	};
 
 	snprintf(channel, sizeof(channel), "%u", number);
-	snprintf(folder, sizeof(folder), "%.60s/%.60s/pwm%u", list->class, chip, number);
-	seen.has_value = sysfs_path(path, sizeof(path), folder, "period", "") &&
+	snprintf(of_channel, sizeof(of_channel), "/pwm%u", number);
+	seen.has_value = sysfs_path(folder, sizeof(folder), list->class, chip, of_channel) &&
+			 sysfs_path(path, sizeof(path), folder, "period", "") &&
 			 sysfs_read_number(path, &period) && period > 0 &&
 			 sysfs_path(path, sizeof(path), folder, "duty_cycle", "") &&
 			 sysfs_read_number(path, &duty);

@@ -3,6 +3,7 @@
  * channels - the tests of analog values: scaling, quality, substitutes and safe values in virtual time, then the
  * drivers pwm, w1 and hwmon with files in place of the kernel's, and what can go wrong with them.
  */
+#define _DEFAULT_SOURCE /* setreuid() */
 #include "hal/channel_cell.h"
 #include "hal/group.h"
 #include "hal/sysfs.h"
@@ -265,6 +266,46 @@ static void test_simulated(void)
 	field_end(&f);
 }
 
+/* An input that a block asks for has no age; it is good until an answer is not. So is such an output. */
+static void test_asked(void)
+{
+	struct field f;
+
+	field_begin(&f);
+	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT)->ask = 1;
+	field_add(&f, "%QW0", DRIVER_modbus, IEC_INT)->ask = 1;
+	field_add(&f, "%QX4.0", DRIVER_modbus, IEC_BOOL);
+	f.point[2].active_low = true;
+	CHECK(field_open(&f) && field_scan(&f, 0));
+	CHECK_AS(field_quality(&f, 0) == QUALITY_GOOD && field_quality(&f, 1) == QUALITY_GOOD,
+		 "nobody has asked yet: nothing is wrong");
+	channels_put(f.hal.channels, 0, INT(7), true, 0);
+	channels_put(f.hal.channels, 1, INT(0), true, 0);
+	field_scan(&f, 100 * INT64_C(1000) * MS);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_GOOD && field_get(&f, 0).i == 7, "an old answer is an answer");
+	channels_put(f.hal.channels, 0, INT(0), false, 0);
+	channels_put(f.hal.channels, 1, INT(0), false, 0);
+	field_scan(&f, 100 * INT64_C(1000) * MS);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_FAULT && field_quality(&f, 1) == QUALITY_FAULT, "one bad answer is a fault");
+	CHECK(field_get(&f, 0).i == 7);
+	CHECK_AS(channels_get(f.hal.channels, 2, &(uint32_t){ 0 }).i == 1, "a bit that is active low is sent the other way round");
+	field_set(&f, 2, INT(1));
+	field_scan(&f, 100 * INT64_C(1001) * MS);
+	CHECK(channels_get(f.hal.channels, 2, &(uint32_t){ 0 }).i == 0);
+	/* What is no point of a gateway is left alone. */
+	channels_put(f.hal.channels, 99, INT(1), true, 0);
+	channels_put(f.hal.channels, -1, INT(1), true, 0);
+	channels_put(NULL, 0, INT(1), true, 0);
+	CHECK(channels_get(f.hal.channels, 0, &(uint32_t){ 0 }).i == 0 && channels_get(f.hal.channels, 99, &(uint32_t){ 0 }).i == 0 &&
+	      channels_get(NULL, 0, &(uint32_t){ 0 }).i == 0);
+	channels_alone(NULL, DRIVER_modbus);
+	channels_alone(f.hal.channels, DRIVER_peer);
+	channels_put(f.hal.channels, 0, INT(8), true, 0);
+	field_scan(&f, 100 * INT64_C(1002) * MS);
+	CHECK_AS(field_get(&f, 0).i == 8 && field_quality(&f, 0) == QUALITY_GOOD, "another gateway's absence is none of its");
+	field_end(&f);
+}
+
 /* A bit: whether all are good; else the worst of them. */
 static void test_told_quality(void)
 {
@@ -279,6 +320,8 @@ static void test_told_quality(void)
 	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT);
 	field_add(&f, "%IW2", DRIVER_modbus, IEC_INT);
 	field_add(&f, "%IW4", DRIVER_modbus, IEC_INT);
+	channel = field_add(&f, "%ID36", DRIVER_quality, IEC_REAL);
+	iec_addr_parse("%IW0", 4, &channel->of), channel->of_bits = 32;
 	CHECK(field_open(&f));
 	channels_put(f.hal.channels, 2, INT(1), true, 0);
 	channels_put(f.hal.channels, 3, INT(1), true, 0);
@@ -288,6 +331,7 @@ static void test_told_quality(void)
 		channels_put(f.hal.channels, 3, INT(1), false, 0);
 	field_scan(&f, 0);
 	CHECK(field_get(&f, 0).i == 1 && field_get(&f, 1).i == 2);
+	CHECK_AS(field_get(&f, 5).r == 2, "as=REAL: the same number");
 	field_scan(&f, 1001 * MS);
 	CHECK(field_get(&f, 0).i == 0 && field_get(&f, 1).i == 2);
 	field_end(&f);
@@ -532,6 +576,56 @@ static void test_slow_device(void)
 	field_end(&f);
 }
 
+/* Each sensor has a thread, until there are too many. */
+static void test_many_sensors(void)
+{
+	struct field f;
+	bool right = true, good = true;
+	static char name[70][24];
+	char path[80], text[20];
+
+	field_begin(&f);
+	for (int i = 0; i < 70; i++) {
+		snprintf(name[i], sizeof(name[i]), "28-%d", i);
+		snprintf(path, sizeof(path), "bus/w1/devices/28-%d/temperature", i);
+		snprintf(text, sizeof(text), "%d\n", 1000 * i);
+		sys_put(path, text);
+		snprintf(text, sizeof(text), "%%ID%d", 4 * i);
+		add_sensor(&f, text, name[i])->stale_ns = IO_STALE_NS;
+	}
+	CHECK(field_open(&f));
+	for (int i = 0; i < 70; i++)
+		good = UNTIL(&f, field_quality(&f, i) == QUALITY_GOOD, 9000) && good;
+	for (int i = 0; i < 70; i++)
+		right = right && near(field_get(&f, i).r, i);
+	CHECK_AS(good && right, "seventy sensors have seventy values");
+	field_end(&f);
+	sys_remove("bus/w1");
+}
+
+/* Sensors of a bus measure one after the other: a map that says no stale= gives them time for that. */
+static void test_time_of_sensors(void)
+{
+	struct field f;
+	int64_t at_ns;
+
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	sys_put("bus/w1/devices/28-2/temperature", "20000\n");
+	field_begin(&f);
+	add_sensor(&f, "%ID0", "28-1")->stale_ns = IO_STALE_NS;
+	add_sensor(&f, "%ID4", "28-2")->stale_ns = 700 * MS;
+	f.channel[0].poll_ns = f.channel[1].poll_ns = 600 * 1000 * MS;
+	at_ns = now();
+	CHECK(field_open(&f));
+	field_scan(&f, at_ns + INT64_C(3) * IO_STALE_NS);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_GOOD, "two sensors have four times the usual time");
+	CHECK_AS(field_quality(&f, 1) == QUALITY_STALE, "stale= of the map is obeyed");
+	field_scan(&f, now() + INT64_C(5) * IO_STALE_NS);
+	CHECK(field_quality(&f, 0) == QUALITY_STALE);
+	field_end(&f);
+	sys_remove("bus/w1");
+}
+
 /* A thread that never comes back holds up no end. */
 static void test_hung_device(void)
 {
@@ -762,6 +856,122 @@ static void test_hwmon(void)
 	field_end(&f);
 }
 
+/* ---- outputs whose device fails or goes ---- */
+
+#define FAN "class/hwmon/hwmon2/"
+
+static void make_fan(struct field *f)
+{
+	struct io_channel *channel;
+
+	sys_remove("class/hwmon");
+	sys_put(FAN "name", "fan\n");
+	sys_put(FAN "pwm1", "0\n");
+	sys_put(FAN "pwm1_enable", "2\n");
+	field_begin(f);
+	channel = field_add(f, "%QW0", DRIVER_hwmon, IEC_INT);
+	channel->device = "fan", channel->name = "pwm1";
+}
+
+/* A file that refuses all that is written, in place of one of the kernel. */
+static void refuse_writes(const char *name)
+{
+	sys_remove(name);
+	CHECK(symlink("/dev/full", sys_path(name)) == 0);
+}
+
+static void test_output_goes(void)
+{
+	struct field f;
+	int full;
+
+	make_fan(&f);
+	CHECK(field_open(&f));
+	field_set(&f, 0, INT(100));
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD && sys_get(FAN "pwm1") == 100, 9000));
+	/* Its file is still open, but takes nothing. */
+	full = open("/dev/full", O_WRONLY);
+	sys_remove("class/hwmon");
+	CHECK(full >= 0 && dup2(full, f.hal.channels->cell[0].file) >= 0);
+	close(full);
+	field_set(&f, 0, INT(120));
+	CHECK_AS(UNTIL(&f, field_quality(&f, 0) == QUALITY_FAULT, 9000), "an output that cannot be written is in fault");
+	CHECK_AS(field_scan(&f, now()), "the program goes on");
+	/* It comes back with another number, but the chip keeps its control. */
+	mkdir(sys_path("class/hwmon"), 0755);
+	mkdir(sys_path("class/hwmon/hwmon5"), 0755);
+	mkdir(sys_path("class/hwmon/hwmon5/pwm1_enable"), 0755);
+	sys_put("class/hwmon/hwmon5/pwm1", "0\n");
+	sys_put("class/hwmon/hwmon5/name", "fan\n");
+	UNTIL(&f, false, 1200);
+	CHECK_AS(field_quality(&f, 0) == QUALITY_FAULT && sys_get("class/hwmon/hwmon5/pwm1") == 0,
+		 "an output that is refused stays in fault");
+	sys_remove("class/hwmon/hwmon5/pwm1_enable");
+	sys_put("class/hwmon/hwmon5/pwm1_enable", "2\n");
+	CHECK_AS(UNTIL(&f, sys_get("class/hwmon/hwmon5/pwm1") == 120, 9000), "it is found again, and has the program's value");
+	CHECK(UNTIL(&f, field_quality(&f, 0) == QUALITY_GOOD, 9000) && sys_get("class/hwmon/hwmon5/pwm1_enable") == 1);
+	CHECK(hal_write_safe(&f.hal) && sys_get("class/hwmon/hwmon5/pwm1") % 10 == 0);
+	field_end(&f);
+	sys_remove("class/hwmon");
+}
+
+static void test_output_refused(void)
+{
+	struct field f;
+
+	make_fan(&f);
+	refuse_writes(FAN "pwm1");
+	CHECK(!field_open(&f));
+	CHECK_AS(strstr(f.text, "\"fan\"") && strstr(f.text, "No space left on device"),
+		 "an output that takes no number is told at the start");
+	arena_free(&f.arena);
+	make_fan(&f);
+	CHECK(hal_plan(&f.hal, &f.map, &f.arena, &f.diags));
+	sys_remove(FAN "pwm1");
+	CHECK(!hal_open_planned(&f.hal, &f.diags) && f.diags.errors == 1);
+	diag_print(&f.diags.diag[0], f.text, sizeof(f.text));
+	CHECK_AS(strstr(f.text, "\"fan\"") && strstr(f.text, "No such file"), "an output that goes before it is opened is told");
+	arena_free(&f.arena);
+	make_chip();
+	sys_remove(CHIP "/pwm1/enable");
+	field_begin(&f);
+	add_pwm(&f, "%QW0", 1);
+	CHECK_AS(!field_open(&f) && strstr(f.text, "pwmchip0 enable"), "an output that is not made ready is told");
+	arena_free(&f.arena);
+	sys_remove("class");
+}
+
+/* The new map has an output that does not open: the old one goes on. */
+static void test_new_output_refused(void)
+{
+	struct field f, g;
+	char line[LIMIT_ARG];
+	struct io_channel *channel;
+
+	make_fan(&f);
+	sys_put("class/hwmon/hwmon3/name", "pump\n");
+	sys_put("class/hwmon/hwmon3/pwm1", "0\n");
+	refuse_writes("class/hwmon/hwmon3/pwm1");
+	CHECK(field_open(&f));
+	field_begin(&g);
+	channel = field_add(&g, "%QW0", DRIVER_hwmon, IEC_INT);
+	channel->device = "fan", channel->name = "pwm1";
+	channel = field_add(&g, "%QW2", DRIVER_hwmon, IEC_INT);
+	channel->device = "pump", channel->name = "pwm1";
+	CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_GOOD);
+	CHECK(!hal_open_new(&g.hal, &g.diags) && g.diags.errors == 1);
+	field_set(&f, 0, INT(77));
+	CHECK_AS(UNTIL(&f, sys_get(FAN "pwm1") == 77, 9000), "a map whose output is refused leaves the one that runs");
+	arena_free(&g.arena);
+	field_begin(&g);
+	channel = field_add(&g, "%QW0", DRIVER_hwmon, IEC_INT);
+	channel->device = "none", channel->name = "pwm1";
+	CHECK(hal_beside(&g.hal, &f.hal, &g.map, &g.arena, &g.diags, line) == BESIDE_REFUSED && g.diags.errors == 1);
+	arena_free(&g.arena);
+	field_end(&f);
+	sys_remove("class/hwmon");
+}
+
 /* ---- what is wrong ---- */
 
 static void test_errors(void)
@@ -809,20 +1019,84 @@ static void test_errors(void)
 	field_end(&f);
 }
 
-static void test_denied(void)
+/* access() asks for the real user: a test of root is nobody for a while. */
+static bool become_nobody(void)
 {
-	struct field f;
+	if (geteuid() != 0)
+		return true;
+	chmod(field_sys, 0755);
+	return setreuid(65534, (uid_t)-1) == 0 && access(field_sys, X_OK) == 0;
+}
 
-	if (geteuid() == 0) {
-		printf("ok %d # SKIP root may use every file\n", ++tap_count);
+static void become_oneself(void)
+{
+	if (geteuid() == 0 && setreuid(0, (uid_t)-1) != 0)
+		printf("# the test stays nobody\n");
+}
+
+static void denies(const struct device_driver *driver, const char *device, const char *name, bool output,
+		   const char *file, const char *want)
+{
+	struct device_search search = { .sys = field_sys };
+	const struct io_channel channel = { .device = device, .name = name, .number = 1, .period_ns = 20000000 };
+	const struct io_point point = { .channel = &channel, .output = output };
+	struct device found = { .scale = 1 };
+	struct trouble why = { .id = DIAG_COUNT };
+	bool good;
+
+	chmod(sys_path(file), 0);
+	if (!become_nobody()) {
+		printf("ok %d # SKIP no other user may be here\n", ++tap_count);
+		become_oneself();
 		return;
 	}
+	good = driver->find(&search, &point, &found, &why);
+	become_oneself();
+	chmod(sys_path(file), 0644);
+	CHECK(!good && why.id == DIAG_IO_DEVICE_DENIED);
+	if (!CHECK_AS(strstr(why.text, want), "the file that is denied is named, with its group"))
+		printf("# %s\n", why.text);
+}
+
+static void test_denied(void)
+{
+	char group[40], want[80];
+
 	make_chip();
-	chmod(sys_path(CHIP "/pwm1/duty_cycle"), 0444);
-	field_begin(&f);
-	add_pwm(&f, "%QW0", 1);
-	CHECK(!field_open(&f) && strstr(f.text, "LD551: \"pwmchip0\": no permission to use pwm1/duty_cycle; its group is "));
-	field_end(&f);
+	sys_put("class/hwmon/hwmon2/name", "fan\n");
+	sys_put("class/hwmon/hwmon2/pwm1", "0\n");
+	sys_put("class/hwmon/hwmon2/temp1_input", "0\n");
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	group_print(getegid(), group, sizeof(group));
+	snprintf(want, sizeof(want), "pwm1/duty_cycle" DIAG_AND "%s", group);
+	denies(&device_pwm, "pwmchip0", "", true, CHIP "/pwm1/duty_cycle", want);
+	sys_remove(CHIP "/pwm1");
+	denies(&device_pwm, "pwmchip0", "", true, CHIP "/export", "pwmchip0/export");
+	denies(&device_hwmon, "fan", "pwm1", true, "class/hwmon/hwmon2/pwm1", "hwmon2/pwm1");
+	denies(&device_hwmon, "fan", "temp1", false, "class/hwmon/hwmon2/temp1_input", "hwmon2/temp1_input");
+	denies(&device_w1, "28-1", "", false, "bus/w1/devices/28-1/temperature", "28-1/temperature");
+	sys_remove("class");
+	sys_remove("bus");
+}
+
+/* Lines of /etc/group, also of one that was damaged. */
+static void test_group_lines(void)
+{
+	static const struct { const char *line; unsigned int id; bool is; } rows[] = {
+		{ "gpio:x:993:user", 993, true }, { "gpio:x:993:", 993, true }, { "gpio:x:993", 993, true },
+		{ "gpio:x:993:user", 99, false }, { "gpio:x:993:user", 9930, false }, { "gpio:x:0:", 0, true },
+		{ "gpio", 0, false }, { "gpio:x", 0, false }, { "gpio:", 0, false }, { "gpio:x:", 0, false },
+		{ "gpio:x:user", 0, false }, { "", 0, false }, { ":::", 0, false },
+	};
+
+	for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+		char line[40];
+
+		snprintf(line, sizeof(line), "%s", rows[i].line);
+		CHECK_AS(group_is(line, rows[i].id) == rows[i].is, rows[i].line);
+		if (rows[i].is)
+			CHECK_TEXT(line, "gpio");
+	}
 }
 
 /* ---- files that are not as they should be ---- */
@@ -1033,6 +1307,67 @@ static void test_list(void)
 		   "hwmon ina219/hwmon1 in1 in 11984\nhwmon ina219/hwmon1 in2 in -1\n");
 }
 
+static int seen_values;
+
+static void see_value(void *context, const struct device_seen *at)
+{
+	(void)context;
+	seen_values += at->has_value;
+}
+
+/* A folder of devices whose name is as long as there is room, and longer: each device is found and shown, or it is
+ * not there. */
+static void test_long_folders(void)
+{
+	static const struct { const struct device_driver *driver; const char *device, *name; bool output; } rows[] = {
+		{ &device_w1, "28-1", "", false }, { &device_w1, "28-2", "", false },
+		{ &device_hwmon, "fan", "temp1", false }, { &device_hwmon, "fan", "pwm1", true },
+		{ &device_pwm, "pwmchip0", "", true },
+	};
+	enum { ROWS = sizeof(rows) / sizeof(rows[0]) };
+	int wrong = 0, all = 0, none = 0, lost = ROWS;
+	char sys[2 * DEVICE_PATH + 400];
+
+	sys_remove("class");
+	sys_remove("bus");
+	make_chip();
+	sys_put(CHIP "/pwm1/period", "10");
+	sys_put("class/hwmon/hwmon2/name", "fan\n");
+	sys_put("class/hwmon/hwmon2/pwm1", "0\n");
+	sys_put("class/hwmon/hwmon2/temp1_input", "0\n");
+	sys_put("bus/w1/devices/28-1/temperature", "20000\n");
+	sys_put("bus/w1/devices/28-2/w1_slave", "20000\n");
+	snprintf(sys, sizeof(sys), "%s", field_sys);
+	for (int n = 0; n < DEVICE_PATH; n++) {
+		struct device_search search = { .sys = sys };
+		int found = 0;
+
+		for (int i = 0; i < ROWS; i++) {
+			const struct io_channel channel = { .device = rows[i].device, .name = rows[i].name,
+							    .number = 1, .period_ns = 20000000 };
+			const struct io_point point = { .channel = &channel, .output = rows[i].output };
+			struct device at = { .scale = 1 };
+			struct trouble why = { .id = DIAG_COUNT };
+
+			if (rows[i].driver->find(&search, &point, &at, &why))
+				wrong += access(at.path, F_OK) != 0 || strlen(at.path) <= at.home, found++;
+			else
+				wrong += why.id != DIAG_IO_NO_DEVICE && why.id != DIAG_IO_NO_CHANNEL;
+		}
+		seen_values = 0;
+		channels_list(sys, see_value, NULL);
+		wrong += seen_values != found || found > lost;
+		lost = found;
+		all += found == ROWS;
+		none += !found;
+		snprintf(sys + strlen(sys), 2, "%s", n % 2 ? "." : "/");
+	}
+	CHECK_AS(wrong == 0, "what is found in a long folder is shown, the rest is not there");
+	CHECK(all > 0 && none > 0);
+	sys_remove("class");
+	sys_remove("bus");
+}
+
 int main(void)
 {
 	if (!sys_begin())
@@ -1044,6 +1379,7 @@ int main(void)
 	test_filter_and_threshold();
 	test_outputs_of_a_gateway();
 	test_simulated();
+	test_asked();
 	test_told_quality();
 	test_gateway_beside();
 	test_exchange();
@@ -1051,18 +1387,25 @@ int main(void)
 	test_w1();
 	test_slow_device();
 	test_hung_device();
+	test_many_sensors();
+	test_time_of_sensors();
 	test_pwm();
 	test_pwm_names();
 	test_pwm_export();
 	test_pwm_goes_on();
 	test_hwmon();
+	test_output_goes();
+	test_output_refused();
+	test_new_output_refused();
 	test_errors();
 	test_denied();
+	test_group_lines();
 	test_files();
 	test_find();
 	test_take();
 	test_w1_texts();
 	test_list();
+	test_long_folders();
 	sys_remove("");
 	return tap_done();
 }

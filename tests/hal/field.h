@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #define MS INT64_C(1000000)
-#define FIELD_POINTS 40
+#define FIELD_POINTS 80
 
 struct field {
 	struct arena arena;

@@ -164,6 +164,102 @@ static void test_errors(void)
 	field_end(&f);
 }
 
+/* Converters that the kernel shows in other ways. */
+static void make_odd_devices(void)
+{
+	sys_remove("bus");
+	sys_put(DEVICES "iio:device0/in_pressure_raw", "12\n");
+	sys_put(DEVICES "iio:device0/in_voltage7_raw", "500\n");
+	sys_put(DEVICES "iio:device0/in_voltage7_scale", "0\n");
+	sys_put(DEVICES "trigger0/name", "ads1115\n");
+	sys_put(DEVICES "iio:device1/name", "dac\n");
+	sys_put(DEVICES "iio:device1/out_voltage0_raw", "0\n");
+	sys_put(DEVICES "iio:device2/name", "off\n");
+	sys_put(DEVICES "iio:device2/out_voltage0_raw", "0\n");
+}
+
+static void test_odd_devices(void)
+{
+	struct field f;
+
+	make_odd_devices();
+	field_begin(&f);
+	add(&f, "%ID0", "iio:device0", "pressure", UNIT_NONE);
+	add(&f, "%ID4", "iio:device0", "voltage7", UNIT_VOLT);
+	add(&f, "%QW0", "dac", "voltage0", UNIT_NONE);
+	CHECK(field_open(&f) && field_scan(&f, now()));
+	CHECK_AS(near(field_get(&f, 0).r, 12), "a device without a name, by its number; a kind without a unit");
+	CHECK_AS(near(field_get(&f, 1).r, 0.5), "a scale of 0 is none");
+	field_set(&f, 2, INT(5));
+	CHECK_AS(UNTIL(&f, sys_get(DEVICES "iio:device1/out_voltage0_raw") == 5, 9000), "an output that is always on");
+	field_end(&f);
+	field_begin(&f);
+	add(&f, "%ID0", "ads1115", "voltage0", UNIT_NONE);
+	CHECK_AS(!hal_check(&f.map, &f.arena, &f.diags) && f.diags.diag[0].id == DIAG_IO_NO_DEVICE,
+		 "a trigger is no converter");
+	field_end(&f);
+}
+
+/* Each file that refuses a number of an output that begins. The library itself lists no file that is a device. */
+static void test_output_refused(void)
+{
+	static const char *const files[] = { "out_voltage0_powerdown", "out_voltage0_raw" };
+	static const char *const want[] = { "off powerdown", "No space left on device" };
+
+	for (int i = 0; i < 2; i++) {
+		struct field f;
+		char name[80];
+
+		make_odd_devices();
+		snprintf(name, sizeof(name), DEVICES "iio:device2/%s", files[i]);
+		unlink(sys_path(name));
+		CHECK(symlink("/dev/full", sys_path(name)) == 0);
+		field_begin(&f);
+		add(&f, "%QW0", "off", "voltage0", UNIT_NONE);
+		CHECK(!field_open(&f) && f.diags.errors == 1);
+		CHECK_AS(strstr(f.text, "\"off") && (strstr(f.text, want[i]) || strstr(f.text, "LD552")),
+			 "an output that is refused is told");
+		arena_free(&f.arena);
+	}
+}
+
+/* A folder of devices whose name is as long as there is room, and longer. */
+static int seen_values;
+static void see_value(void *context, const struct device_seen *at)
+{
+	(void)context;
+	seen_values += at->has_value;
+}
+
+static void test_long_folders(void)
+{
+	char sys[600];
+	int wrong = 0, found = 0, none = 0, last = 4;
+
+	make_odd_devices();
+	snprintf(sys, sizeof(sys), "%s", field_sys);
+	for (int n = 0; n < 170; n++) {
+		struct field f;
+		bool good;
+
+		field_begin(&f);
+		f.map.sys = sys;
+		add(&f, "%ID0", "iio:device0", "pressure", UNIT_NONE);
+		good = hal_check(&f.map, &f.arena, &f.diags);
+		wrong += !good && f.diags.diag[0].id != DIAG_IO_NO_DEVICE && f.diags.diag[0].id != DIAG_IO_NO_CHANNEL;
+		field_end(&f);
+		seen_values = 0;
+		channels_list(sys, see_value, NULL);
+		wrong += seen_values > last || (!good && seen_values == 4);
+		last = seen_values;
+		found += good && seen_values == 4;
+		none += !good && !seen_values;
+		snprintf(sys + strlen(sys), 2, "%s", n % 2 ? "." : "/");
+	}
+	CHECK_AS(wrong == 0, "what is found in a long folder is shown, the rest is not there");
+	CHECK(found > 0 && none > 0);
+}
+
 /* The machine has no libiio. */
 static void test_missing(void)
 {
@@ -208,6 +304,9 @@ int main(void)
 	test_broken_wire();
 	test_output();
 	test_errors();
+	test_odd_devices();
+	test_output_refused();
+	test_long_folders();
 	test_missing();
 	make_devices();
 	channels_list(field_sys, see, NULL);
