@@ -328,10 +328,12 @@ for my $case ([1, 70, '', qr{ladderd: ladder-guard knows (\d+) outputs of conver
 	ok(until_true(sub { (get('sys/class/pwm/pwmchip0/pwm0/enable') || 0) == 1 && get('err') =~ $told }), 'too many outputs are told')
 		or diag get('err');
 	my ($known) = get('err') =~ $told;
+	my $are_safe = sub { scalar grep { (get($_) || 0) == $safe } @duty };
+	ok(until_true(sub { $are_safe->() == 0 }), 'the program has written them all') or diag get('err');
 	unlink $copied;
 	kill 'KILL', child_of($pid);
 	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; / }), 'ladderd is killed') or diag get('err');
-	is(scalar(grep { (get($_) || 0) == $safe } @duty), $known, "the $known outputs that the guard knows are safe");
+	is($are_safe->(), $known, "the $known outputs that the guard knows are safe");
 	like(get('err'), qr/signal 9; not all outputs are safe/, 'and it says that not all are') if $long;
 	kill 'TERM', $pid;
 	finish($pid);
