@@ -162,6 +162,65 @@ static const char *bytes(const char *lines, int box, int pin)
 	return text;
 }
 
+#define MORE BITS " A : ARRAY[0..3] OF INT; P : REF_TO INT; D : ARRAY[0..1] OF TON; t : TIME;"
+
+static void operands_are_whole(void)
+{
+	CHECK_TEXT(graph(MORE, "A[i + 1] := k + 1", 0), "0 + =k =1 >; 1 -> A[i + 1] <0.1");
+	CHECK_TEXT(graph(MORE, "k := A[0] + D[0].ET", 0), "0 + =A[0] =D[0].ET >; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "k := P^ + 1", 0), "0 + =P^ =1 >; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "Q := NOT (A[1] > 2) AND b", 0), "0 > =A[1] =2 >; 1 NOT <0.1 >; 2 AND <1.1 =b >; 3 -> Q <2.1");
+	CHECK_TEXT(graph(MORE, "Q := %IX0.0 AND %MX1.1", 0), "0 AND =%IX0.0 =%MX1.1 >; 1 -> Q <0.1");
+	CHECK_TEXT(graph(MORE, "%QX0.0 := a", 0), "0 -> %QX0.0 =a");
+	CHECK_TEXT(graph(MORE, "Delay(IN := a, Q => A[1])", 0), "0 TON Delay IN=a PT? >Q=A[1] >ET?");
+	CHECK_TEXT(graph(MORE, "Q := Delay.ET > T#1s", 0), "0 > =Delay.ET =T#1s >; 1 -> Q <0.1");
+	CHECK_TEXT(graph(MORE, "Q := Delay.NOPE", 0), "0 -> Q =Delay.NOPE");
+	CHECK_TEXT(graph(MORE, "Q := Other.Q", 0), "0 -> Q =Other.Q");
+	CHECK_TEXT(graph(MORE, "Q := (a)", 0), "0 -> Q =a");
+	CHECK_TEXT(graph(MORE, "k := NOT i", 0), "0 -> k /=i");
+}
+
+static void signs_become_boxes(void)
+{
+	CHECK_TEXT(graph(MORE, "k := -i", 0), "0 - =i >; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "k := -(i + 1)", 0), "0 + =i =1 >; 1 - <0.1 >; 2 -> k <1.1");
+	CHECK_TEXT(graph(MORE, "x := i ** 2 / 3", 0), "0 ** =i =2 >; 1 / <0.1 =3 >; 2 -> x <1.1");
+	CHECK_TEXT(graph(MORE, "k := i MOD 3 * 2 - -1", 0), "0 MOD =i =3 >; 1 * <0.1 =2 >; 2 - <1.1 =-1 >; 3 -> k <2.1");
+	CHECK_TEXT(graph(MORE, "Q := a & b", 0), "0 AND =a =b >; 1 -> Q <0.1");
+	CHECK_TEXT(graph(MORE, "Q := a XOR (b XOR c)", 0), "0 XOR =b =c >; 1 XOR =a <0.1 >; 2 -> Q <1.1");
+	CHECK_TEXT(graph(MORE, "Q := a AND_THEN b OR_ELSE c", 0), "0 AND_THEN =a =b >; 1 OR_ELSE <0.1 =c >; 2 -> Q <1.1");
+	CHECK_TEXT(graph(MORE, "Q := a OR b AND c", 0), "0 AND =b =c >; 1 OR =a <0.1 >; 2 -> Q <1.1");
+	CHECK_TEXT(graph(MORE, "Q := i >= k AND i <= 3 AND i <> k AND i = 1", 0),
+		   "0 >= =i =k >; 1 <= =i =3 >; 2 <> =i =k >; 3 = =i =1 >; 4 AND <0.1 <1.1 <2.1 <3.1 >; 5 -> Q <4.1");
+	CHECK_TEXT(graph(MORE, "Q := NOT (NOT a)", 0), "0 NOT /=a >; 1 -> Q <0.1");
+	CHECK_TEXT(graph(MORE, "Q S= a AND b", 0), "0 AND =a =b >; 1 -> S Q <0.1");
+	CHECK_TEXT(graph(MORE, "RETURN IF a AND b", 0), "0 AND =a =b >; 1 RETURN <0.1");
+}
+
+static void calls_have_all_pins(void)
+{
+	CHECK_TEXT(graph(MORE, "k := MAX(i, k, 3, 4)", 0), "0 MAX IN1=i IN2=k IN3=3 IN4=4 >OUT; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "k := MAX(IN1 := i, IN3 := k)", 0), "0 MAX IN1=i IN2? IN3=k >OUT; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "k := SEL(G := a, IN0 := i, IN1 := k)", 0), "0 SEL G=a IN0=i IN1=k >OUT; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "MOVE(EN := a, i)", 0), "0 MOVE EN=a IN=i >ENO? >OUT?");
+	CHECK_TEXT(graph(MORE, "k := LIMIT(IN := ADD(i, 1), MN := 0, MX := 5)", 0),
+		   "0 ADD IN1=i IN2=1 >OUT; 1 LIMIT MN=0 IN<0.1 MX=5 >OUT; 2 -> k <1.1");
+	CHECK_TEXT(graph(MORE, "k := Twice(EN := a, X := i, ENO => Q)", 0),
+		   "0 Twice EN=a X=i >ENO=Q >OUT >Big?; 1 -> k <0.2");
+	CHECK_TEXT(graph(MORE, "k := Twice(X := )", 0), "0 Twice X? >OUT >Big?; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "k := Twice(X := i, Big => Low)\nQ := Low", 0),
+		   "0 Twice X=i >OUT >Big:Low; 1 -> k <0.1; 2 -> Q <0.2");
+	CHECK_TEXT(graph(MORE, "Nothing(a)", 0), "0 Nothing =a >OUT?");
+	CHECK_TEXT(graph(MORE, "k := Nothing()", 0), "0 Nothing >OUT; 1 -> k <0.1");
+	CHECK_TEXT(graph(MORE, "Delay(IN := , PT := T#3s)", 0), "0 TON Delay IN? PT=T#3s >Q? >ET?");
+	CHECK_TEXT(graph(MORE, "Delay(IN := a, Q => )", 0), "0 TON Delay IN=a PT? >Q? >ET?");
+	CHECK_TEXT(graph(MORE, "Delay(a, T#3s)", 0), "0 TON Delay IN=a PT=T#3s >Q? >ET?");
+	CHECK_TEXT(graph(MORE, "Delay(NOPE := a)", 0), "0 TON Delay IN? PT? NOPE=a >Q? >ET?");
+	CHECK_TEXT(graph(MORE, "Low := Delay.Q\nNext := Low\nQ := Next", 0), "0 VALUE =Delay.Q >:Low:Next; 1 -> Q <0.1");
+	CHECK_TEXT(graph(MORE, "Low := ADD(i, 1)\nk := Low + Low", 0), "0 ADD IN1=i IN2=1 >OUT:Low; 1 + <0.1 <0.1 >; 2 -> k <1.1");
+	CHECK_TEXT(graph(MORE, "k := ADD(PREVIOUS(k), 1)", 0), "0 ADD IN1@=k IN2=1 >OUT; 1 -> k <0.1");
+}
+
 static void places_are_known(void)
 {
 	CHECK_TEXT(bytes("Q := a AND (b OR NOT c)", 1, 1), "5:12 (b OR NOT c)");
@@ -179,6 +238,9 @@ int main(void)
 	names_are_wires();
 	outputs_are_inverted();
 	feedback_is_marked();
+	operands_are_whole();
+	signs_become_boxes();
+	calls_have_all_pins();
 	places_are_known();
 	project_free(project);
 	return tap_done();
