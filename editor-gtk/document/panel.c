@@ -293,6 +293,13 @@ static int lack_of(const struct panel_column *column)
 	       MAX(column->whole - wish_of(column), 0) : 0;
 }
 
+/* Px that a column without a wish gives up before others do: it expands, so it has what is left. */
+static int gift_of(const struct panel_column *column)
+{
+	return !column->width && gtk_column_view_column_get_expand(column->column) ?
+	       MAX(column->need - MAX(column->least, COLUMN_MOST / 2), 0) : 0;
+}
+
 /* Px of its longest text that one that does not expand cuts. */
 static int cut_of(const struct panel_column *column)
 {
@@ -333,6 +340,7 @@ struct widths {
 	int slack;  /* all wishes less what texts and headings need           */
 	int spare;  /* what texts need beyond their headings                   */
 	int cut;    /* of the texts of those that do not expand                */
+	int gives;  /* what those that expand and have no wish can do without  */
 };
 
 static struct widths widths_of(struct panel_list *list)
@@ -349,6 +357,7 @@ static struct widths widths_of(struct panel_list *list)
 		of.slack += slack_of(each);
 		of.spare += spare_of(each);
 		of.cut += cut_of(each);
+		of.gives += gift_of(each);
 	}
 	return of;
 }
@@ -570,7 +579,7 @@ static void fit(struct panel_list *list)
 	}
 	if (list->page > 0) {
 		over = CLAMP(of.all + of.lack - list->page, 0, of.slack);
-		cut = MAX(of.all - of.slack - list->page, 0);
+		cut = MAX(of.all - of.slack - of.gives - list->page, 0);
 		if (cut > of.spare)
 			cut = 0;
 		more = CLAMP(list->page - of.all - of.lack, 0, of.cut);

@@ -24,6 +24,7 @@ struct _LadderAlarmView {
 	GtkWidget *box, *ack, *ack_all;
 	GtkLabel *summary, *empty;
 	GtkStack *stack;
+	GtkMenuButton *columns;
 	struct panel_list list;
 	LadderSim *sim;
 	LadderBoardLink *link;
@@ -479,11 +480,29 @@ static void ladder_alarm_view_class_init(LadderAlarmViewClass *class)
 	gtk_widget_class_bind_template_child(widget, LadderAlarmView, summary);
 	gtk_widget_class_bind_template_child(widget, LadderAlarmView, empty);
 	gtk_widget_class_bind_template_child(widget, LadderAlarmView, stack);
+	gtk_widget_class_bind_template_child(widget, LadderAlarmView, columns);
 	panel_bind_list(widget, LadderAlarmView);
 	gtk_widget_class_bind_template_callback_full(widget, "ack_pressed", G_CALLBACK(ack_pressed));
 	gtk_widget_class_bind_template_callback_full(widget, "ack_all_pressed",
 						     G_CALLBACK(ack_all_pressed));
 	gtk_widget_class_bind_template_callback_full(widget, "activated", G_CALLBACK(activated));
+}
+
+/* In a narrow list the message stays whole: the icon tells the state, too. */
+static void add_columns(LadderAlarmView *view)
+{
+	static const int leaving[] = { COL_ACKED, COL_WENT, COL_TIMES, COL_CLASS, COL_STATE };
+
+	panel_list_column(&view->list, "", COL_STATE, PANEL_ICON, 0);
+	panel_list_column(&view->list, _("Came"), COL_CAME, PANEL_NUMBER, 150);
+	panel_list_column(&view->list, _("Message"), COL_MESSAGE, PANEL_EXPAND, 260);
+	panel_list_column(&view->list, _("Block"), COL_BLOCK, 0, 120);
+	panel_list_column(&view->list, _("State"), COL_STATE, 0, 110);
+	panel_list_column(&view->list, _("Class"), COL_CLASS, 0, 80);
+	panel_list_column(&view->list, _("Went"), COL_WENT, 0, 150);
+	panel_list_column(&view->list, _("Acknowledged"), COL_ACKED, 0, 150);
+	panel_list_column(&view->list, _("Times"), COL_TIMES, 0, 60);
+	panel_list_may_leave(&view->list, leaving, G_N_ELEMENTS(leaving), view->columns);
 }
 
 static void ladder_alarm_view_init(LadderAlarmView *view)
@@ -493,16 +512,7 @@ static void ladder_alarm_view_init(LadderAlarmView *view)
 	view->next = 1;
 	gtk_widget_init_template(GTK_WIDGET(view));
 	panel_list_init(&view->list, view->list.view);
-	panel_list_column(&view->list, "", COL_STATE, PANEL_ICON, 0);
-	panel_list_column(&view->list, _("Came"), COL_CAME, PANEL_NUMBER, 150);
-	/* In a narrow window the rest is to the right of the edge; the icon tells the state. */
-	panel_list_column(&view->list, _("Message"), COL_MESSAGE, PANEL_EXPAND, 260);
-	panel_list_column(&view->list, _("Block"), COL_BLOCK, 0, 120);
-	panel_list_column(&view->list, _("State"), COL_STATE, 0, 110);
-	panel_list_column(&view->list, _("Class"), COL_CLASS, 0, 80);
-	panel_list_column(&view->list, _("Went"), COL_WENT, 0, 150);
-	panel_list_column(&view->list, _("Acknowledged"), COL_ACKED, 0, 150);
-	panel_list_column(&view->list, _("Times"), COL_TIMES, 0, 60);
+	add_columns(view);
 	panel_list_follow(&view->list, G_CALLBACK(show_buttons), view);
 }
 

@@ -9,6 +9,7 @@
 #include "editor-gtk/document/report_lines.h"
 #include "editor-gtk/draw/grid_classic.h"
 #include "editor-gtk/draw/original_draw.h"
+#include "editor-gtk/kit/gtk48/paned.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
@@ -355,6 +356,7 @@ static void ladder_report_view_init(LadderReportView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 
 	gtk_widget_init_template(widget);
+	paned_mend(GTK_PANED(view->paned));
 	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, "", REPORT_KIND, PANEL_ICON, 0);
 	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 76);

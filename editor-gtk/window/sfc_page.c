@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/boxed_line.h"
 #include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/kit/gtk48/paned.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/window/below_part.h"
 
@@ -342,6 +343,7 @@ static void ladder_sfc_page_init(LadderSfcPage *page)
 {
 	page->back = -1;
 	page->paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+	paned_mend(GTK_PANED(page->paned));
 	below_part_init(&page->below, RUNGS_HEIGHT, G_CALLBACK(close_clicked), page);
 	gtk_paned_set_end_child(GTK_PANED(page->paned), page->below.box);
 	gtk_paned_set_resize_end_child(GTK_PANED(page->paned), FALSE);

@@ -9,6 +9,7 @@
 
 #include "editor-gtk/document/pou_convert.h"
 #include "editor-gtk/document/type_edit.h"
+#include "editor-gtk/kit/gtk48/paned.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/still.h"
@@ -1317,6 +1318,10 @@ static void ladder_window_class_init(LadderWindowClass *class)
 static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
+	paned_mend(window->side);
+	for (GtkWidget *at = GTK_WIDGET(window->below.paned); at; at = gtk_widget_get_parent(at))
+		if (GTK_IS_PANED(at))
+			paned_mend(GTK_PANED(at));
 	popover_menu_of(window->menu_button, menu_new);
 	if (settings_get())
 		g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(menu_forget),

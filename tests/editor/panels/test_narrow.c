@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/problems.h"
 #include "editor-gtk/panels/symbols_view.h"
@@ -19,6 +20,7 @@
 #include <locale.h>
 
 #define WIDE 790  /* px beside the project, in a window of 1024                  */
+#define SIMULATING 733 /* the same, beside the panel of the simulation          */
 #define LONG 210  /* a text may be cut if it is wider                            */
 
 static const char sample[] =
@@ -139,6 +141,34 @@ static GtkWidget *problems(LadderDocument *document)
 	return view;
 }
 
+/* Beside the panel of a simulation: many names in a row do not cut the bytes. */
+static void check_addresses(void)
+{
+	LadderDocument *document = ladder_document_new();
+	GString *text = g_string_new("RUNGBOARD 1\n\nVAR\n");
+	GtkWidget *view;
+	int seen = 0;
+
+	for (int i = 0; i < 8; i++)
+		g_string_append_printf(text, "  ButtonOfStation%d AT %%IX0.%d : BOOL;\n", i, i);
+	g_string_append(text, "END_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO ButtonOfStation1 | COIL %QX0.0 |\nEND_PROGRAM\n");
+	ladder_document_open_text(document, NULL, text->str, text->len, true);
+	ladder_document_check_now(document);
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+	gtk_window_set_default_size(GTK_WINDOW(window), SIMULATING, 300);
+	WAIT(gtk_widget_get_width(window) <= SIMULATING);
+	view = ladder_address_view_new(document);
+	check(view, "Adressbelegung", true);
+	while (g_main_context_iteration(NULL, FALSE)) /* columns share the width once the list has one */
+		seen = 0;
+	CHECK_AS(count_cut(view, &seen) == 0 && seen > 4, "no byte is cut");
+	CHECK_AS(gtk_widget_get_width(window) <= SIMULATING, "it is as narrow as that");
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+	WAIT(G_OBJECT(document)->ref_count == 1);
+	g_assert_finalize_object(document);
+	g_string_free(text, TRUE);
+}
+
 /* A long message is there as a whole, without scrolling sideways. */
 static void check_log(LadderDocument *document)
 {
@@ -219,6 +249,7 @@ int main(void)
 	check(ladder_types_view_new(document), "Datentypen", true);
 	check(subrange(document), "Datentypen", true);
 	check(symbols(document), "Symbole", false);
+	check_addresses();
 	check_log(document);
 	check_counts();
 	gtk_window_destroy(GTK_WINDOW(window));

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """looks - the window is used in the dark, with high contrast, on a small and on a very large screen."""
+import gettext
 import os
 import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROOT, Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import BUILD, ROOT, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 PROJECT "Pump station"
@@ -82,6 +83,40 @@ def large_letters(screen):
         assert found and found[0].box()[2] >= len(name) * found[0].box()[3] / 3, (name, [n.box() for n in found])
     wide = editor.all(role='frame')[0].box()[2]
     assert wide <= 1024, 'the window is %d px wide' % wide
+
+
+class French(Editor):
+    """The same, with the texts to look for in French."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['fr'])
+        super().__init__(screen, *files, LANGUAGE='fr', **env)
+
+    def shown_as(self, text):
+        return self.said.gettext(text)
+
+
+def french(screen):
+    """1024 px in French, simulating: the tab at the edge of the hidden side answers, messages of alarms and long names have room"""
+    shutil.copytree(os.path.join(ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
+    editor = French(screen, os.path.join(screen.home, 'ladders', 'cement-plant', 'cement-plant.rung'))
+    editor.says('Idle')
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    until(lambda: not editor.all('Find an element'), 'the left side to be folded')
+    long_name = until(lambda: [n for n in editor.all('DischargedButton', 'label') if n.box()[3] > 0], 'a long name')[0]
+    short = until(lambda: [n for n in editor.all('MixButton', 'label') if n.box()[3] > 0], 'a short name')[0]
+    assert long_name.box()[3] > short.box()[3], (long_name.box(), short.box())
+    editor.tab(editor.shown_as('Status chart'))  # it is where the edge of the left side was
+    editor.find('Write all new values', 'push button')
+    editor.tab(editor.shown_as('Alarms'))
+    def headings():
+        found = [[n.box()[0] for n in editor.all(name, 'label') if n.name == editor.shown_as(name) and n.box()[2] > 0]
+                 for name in ('Came', 'Message', 'Block')]
+        return all(found) and [places[0] for places in found]
+    came, message, _ = until(headings, 'the headings')
+    until(lambda: headings()[2] - headings()[1] >= 260 > message - came, 'room for the message')
+    editor.shot('looks-french')
 
 
 def last_tab(screen):
@@ -262,7 +297,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = '1024x700x24'
+small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = french.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, narrow, edge, beside, columns, last_tab, large_letters, large, sharp])
+main([light, dark, high, small, narrow, edge, beside, columns, last_tab, large_letters, french, large, sharp])
