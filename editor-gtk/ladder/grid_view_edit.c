@@ -304,6 +304,15 @@ static void do_select_all(LadderGridView *view)
 
 /* ---- one rung ---- */
 
+/* A wire in the empty cell at the cursor; elsewhere every element gets its wire. */
+static struct rung *wire_here(const struct rung *rung, struct grid_at *at)
+{
+	const bool gap = at->row < rung->rows && at->col < rung->cols &&
+			 rung_at(rung, at->row, at->col)->word == ELEM_EMPTY;
+
+	return gap ? grid_wire(rung, at, GRID_RIGHT) : grid_close_gaps(rung, at);
+}
+
 static void do_edit(LadderGridView *view,
 		    struct rung *(*edit)(const struct rung *rung, struct grid_at *at),
 		    enum verb verb)
@@ -622,7 +631,7 @@ bool edit_do(LadderGridView *view, enum verb verb)
 	case VERB_wire_right: do_wire(view, GRID_RIGHT, verb); return true;
 	case VERB_wire_up: do_wire(view, GRID_UP, verb); return true;
 	case VERB_wire_down: do_wire(view, GRID_DOWN, verb); return true;
-	case VERB_wire_here: do_edit(view, grid_close_gaps, verb); return true;
+	case VERB_wire_here: do_edit(view, wire_here, verb); return true;
 	case VERB_link_here: do_edit(view, grid_open_branch, verb); return true;
 	case VERB_insert_column: do_edit(view, grid_insert_column, verb); return true;
 	case VERB_delete_column: do_edit(view, grid_delete_column, verb); return true;
