@@ -119,7 +119,7 @@ struct io_window {
 };
 
 /* DEVICE plant unit=3 read-registers=50 write-registers=20 gap=0 together
- * What a device takes in one request, if it is less than Modbus allows. 0: as Modbus allows. */
+ * The most that a device takes in one request, if Modbus allows more. 0: as Modbus allows. */
 struct io_takes {
 	int bus;
 	uint16_t unit_id;      /* 0 … 247                                      */

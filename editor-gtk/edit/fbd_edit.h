@@ -70,7 +70,7 @@ bool fbd_edit_clear(struct fbd_edit *edit, const struct fbd_spot *pin);
  * At a box that stores it is the variable, at a jump the label, if @pin->output. */
 bool fbd_edit_operand(struct fbd_edit *edit, const struct fbd_spot *pin, const char *text);
 /** fbd_edit_negate - NOT at an input, or at an output of a block or function that is not its result; or no longer.
- * Who reads the output `Delay.Q` itself reads its inverse then, by the name of a wire. */
+ * Lines that read the output `Delay.Q` itself then read its inverse, by the name of a wire. */
 bool fbd_edit_negate(struct fbd_edit *edit, const struct fbd_spot *pin);
 /** fbd_edit_add_input - a further one, up to 16. */
 bool fbd_edit_add_input(struct fbd_edit *edit, const struct fbd_spot *box);

@@ -109,7 +109,7 @@ static void mark_other(LadderSim *sim, int part)
 		sim->differs->data[part + PARTS] = true;
 }
 
-/* What belongs to no part, such as the views, is no part of what runs. */
+/* Text outside of the parts, such as the views, does not change what runs. */
 static void take_difference(void *context, const struct compare_difference *what)
 {
 	LadderSim *sim = context;

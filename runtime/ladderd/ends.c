@@ -131,7 +131,7 @@ static bool are_many(const struct ends *ends, int64_t now_s)
 	return true;
 }
 
-/* Whoever switches the machine off ends ladderd, too: that is no fault of a program. Returns whether
+/* A shutdown of the machine ends ladderd, too: that is no fault of a program. Returns whether
  * the record is of another start of the machine. */
 static bool forget_other_boot(struct ends *ends)
 {

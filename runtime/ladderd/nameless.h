@@ -2,7 +2,7 @@
  *
  * nameless - the services of a small board: one session, no names, no thread.
  *
- * Whoever owns the stream moves the bytes. A request is served at once, between two scans, and
+ * The owner of the stream moves the bytes. A request is served at once, between two scans, and
  * costs a bounded time: at most NAMELESS_ITEMS variables, a block of a download as long as a
  * piece of the line. What takes longer (hashing, verifying and storing a program) is done only
  * when the board does not run. All memory is in the struct, but for that of checking a program,

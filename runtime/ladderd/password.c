@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * password - stores a hash, compares, and makes whoever guesses wait.
+ * password - stores a hash, compares, and makes a user wait after a wrong password.
  */
 #include "ladderd/password.h"
 #include "ladderd/disk.h"

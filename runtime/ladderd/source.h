@@ -36,7 +36,7 @@ bool source_load_text(struct source *source, const char *file, const void *text,
 bool source_settle(struct source *source);
 /** source_leave_code - from now on, code of this process that is not used takes no memory
  *
- * What reads, checks and translates a program is most of it. Code that is used again is mapped again, from the memory
+ * Most of it reads, checks and translates programs. Code that is used again is mapped again, from the memory
  * that the kernel has for the file: not for a process that locks its memory. Scan-safe: no. */
 void source_leave_code(void);
 void source_free(struct source *source);

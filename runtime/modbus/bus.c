@@ -339,7 +339,7 @@ static void take_read(struct bus *bus, int number, const struct pdu *answer, int
 	const int64_t next_ns = state->due_ns + ask->period_ns;
 
 	take_answer(bus, ask, answer);
-	/* What is too late is left out, not caught up. */
+	/* A request that is too late is left out, not caught up. */
 	state->due_ns = next_ns > before_ns ? next_ns : before_ns + (state->due_ns ? 0 : ask->period_ns);
 }
 

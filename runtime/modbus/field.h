@@ -43,6 +43,6 @@ struct field_fresh {
 /** field_take - copies all fresh inputs to @out, which has room for all points, and forgets that they were
  * fresh. Returns how many. */
 int field_take(struct field *field, struct field_fresh *out);
-/** field_output - a new value for an output; whoever writes it must be woken. */
+/** field_output - a new value for an output; then wake the thread that writes it. */
 void field_output(struct field *field, int point, union iec_value value);
 #endif

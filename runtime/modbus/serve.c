@@ -422,7 +422,7 @@ int64_t serve_poll(struct serve *serve, int64_t now_ns)
 		const int64_t ns = allowed_ns(serve, client->serve, now_ns);
 		int64_t then_ns = INT64_MAX;
 
-		/* Whoever asks too often waits in the kernel. */
+		/* A client that asks too often waits in the kernel. */
 		serve->ready[n++] = (struct pollfd){
 			.fd = ns <= now_ns && client->len < SERVE_FRAME ? fd_of(serve, client) : -1,
 			.events = POLLIN };

@@ -5,9 +5,9 @@
  * The scan thread looks at the blocks ALARM, ALARM_LIMIT and EVENT after each scan, and puts what
  * changed into a ring; the thread that owns the list takes it out. The ring may be full: then the
  * change is looked at again after the next scan. The list has ALARM_ROWS rows. The oldest finished
- * row makes room for a new one, never one that is active or waits for an acknowledgement; what finds
- * no room is counted. An alarm that comes again within a minute goes on with its row. Texts come from
- * programs: whoever shows them replaces what is not printable. It opens no file and reads no clock.
+ * row makes room for a new one, never one that is active or waits for an acknowledgement; alarms without
+ * room are counted. An alarm that comes again within a minute goes on with its row. Texts come from
+ * programs: replace characters that are not printable before they are shown. It opens no file and reads no clock.
  */
 #ifndef ONLINE_ALARMS_H
 #define ONLINE_ALARMS_H

@@ -3,7 +3,7 @@
  * event - a record of a board's log: what happened, when, and who did it, in a fixed size.
  *
  * Records lie in a ring, each with a checksum; a damaged one is left out. Texts come from
- * outside: whoever shows them replaces what is not printable. It opens no file.
+ * outside: a program that shows them replaces characters that are not printable. It opens no file.
  */
 #ifndef ONLINE_EVENT_H
 #define ONLINE_EVENT_H

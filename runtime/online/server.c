@@ -3,7 +3,7 @@
  * server - sessions: bytes in, one request after another, bytes out.
  *
  * One order at a time: the server waits until the scan thread has done it. If that takes too
- * long, the order stays where it is, and whoever asks meanwhile is told that the board is busy.
+ * long, the order stays where it is, and a session that asks meanwhile hears that the board is busy.
  */
 #include "online/serve.h"
 

@@ -2,7 +2,7 @@
  *
  * server - the board's side of the link: sessions, and the services that they ask for.
  *
- * A session is a stream of bytes; whoever owns the stream moves the bytes. The server
+ * A session is a stream of bytes; the owner of the stream moves the bytes. The server
  * reaches the scan only through orders and views (online/exchange.h). After server_new() it
  * allocates nothing: SERVER_SESSIONS sessions, each with buffers for one frame in and one
  * out. While a frame waits to be sent, the session's next request is not read: a slow desk

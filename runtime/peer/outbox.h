@@ -2,7 +2,7 @@
  *
  * outbox - the variables that PUBLISH lines of a map name, their values, and when they are sent.
  *
- * Every line is sent as a whole each time, so that whoever missed a datagram has the values after the next one. It opens
+ * Every line is sent as a whole each time, so that a board that missed a datagram has the values after the next one. It opens
  * no socket.
  */
 #ifndef PEER_OUTBOX_H

@@ -208,19 +208,24 @@ def test_lines_of_a_kernel_are_ignored():
             assert desk.read('Count') == [i]
 
 
+def read_over_a_cut(cable, desk, name):
+    """The values that come when a cable is put back: it was pulled until the request had been sent again."""
+    found = []
+    cable.cut = True
+    waits = threading.Thread(target=lambda: found.extend(desk.read(name)))
+    waits.start()
+    while desk.stream.sent_again < 3:
+        time.sleep(0.01)
+    cable.cut = False
+    waits.join()
+    return found
+
+
 def test_a_cable_that_is_pulled_and_put_back():
     with Cable() as cable, SerialBoard(cable):
         desk = line(cable)
         desk.write({'Count': (INT, 41)})
-        cable.cut = True
-        request = []
-        waits = threading.Thread(target=lambda: request.append(desk.read('Count')))
-        waits.start()
-        while desk.stream.sent_again < 3:
-            time.sleep(0.01)
-        cable.cut = False
-        waits.join()
-        assert request == [[41]]
+        assert read_over_a_cut(cable, desk, 'Count') == [41]
 
 
 def test_a_desk_that_begins_anew():

@@ -11,7 +11,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -19,7 +18,7 @@ import client  # noqa: E402
 import link  # noqa: E402
 from client import BOOL, INT, STRING, Gone  # noqa: E402
 from link import Board, refused  # noqa: E402
-from serial_line import Cable, Faults, ladder, line  # noqa: E402
+from serial_line import Cable, Faults, ladder, line, read_over_a_cut  # noqa: E402
 
 ROUNDS = int(os.environ.get('SERIAL_ROUNDS', '200'))
 WORD = 3
@@ -377,15 +376,7 @@ def test_a_cable_that_is_pulled_and_put_back():
     with Cable() as cable, SmallBoard(cable):
         desk = line(cable)
         desk.write({'%MW0': (WORD, 41)})
-        cable.cut = True
-        found = []
-        waits = threading.Thread(target=lambda: found.append(desk.read('%MW0')))
-        waits.start()
-        while desk.stream.sent_again < 3:
-            time.sleep(0.01)
-        cable.cut = False
-        waits.join()
-        assert found == [[41]]
+        assert read_over_a_cut(cable, desk, '%MW0') == [41]
 
 
 def test_bad_wishes():

@@ -3,7 +3,7 @@
  * convert - a project with the bodies of POUs in another language. In each scan they do the same as
  * before, to the bit.
  *
- * What the other language cannot say is refused with its place, never written in another sense.
+ * A part that the other language cannot express is refused with its place, never changed in meaning.
  */
 #ifndef CONVERT_CONVERT_H
 #define CONVERT_CONVERT_H

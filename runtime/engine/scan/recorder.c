@@ -504,7 +504,7 @@ void recorder_interrupting(struct recorder *recorder, const struct resource *res
 		see_inputs(recorder, resource);
 }
 
-/* What is in the ring is of no use without this scan. */
+/* Without this scan the records in the ring are of no use. */
 static void give_up(struct recorder *recorder)
 {
 	recorder->on = false;

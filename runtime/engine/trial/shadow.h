@@ -30,7 +30,7 @@ void shadow_free(struct shadow *shadow);
  * @before: after the scan before, with the acts of a person that came then
  * @now:    after the scan. With @alone: the state that is known; @before is not used
  *
- * What only the shadow has, such as bits for the steps of a chart, goes on from its last scan: begin at the
+ * Values that only the shadow has, such as bits for the steps of a chart, go on from its last scan: begin at the
  * first scan, or some scans earlier. Scan-safe: no. Fails: false: the program was not in RUN, or ended in a FAULT.
  */
 bool shadow_scan(struct shadow *shadow, const struct twin *before, const struct twin *now);

@@ -6,7 +6,8 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import A11Y, Chinese, Editor, check, lines, main, new_file, until  # noqa: E402
+from chart_text import described, onto  # noqa: E402
+from desk import Chinese, Editor, check, lines, main, new_file, until  # noqa: E402
 
 EMPTY = '''RUNGBOARD 1
 
@@ -52,17 +53,6 @@ def text_of(editor):
     """The text, not its heading."""
     name = 'Count 的语句' if isinstance(editor, Chinese) else 'Statements of Count'
     return until(lambda: [node for node in editor.all(name) if node.has(12)], 'the focus in the text')[0]
-
-
-def described(view):
-    return str(view.editor.bus.call_blocking(view.editor.name, view.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
-                                             (A11Y + 'Accessible', 'Description')))
-
-
-def onto(editor, view, word):
-    """The cursor in the first line with that text."""
-    line = view.text()[:view.text().index(word)].count('\n')
-    editor.keys('ctrl+Home', *['Down'] * line, 'End')
 
 
 def good(editor):

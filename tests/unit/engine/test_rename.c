@@ -93,6 +93,30 @@ static bool renames(struct ladder *ladder, const char *file,
 	return good;
 }
 
+/* Renames each declared name and back. Counts what went wrong, and uses without a meaning, in @bad. */
+static int rename_all(struct ladder *ladder, const char *file, const char *text, const uint8_t identity[32],
+		      int *bad)
+{
+	struct xref xref;
+	int count = 0;
+
+	xref_make(&xref, ladder_project(ladder));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		if (use->target.what == XREF_UNKNOWN)
+			printf("# unknown %s\n", xref_text(&xref, use));
+		*bad += use->target.what == XREF_UNKNOWN;
+		if (use->kind != XREF_DECLARED)
+			continue;
+		count++;
+		*bad += !renames(ladder, file, &use->target,
+				 project_text(xref.project, *use->slot), text, identity);
+	}
+	xref_free(&xref);
+	return count;
+}
+
 static int sample(const char *file, int *bad)
 {
 	struct ladder *ladder = ladder_new();
@@ -178,27 +202,12 @@ static void test_rich(void)
 	size_t len;
 	char *text = ladder_write(ladder, &len);
 	uint8_t identity[32];
-	struct xref xref;
-	int bad = 0, count = 0;
+	int bad = 0, count;
 
 	CHECK(text && identity_of("rich", text, identity));
-	xref_make(&xref, ladder_project(ladder));
-	for (int i = 0; i < xref.count; i++) {
-		const struct xref_use *use = &xref.use[i];
-
-		if (use->target.what == XREF_UNKNOWN)
-			printf("# unknown %s\n", xref_text(&xref, use));
-		bad += use->target.what == XREF_UNKNOWN;
-		if (use->kind != XREF_DECLARED)
-			continue;
-		count++;
-		bad += !renames(ladder, "rich", &use->target,
-				project_text(xref.project, *use->slot), text, identity);
-	}
-	printf("# %d names\n", count);
+	count = rename_all(ladder, "rich", text, identity, &bad);
 	CHECK_AS(bad == 0, "blocks, functions, members, labels, subroutines, tasks");
 	CHECK(count == 22);
-	xref_free(&xref);
 	free(text);
 	ladder_free(ladder);
 }
@@ -249,28 +258,13 @@ static void test_computed(void)
 	size_t len;
 	char *text = ladder_write(ladder, &len);
 	uint8_t identity[32];
-	struct xref xref;
-	int bad = 0, count = 0;
+	int bad = 0, count;
 
 	CHECK_AS(text && strcmp(text, computed) == 0, "expressions are written as they are");
 	CHECK(text && identity_of("computed", text, identity));
-	xref_make(&xref, ladder_project(ladder));
-	for (int i = 0; i < xref.count; i++) {
-		const struct xref_use *use = &xref.use[i];
-
-		if (use->target.what == XREF_UNKNOWN)
-			printf("# unknown %s\n", xref_text(&xref, use));
-		bad += use->target.what == XREF_UNKNOWN;
-		if (use->kind != XREF_DECLARED)
-			continue;
-		count++;
-		bad += !renames(ladder, "computed", &use->target,
-				project_text(xref.project, *use->slot), text, identity);
-	}
+	count = rename_all(ladder, "computed", text, identity, &bad);
 	CHECK_AS(bad == 0, "constants of declarations, functions and their inputs are renamed");
 	CHECK(count == 18);
-	printf("# %d names\n", count);
-	xref_free(&xref);
 	test_added(ladder);
 	free(text);
 	ladder_free(ladder);
@@ -302,27 +296,12 @@ static void test_types(void)
 	size_t len;
 	char *text = ladder_write(ladder, &len);
 	uint8_t identity[32];
-	struct xref xref;
-	int bad = 0, count = 0;
+	int bad = 0, count;
 
 	CHECK(text && identity_of("typed", text, identity));
-	xref_make(&xref, ladder_project(ladder));
-	for (int i = 0; i < xref.count; i++) {
-		const struct xref_use *use = &xref.use[i];
-
-		if (use->target.what == XREF_UNKNOWN)
-			printf("# unknown %s\n", xref_text(&xref, use));
-		bad += use->target.what == XREF_UNKNOWN;
-		if (use->kind != XREF_DECLARED)
-			continue;
-		count++;
-		bad += !renames(ladder, "typed", &use->target,
-				project_text(xref.project, *use->slot), text, identity);
-	}
+	count = rename_all(ladder, "typed", text, identity, &bad);
 	CHECK_AS(bad == 0, "types and values are renamed and renamed back");
 	CHECK(count == 28);
-	printf("# %d names\n", count);
-	xref_free(&xref);
 	free(text);
 	ladder_free(ladder);
 }

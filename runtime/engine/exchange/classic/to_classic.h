@@ -15,7 +15,7 @@
 #include "engine/exchange/report.h"
 #include "engine/model/project.h"
 
-/* An I/O map as lines of ioconf.csv. Whoever makes it reports what these cannot hold. */
+/* An I/O map as lines of ioconf.csv. The code that makes it reports what does not fit. */
 struct classic_lines {
 	const struct classic_io *io;
 	int count;

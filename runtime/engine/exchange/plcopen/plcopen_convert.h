@@ -82,7 +82,7 @@ const char *plc_documentation(struct plcopen *c, struct xml_node *node);
 bool plc_is_name(const char *name);
 /** plc_trim - @text without blanks around it. */
 const char *plc_trim(struct plcopen *c, const char *text);
-/** plc_leftovers - reports each element and attribute below @root that nobody took. */
+/** plc_leftovers - reports each element and attribute below @root that is not marked as taken. */
 void plc_leftovers(struct plcopen *c, struct xml_node *root);
 /** plc_renamed - @text with the names that the import changes. */
 const char *plc_renamed(struct plcopen *c, const char *text);

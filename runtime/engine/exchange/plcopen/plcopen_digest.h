@@ -4,7 +4,7 @@
  *
  * An export writes it beside its own text, and an import compares: so it notices that another tool
  * has changed the drawing. Blanks, the order of attributes, and how characters are escaped do not
- * matter. It protects against nobody who wants to deceive.
+ * matter. It is no protection against forged files.
  */
 #ifndef PLCOPEN_DIGEST_H
 #define PLCOPEN_DIGEST_H

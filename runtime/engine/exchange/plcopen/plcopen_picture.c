@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * plcopen_picture - what stands where in a network, for whoever shows it beside the result.
+ * plcopen_picture - what stands where in a network, for a picture beside the result.
  *
  * Coordinates are read for this alone. A network with two elements at one place has no picture: its tool
  * lays it out anew each time.

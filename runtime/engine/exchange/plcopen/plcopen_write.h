@@ -2,8 +2,8 @@
  *
  * plcopen_write - a project as PLCopen XML, version 2.01 of TC6.
  *
- * What the format cannot say is left out and stands in the report. The project must have been
- * checked. This code opens no file.
+ * Parts that the format cannot express are left out, and the report lists them. The project must
+ * have been checked. This code opens no file.
  */
 #ifndef PLCOPEN_WRITE_H
 #define PLCOPEN_WRITE_H

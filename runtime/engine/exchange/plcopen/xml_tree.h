@@ -3,8 +3,8 @@
  * xml_tree - an XML file as a tree of elements.
  *
  * No entity that a file declares is replaced, nothing outside the file is read, and depth and
- * number of elements are bounded. Namespaces are dropped. Whoever converts an element marks it
- * as taken; what nobody has taken can be reported.
+ * number of elements are bounded. Namespaces are dropped. The code that converts an element
+ * marks it as taken, so that the others can be reported.
  */
 #ifndef XML_TREE_H
 #define XML_TREE_H
