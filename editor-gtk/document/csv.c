@@ -756,7 +756,7 @@ struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize 
 	plan->batch = symbol_batch_new(document);
 	if (!ladder_document_project(document)) {
 		tell(plan, CSV_REFUSE, 0, g_strdup(""),
-		     g_strdup(_("The file cannot be read as a program")));
+		     g_strdup(_("The file cannot be read as a program. Correct its errors first")));
 		return plan;
 	}
 	import.symbols = symbols_new(document);

@@ -718,7 +718,7 @@ struct init_form *init_form_new(LadderDocument *document, int table, int index, 
 	form->counts = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, count_free);
 	form->sorted = g_array_new(FALSE, FALSE, sizeof(guint32));
 	if (!load(form, document))
-		*why = g_strdup(_("The file cannot be read as a program"));
+		*why = g_strdup(_("The file cannot be read as a program. Correct its errors first"));
 	else if (begin(form, table, index, why))
 		return form;
 	init_form_free(form);

@@ -65,7 +65,7 @@ char *properties_set(LadderDocument *document, const char *title,
 
 	if (!project) {
 		g_string_free(text, TRUE);
-		return g_strdup(_("The file cannot be read as a program"));
+		return g_strdup(_("The file cannot be read as a program. Correct its errors first"));
 	}
 	put_line(text, "PROJECT", title);
 	for (int i = 0; i < PROPERTY_COUNT; i++)

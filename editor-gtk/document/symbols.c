@@ -856,7 +856,7 @@ bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t
 	bool good;
 
 	if (!batch->text || !xref_table(batch->project, table))
-		return refuse(why, g_strdup(_("The file cannot be read as a program")));
+		return refuse(why, g_strdup(_("The file cannot be read as a program. Correct its errors first")));
 	if ((!old || strcmp(old->text[FIELD_NAME], text[FIELD_NAME]) != 0) &&
 	    !name_is_free(batch, table, index, text[FIELD_NAME], why))
 		return false;

@@ -692,7 +692,7 @@ bool task_rows_add(LadderDocument *document, char **name, char **why)
 
 	if (!t->project) {
 		task_rows_free(tasks);
-		return refuse(why, g_strdup(_("The file cannot be read as a program")));
+		return refuse(why, g_strdup(_("The file cannot be read as a program. Correct its errors first")));
 	}
 	literal_print_time(TASKS_PERIOD_NS, period, sizeof(period));
 	*name = g_strdup(new_task(t, task_text_free_name(t, "Task", true), period)->name);

@@ -172,7 +172,7 @@ void export_symbols(struct export *export)
 	if (ladder_document_project(export->core->document))
 		export_ask(export, _("Export symbols"), ".csv|.txt", symbols_to, export);
 	else
-		messages_toast(export->core->messages, _("The file cannot be read as a program"));
+		messages_toast(export->core->messages, _("The file cannot be read as a program. Correct its errors first"));
 }
 
 /* ---- on paper ---- */

@@ -452,7 +452,7 @@ static bool do_as_simulated(struct online_bar *bar, enum verb verb)
 	case VERB_sim_stop: core_do(bar->core, "win.online_stop"); return true;
 	case VERB_sim_mode: ladder_board_link_disconnect(link_of(bar)); return true;
 	case VERB_sim_scan: case VERB_sim_cold: case VERB_sim_warm:
-		messages_tell(bar->core->messages, _("Only the simulation can do this"));
+		messages_tell(bar->core->messages, _("This works only in the simulation"));
 		return true;
 	default: return false;
 	}

@@ -35,7 +35,7 @@ void project_properties_show(struct core *core)
 	struct form *form;
 
 	if (!project) {
-		messages_tell(core->messages, _("The file cannot be read as a program"));
+		messages_tell(core->messages, _("The file cannot be read as a program. Correct its errors first"));
 		return;
 	}
 	form = form_new(core->window, _("Project properties"), apply_project,

@@ -391,7 +391,7 @@ void tabs_show_task(struct tabs *tabs, const char *task)
 	GtkWidget *page;
 
 	if (!ladder_document_project(tabs->core->document)) {
-		messages_toast(tabs->core->messages, _("The file cannot be read as a program"));
+		messages_toast(tabs->core->messages, _("The file cannot be read as a program. Correct its errors first"));
 		return;
 	}
 	page = tabs_show_widget(tabs, "tasks");
@@ -422,7 +422,7 @@ void tabs_show_type(struct tabs *tabs, const char *name)
 	GtkWidget *page;
 
 	if (!ladder_document_project(tabs->core->document)) {
-		messages_toast(tabs->core->messages, _("The file cannot be read as a program"));
+		messages_toast(tabs->core->messages, _("The file cannot be read as a program. Correct its errors first"));
 		return;
 	}
 	page = tabs_show_widget(tabs, "types");

@@ -318,7 +318,7 @@ static bool do_language(LadderWindow *window, enum verb verb)
 static void show_addresses(LadderWindow *window)
 {
 	if (!ladder_document_project(window->core.document)) {
-		messages_toast(&window->messages, _("The file cannot be read as a program"));
+		messages_toast(&window->messages, _("The file cannot be read as a program. Correct its errors first"));
 		return;
 	}
 	ladder_address_view_enter(LADDER_ADDRESS_VIEW(tabs_show_widget(&window->tabs,
@@ -375,7 +375,7 @@ static void import_symbols(LadderWindow *window)
 	GtkWidget *symbols;
 
 	if (!ladder_document_project(window->core.document)) {
-		messages_toast(&window->messages, _("The file cannot be read as a program"));
+		messages_toast(&window->messages, _("The file cannot be read as a program. Correct its errors first"));
 		return;
 	}
 	symbols = adw_bin_get_child(ADW_BIN(tabs_show_widget(&window->tabs, "symbols")));
