@@ -632,6 +632,13 @@ const char *fault_text(enum fault fault)
 }
 #endif
 
+/* Bit @i of @d as 0 or 1. A PC is faster when it tests a mask; ARM shifts in fewer instructions. */
+#if defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
+#define BIT_OF(d, i) (((d) & 1u << (i)) != 0)
+#else
+#define BIT_OF(d, i) ((uint8_t)((d) >> (i) & 1u))
+#endif
+
 /* Contacts become these: a bit by a truth table of three others. Without branches, so
  * that its time does not depend on the inputs. The index is 0..7, as the verifier
  * admits only 0 and 1 for a BOOL. */
@@ -640,7 +647,7 @@ static inline void look_up(uint8_t *m, const uint32_t *pc)
 	uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
 	uint32_t d = pc[3];
 
-	m[d >> 8] = (d & 1u << (i & 31u)) != 0;
+	m[d >> 8] = BIT_OF(d, i & 31u);
 }
 
 static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
