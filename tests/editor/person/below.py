@@ -6,7 +6,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROOT, Editor, main, new_file, until  # noqa: E402
+from desk import ROOT, Editor, main, new_file, until, urge  # noqa: E402
 
 SELECTED = 23  # as AtspiStateType counts
 PROJECT = '''RUNGBOARD 1
@@ -86,7 +86,7 @@ def simulates(screen):
     until(lambda: [node for node in editor.all(role='label') if node.name == '0'], 'the value of that scan')
     editor.tab('Timing chart')
     editor.click(editor.find('Show all recorded scans'))
-    until(lambda: editor.find('Timing chart, cursor').has(12) or editor.click(editor.find('Timing chart, cursor')), 'the keys')
+    urge(lambda: editor.find('Timing chart, cursor').has(12), lambda: editor.click(editor.find('Timing chart, cursor')), 'the keys')
     editor.shot('below-past')
     editor.keys('Escape')
     editor.element('Rung 2, COIL', 'Horn', ', on')

@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Chinese, Editor, main, new_file, sh, until  # noqa: E402
+from desk import Chinese, Editor, main, new_file, until  # noqa: E402
 from node import A11Y  # noqa: E402
 from online import Board  # noqa: E402
 import client  # noqa: E402  of tests/online, whose folder online.py adds
@@ -100,7 +100,7 @@ def simulated(screen):
     chart = chart_of(editor)
     x, y, width, _height = editor.place(chart)
     at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 20)
-    editor.tip_at(*at(3))
+    editor.hover(at(3))
     editor.shot('quality-chart')
     editor.drag(at(3), at(7))
     editor.says('PAST · scan 7')

@@ -71,8 +71,7 @@ def tip(screen):
     editor = Editor(screen, new_file(screen, PROJECT.replace('主程序', name), '水泵站.rung'))
     editor.to_sheet()
     row = until(lambda: [node for node in editor.all(name, 'label') if node.name == name], 'the program')[0]
-    editor.hover(row)
-    width, height = until(lambda: [size(window) for window in editor.tips() if size(window)[0] < 400], 'the tooltip')[0]
+    width, height = editor.hover(row, lambda: [size(window) for window in editor.tips() if size(window)[0] < 400])[0]
     editor.shot('chinese-tip')
     assert width > height, 'the tooltip is %d x %d' % (width, height)
 

@@ -12,7 +12,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import EXTENTS, ROLES, ROOT, Chinese, Editor, main, sh, until  # noqa: E402
+from desk import EXTENTS, ROLES, ROOT, Chinese, Editor, main, sh, until, urge  # noqa: E402
 
 SCALE = 2
 SELECTED, SENSITIVE = 23, 24  # states, as AtspiStateType counts
@@ -178,7 +178,7 @@ def choose_contrast(editor, key):
     until(lambda: count() > rows, 'the list')
     editor.keys(key, 'Return')
     editor.shot('contrast-chosen')
-    until(lambda: editor.keys('Escape') or not editor.all('Contrast'), 'the preferences to be gone')
+    urge(lambda: not editor.all('Contrast'), lambda: editor.keys('Escape'), 'the preferences to be gone')
 
 
 def is_black(editor, where):

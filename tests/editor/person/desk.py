@@ -16,7 +16,7 @@ import report
 from finder import Finder
 from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node  # noqa: F401
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
-from screen import PATIENCE, Focus, Screen, dbus, lacking, sh, until
+from screen import PATIENCE, Focus, Screen, dbus, lacking, sh, until, urge
 
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
@@ -106,7 +106,7 @@ class Editor(Finder):
 
     def into(self, name):
         """Clicks into a line or text until it has the focus: the widgets around it may still move."""
-        until(lambda: self.find(name, 'text').has(12) or self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
+        urge(lambda: self.find(name, 'text').has(12), lambda: self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
 
     def tab(self, name):
         """Clicks the tab of exactly that name, below the sheets or in a panel."""
@@ -296,6 +296,22 @@ class Editor(Finder):
             self.keys('Down')
             row = self.focus_on(role='list item', but=row)
         self.keys('Return')
+
+    def step_to(self, look, key, what):
+        """Moves the focus by a key until look() holds. Each time it waits until the focus has moved: with one key too
+        many it would go past."""
+        def moved(before):
+            now = self.focused()
+            return now and (not before or now.path != before.path)
+
+        def step():
+            before = self.focused()
+            self.keys(key)
+            try:
+                until(lambda: look() or moved(before), 'the focus to move', 5)
+            except AssertionError:
+                self.alive()
+        urge(look, step, what, 0)
 
     def to_sheet(self):
         until(lambda: self.sheet().has(12), 'the focus on the sheet')

@@ -183,7 +183,7 @@ def imported(screen):
     for chosen in False, True:
         editor.keys('Menu')
         editor.find('Import from another project', 'menu item')
-        until(lambda: item() or editor.keys('Down'), 'the item')
+        editor.step_to(item, 'Down', 'the item')
         editor.brought('Return', 'Import from another project')
         if chosen:
             editor.type_path(other)
@@ -192,7 +192,7 @@ def imported(screen):
         escape(editor, before, 'import-%d' % chosen)
     assert not editor.all('Other', 'label')
     editor.give_path(other, lambda: editor.command('Import from another project'), 'Import from another project')
-    until(lambda: editor.find('Other', 'check box').has(12) or editor.keys('Tab'), 'the focus on the check box')
+    editor.step_to(lambda: editor.find('Other', 'check box').has(12), 'Tab', 'the focus on the check box')
     assert editor.find('Other', 'check box').has(4), 'the only program is not chosen'
     editor.keys('Return')
     until(lambda: [node for node in editor.all('Other', 'label') if node.name == 'Other'], 'the program')

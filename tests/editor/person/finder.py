@@ -10,7 +10,7 @@ import os
 import re
 
 from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node
-from screen import PATIENCE, dbus, sh, until
+from screen import PATIENCE, dbus, sh, until, urge
 
 
 class Finder:
@@ -271,21 +271,13 @@ class Finder:
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * bar + by, y + rung_y
 
-    def hover(self, node):
-        """Moves the pointer over a widget, as for its tooltip."""
-        x, y = self.centre(node)
-        sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
-
-    def tip_at(self, x, y):
-        """Rests the pointer at a point until a tooltip stands there, and returns its window. Each move of the pointer
-        delays a tooltip: it moves again only when none has come for long."""
-        for again in range(4, -1, -1):
-            sh('xdotool', 'mousemove', str(x), str(y), 'sleep', '0.1', 'mousemove_relative', '1', '0')
-            try:
-                return until(self.tips, 'the tooltip at %d,%d' % (x, y), PATIENCE / 5)[0]
-            except AssertionError:
-                if not again:
-                    raise
+    def hover(self, at, look=None):
+        """Moves the pointer over a widget or a point, and waits for its tooltip; @look: returns it. Each movement starts
+        the half second anew after which the toolkit shows the tooltip: so the pointer rests some seconds."""
+        x, y = at if isinstance(at, tuple) else self.centre(at)
+        move = lambda: sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
+        move()
+        return urge(look or self.tips, move, 'the words below the pointer', wait=5)
 
     def tips(self):
         """Tooltips and popups: the visible windows that the window manager does not know."""

@@ -11,7 +11,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import desk  # noqa: E402
-from desk import BUILD, ROOT, Chinese, Editor, main, sh, until  # noqa: E402
+from desk import BUILD, ROOT, Chinese, Editor, main, sh, until, urge  # noqa: E402
 from node import ROLES  # noqa: E402
 
 MAP = '''BOARD "Garage"
@@ -42,8 +42,8 @@ def open_map(editor, name='garage-door.io'):
 
 def to_program(editor):
     """From the tree, whose rows may still move."""
-    until(lambda: any(sheet.has(12) for sheet in editor.all('Sheet')) or editor.click(editor.find('Door', 'label'), count=2),
-          'the sheet of the program')
+    urge(lambda: any(sheet.has(12) for sheet in editor.all('Sheet')), lambda: editor.click(editor.find('Door', 'label'), count=2),
+         'the sheet of the program')
 
 
 def cell(editor, name):

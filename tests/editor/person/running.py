@@ -330,11 +330,10 @@ def paces(screen):
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
     editor.element('Rung 1, COIL', 'Motor', ', on')
     scan = lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
-    editor.hover(editor.find('Simulating · ', 'label'))
     said = re.compile(r'On this machine a scan takes [\d.]+ (µs|ms): (less than )?[\d.]+ % of the period of 10 ms\. '
                       r'The longest took [\d.]+ (µs|ms)\..* late')
-    until(lambda: [tip for tip in editor.all('On this machine', 'label') if said.match(' '.join(tip.name.split()))],
-          'what a scan takes, and how late scans begin')
+    editor.hover(editor.find('Simulating · ', 'label'), lambda: [
+        tip for tip in editor.all('On this machine', 'label') if said.match(' '.join(tip.name.split()))])
     editor.shot('running-late')
     editor.click(editor.find('Simulation settings', 'push button'))
     editor.focus_on('Period, ms')

@@ -52,6 +52,24 @@ def until(look, what, seconds=PATIENCE):
         time.sleep(max(0.06, 2 * (time.monotonic() - begin)))
 
 
+def urge(look, act, what, pause=5, wait=0):
+    """Acts until look() returns something true, and returns it. After each act it waits @pause seconds for that: one act
+    too many would disturb what is coming. A second click, for example, would make it a double click. @wait: seconds
+    before the first act."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return until(look, what, wait)
+        except AssertionError:
+            if time.monotonic() > end:
+                raise
+        try:
+            act()
+            wait = pause
+        except Gone:  # it did nothing
+            wait = 0.06
+
+
 def is_gone(pid):
     """Has a process ended, whoever waits for it?"""
     try:

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until  # noqa: E402
+from desk import Editor, main, new_file, until, urge  # noqa: E402
 
 RUNG = '''RUNG "Pump %d"
 (* It runs while its input is on, and from then on by itself.
@@ -42,7 +42,7 @@ def again(screen):
     editor.keys('ctrl+shift+w')
     until(lambda: not editor.all('Sheet'), 'the sheet to be gone')
     # From the tree, whose rows may still move.
-    until(lambda: editor.all('Sheet') or editor.click(tree_row(editor, 'Main'), count=2), 'the sheet')
+    urge(lambda: editor.all('Sheet'), lambda: editor.click(tree_row(editor, 'Main'), count=2), 'the sheet')
     editor.to_sheet()
     editor.says('Rung 1 · column A')
     editor.shot('scroll-again')

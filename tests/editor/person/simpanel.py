@@ -6,7 +6,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Chinese, Editor, main, new_file, sh, until  # noqa: E402
+from desk import Chinese, Editor, main, new_file, sh, until, urge  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -83,11 +83,9 @@ def pointer(screen):
     editor.shot('simpanel-forced')
     value = editor.find('/ 1:00 min', 'label')
 
-    def field():
-        """Clicks again if there is none yet: GTK 4.8 under X11 loses some clicks where a popover was, while the window
-        redraws in each frame. The field covers the value that was clicked."""
-        return editor.asked() or editor.all('Delay, preset', 'text') or editor.click(value)
-    until(field, 'the field of the preset')
+    # It clicks again if there is none yet: GTK 4.8 under X11 loses some clicks where a popover was, while the window
+    # redraws in each frame. The field covers the value that was clicked.
+    urge(lambda: editor.asked() or editor.all('Delay, preset', 'text'), lambda: editor.click(value), 'the field of the preset')
     editor.focus_on(role='text')
     editor.keys('ctrl+a')
     editor.type('2m30s')

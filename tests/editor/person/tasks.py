@@ -216,7 +216,7 @@ def tree(screen):
     assert not editor.all('Duplicate…', 'menu item')
     editor.shot('tasks-tree-menu')
     # the pointer may be above another entry
-    until(lambda: any(node.has(12) for node in editor.all('Delete', 'menu item')) or editor.keys('Down'), 'the entry')
+    editor.step_to(lambda: any(node.has(12) for node in editor.all('Delete', 'menu item')), 'Down', 'the entry')
     editor.keys('Return')
     editor.says(QUESTION)
     editor.answer('Delete')

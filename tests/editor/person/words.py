@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until, urge  # noqa: E402
 
 LIST = '''RUNGBOARD 1
 
@@ -200,7 +200,7 @@ def other_keys(screen):
     editor.choose('LDmicro')
     editor.shot('preferences')
     # The first Escape may close the list, if that has not closed yet.
-    until(lambda: editor.keys('Escape') or not editor.all('Key scheme'), 'the preferences to be gone')
+    urge(lambda: not editor.all('Key scheme'), lambda: editor.keys('Escape'), 'the preferences to be gone')
     editor.to_sheet()
     editor.keys('c')
     editor.opened()
