@@ -245,6 +245,7 @@ musl() {
 
 # programs VARIABLE=VALUE... -- DRIVER... : the guest's suite, and for each driver ladderd
 # and its counting twin, all static: uapi, or gpiod1 and gpiod2 for $deb and $triplet.
+# GUARD_CC: another compiler for ladder-guard, for example one with musl.
 programs() {
 	make_with=
 	while [ "$1" != -- ]; do
@@ -259,8 +260,13 @@ programs() {
 	case " $make_with " in
 	*" SMALL=1 "*) ;;
 	*)
-		make_programs none ladder-guard
-		mv "$build/ladder-guard" "$out/"
+		(
+			build=${GUARD_CC:+$out/guard}
+			build=${build:-$out/build}
+			make_with="$make_with${GUARD_CC:+ CC=$GUARD_CC CFLAGS=-Os}"
+			make_programs none ladder-guard
+			mv "$build/ladder-guard" "$out/"
+		) || exit
 		;;
 	esac
 	for driver in "$@"; do
