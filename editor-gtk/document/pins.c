@@ -190,7 +190,8 @@ static char *why_power(const char *was, const char *is)
 {
 	if (strcmp(was, is) == 0)
 		return NULL;
-	return *was ? g_strdup_printf(_("Where the block is used, the power of its row is connected to “%s”. Delete its boxes first, or keep this pin as it is"), was) :
+	return *was ? g_strdup_printf(_("Where the block is used, the power of its row is connected to “%s”. Delete its boxes "
+			"first, or keep this pin as it is"), was) :
 		g_strdup_printf(_("The power of the row would be connected to “%s” where the block "
 			"is used"), is);
 }

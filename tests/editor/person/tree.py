@@ -715,7 +715,7 @@ def pins_moved(screen):
     editor.keys('ctrl+z')
     summary('3 inputs, 2 outputs')
     editor.drag(handle('Start'), upper(pin('Late')))
-    until(lambda: [n for n in editor.all('Start: The power of the row is connected to “Start”', 'label')
+    until(lambda: [n for n in editor.all('Start: Where the block is used, the power of its row is connected to “Start”', 'label')
                    if n.box()[2] > 0], 'the refusal below the pins')
     editor.shot('pins-refused')
     editor.keys('ctrl+s')
