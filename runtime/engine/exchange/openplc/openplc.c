@@ -961,12 +961,15 @@ static bool convert(struct openplc *c)
 {
 	struct import *import = c->import;
 	const int lines = import->report->count, diags = import->diags->count;
-	struct import xml = *import;
+	struct import *const xml = arena_alloc(import->arena, sizeof(*xml));
 	bool good;
 
-	xml.bytes = c->w.out.text;
-	xml.len = c->w.out.len;
-	good = plcopen_format.read(&xml);
+	if (!xml)
+		return false;
+	*xml = *import;
+	xml->bytes = c->w.out.text;
+	xml->len = c->w.out.len;
+	good = plcopen_format.read(xml);
 
 	for (int i = lines; i < import->report->count; i++) {
 		struct report_line *line = &import->report->line[i];
@@ -987,12 +990,12 @@ static bool convert(struct openplc *c)
 	}
 	if (!good)
 		return false;
-	import->text = xml.text;
-	import->drawings = xml.drawings;
-	for (int i = 0; i < xml.drawings.count; i++)
-		xml.drawings.one[i].line = place_of(c, xml.drawings.one[i].line).line;
-	for (int i = 0; i < xml.text.lines; i++)
-		xml.text.place[i] = place_of(c, xml.text.place[i].line);
+	import->text = xml->text;
+	import->drawings = xml->drawings;
+	for (int i = 0; i < xml->drawings.count; i++)
+		xml->drawings.one[i].line = place_of(c, xml->drawings.one[i].line).line;
+	for (int i = 0; i < xml->text.lines; i++)
+		xml->text.place[i] = place_of(c, xml->text.place[i].line);
 	return true;
 }
 
@@ -1024,9 +1027,9 @@ static bool read(struct import *import)
 		return openplc_fail(&c, DIAG_OPENPLC_JSON, "");
 	if (!put_project(&c, project))
 		return false;
-	if (import->arena->failed)
-		return diag_add(import->diags, place, "%s", "");
-	return convert(&c);
+	if (!import->arena->failed && convert(&c))
+		return true;
+	return import->arena->failed && diag_add(import->diags, place, "%s", "");
 }
 
 /* ---- what it is ---- */
