@@ -555,38 +555,13 @@ static void set_spelled(GtkWidget *label, const char *text)
 	g_free(shown);
 }
 
-/* A name may be broken where its next word begins; U+200B has no width. Caller frees. */
-static char *breakable(const char *name)
-{
-	GString *text = g_string_new(NULL);
-
-	for (const char *at = name; *at; at++) {
-		const char before = at > name ? at[-1] : 0;
-
-		if (before == '_' || before == '.' || (g_ascii_islower(before) && g_ascii_isupper(*at)))
-			g_string_append(text, "\xe2\x80\x8b");
-		g_string_append_c(text, *at);
-	}
-	return g_string_free(text, FALSE);
-}
-
-static void show_name(LadderSimRowView *view)
-{
-	char *name = spelling_shown(sim_row_label(view->row)), *text = breakable(name);
-
-	gtk_label_set_text(GTK_LABEL(view->name), text);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->name), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	g_free(text);
-	g_free(name);
-}
-
 static void show_line(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
 	const bool bit = sim_row_is_bit(row), given = row->kind == SIM_SWITCH;
 	char *tooltip = tooltip_of(row);
 
-	show_name(view);
+	set_spelled(view->name, sim_row_label(row));
 	gtk_widget_set_margin_start(view->line, row->owner ? PART_INDENT : 0);
 	gtk_widget_set_visible(view->unfold, row->parts != NULL);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->unfold), row->folded ?
@@ -750,18 +725,6 @@ static GtkWidget *add_label(GtkWidget *to, const char *class, bool expand)
 	return label;
 }
 
-/* A long name has two lines, without a hyphen, which could be one of its letters. */
-static void in_two_lines(GtkLabel *label)
-{
-	g_autoptr(PangoAttrList) whole = pango_attr_list_new();
-
-	pango_attr_list_insert(whole, pango_attr_insert_hyphens_new(FALSE));
-	gtk_label_set_attributes(label, whole);
-	gtk_label_set_wrap(label, TRUE);
-	gtk_label_set_wrap_mode(label, PANGO_WRAP_WORD_CHAR);
-	gtk_label_set_lines(label, 2);
-}
-
 /* The gesture of the row acts, because it needs both press and release. */
 static void show_only(GtkWidget *widget)
 {
@@ -818,7 +781,6 @@ static void add_line(LadderSimRowView *view)
 	can_be_pressed(view, view->lamp);
 	view->address = add_label(view->line, "sim-address", false);
 	view->name = add_label(view->line, "sim-name", true);
-	in_two_lines(GTK_LABEL(view->name));
 	view->pin = add_label(view->line, "sim-pin", false);
 	gtk_label_set_max_width_chars(GTK_LABEL(view->pin), 10);
 	gtk_label_set_ellipsize(GTK_LABEL(view->pin), PANGO_ELLIPSIZE_END);

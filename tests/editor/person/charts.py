@@ -61,7 +61,7 @@ def finished(editor, path):
     text = editor.save(path)
     for line in ('TRANSITION FROM Start TO Fill := %IX0.0;', 'TRANSITION FROM Fill TO Heat := %IX0.1;',
                  'TRANSITION FROM Fill TO Drain := %IX0.2;', 'TRANSITION FROM Heat TO Start := %IX0.3;',
-                 'TRANSITION FROM Drain TO Start := %IX0.3;', 'Q0.0(N);', 'Q0.1(L, T#5s);'):
+                 'TRANSITION FROM Drain TO Start := %IX0.3;', '%QX0.0(N);', '%QX0.1(L, T#5s);'):
         assert line in text, (line, text)
     check(path)
     return text
@@ -83,7 +83,7 @@ def by_keyboard(screen):
     typed(editor, 'Fill')
     at(editor, 'Step Fill')
     asked(editor, 'F9', 'Q0.0')
-    shape(editor, 'Fill does: N Q0.0')
+    shape(editor, 'Fill does: N %QX0.0')
     editor.keys('Insert')
     at(editor, 'Step Step1')
     typed(editor, 'Heat')
@@ -99,7 +99,7 @@ def by_keyboard(screen):
     typed(editor, 'Drain')
     at(editor, 'Step Drain')
     asked(editor, 'F9', 'L T#5s Q0.1')
-    shape(editor, 'Drain does: L T#5s Q0.1')
+    shape(editor, 'Drain does: L T#5s %QX0.1')
     asked(editor, 'F8', 'Start')
     at(editor, 'from Drain to Start')
     typed(editor, 'I0.3')
@@ -196,7 +196,7 @@ def by_pointer(screen):
     chosen(editor, shape(editor, 'Step Fill'), 'Add action to step', 'Q0.0')
     shape(editor, 'Fill does: ')  # it moves what is beside it
     chosen(editor, shape(editor, 'Step Drain'), 'Add action to step', 'L T#5s Q0.1')
-    shape(editor, 'Drain does: L T#5s Q0.1')
+    shape(editor, 'Drain does: L T#5s %QX0.1')
     editor.shot('chart-pointer')
     finished(editor, path)
     assert active(path) == ['Start', 'Fill', 'Drain', 'Start', 'Fill', 'Heat'], active(path)
@@ -208,7 +208,7 @@ def by_pointer(screen):
     chosen(editor, shape(editor, 'Step Drain'), 'Delete')
     until(lambda: not [name for name in shapes(editor) if 'Drain' in name], 'Drain to be gone')
     editor.keys('ctrl+z')
-    shape(editor, 'Drain does: L T#5s Q0.1')
+    shape(editor, 'Drain does: L T#5s %QX0.1')
 
 
 def palette(screen):
@@ -229,7 +229,7 @@ def palette(screen):
     assert [node.text() for node in editor.asked()] == ['L '], [node.text() for node in editor.asked()]
     editor.type('T#2s Q0.1')
     editor.keys('Return')
-    shape(editor, 'Step1 does: L T#2s Q0.1')
+    shape(editor, 'Step1 does: L T#2s %QX0.1')
     editor.click(editor.find('Find a part of a chart'))
     editor.keys('Escape')
     editor.tile('Transition: ')
@@ -392,7 +392,7 @@ def simulated(screen):
     at(editor, 'from Run to Start')
     editor.keys('ctrl+F12')
     until(lambda: editor.all('Condition: Run', 'label'), 'the heading of the condition')
-    editor.element('I0.0')
+    editor.element('%IX0.0')
     editor.shot('chart-why')
     editor.click(upon(editor, shape(editor, 'Step Apart')))
     at(editor, 'Step Apart')
@@ -467,7 +467,7 @@ def clipped(screen):
     at(editor, 'Step Fill')
     on_chart(editor)
     editor.keys('ctrl+x')
-    shape(editor, 'from Start to Drain, condition I0.0')
+    shape(editor, 'from Start to Drain, condition %IX0.0')
     at(editor, 'Step Start')
     cut = editor.save(path)
     assert 'Fill' not in cut, cut
@@ -484,7 +484,7 @@ def clipped(screen):
     editor.keys('ctrl+v')
     at(editor, 'Step Fill')
     shape(editor, 'from Fill to Start, condition Fill.T > T#2s')
-    shape(editor, 'from Drain to Fill, condition I0.2')
+    shape(editor, 'from Drain to Fill, condition %IX0.2')
     editor.shot('chart-pasted')
     check(path)
     # Pasted again: a new name, also in its condition.
@@ -514,7 +514,7 @@ def clipped(screen):
     editor.keys('ctrl+v')
     at(editor, 'Step Step1')
     shape(editor, 'from Start to Step1, condition Fill.T > T#2s')
-    shape(editor, 'from Step1 to Drain, condition I0.0')
+    shape(editor, 'from Step1 to Drain, condition %IX0.0')
     editor.shot('chart-pasted-way')
     editor.save(path)
     check(path)
