@@ -84,6 +84,9 @@ class Hand:
         editor, chance = self.editor, self.dice.random()
         if chance < 0.35:
             tabs = standing(editor.all(role='page tab'), lambda node: node.states >> 30 & 1) + sheets(editor, 0)
+            # A tab that is scrolled out of a small window has a place beside it.
+            width = editor.place()[2]
+            tabs = standing(tabs, lambda node: node.box()[0] + node.box()[2] < width)
             if tabs:
                 return self.tab(self.dice.choice(tabs))
         if chance < 0.45 and (report := editor.all('Show report', 'push button')):
