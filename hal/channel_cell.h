@@ -46,7 +46,7 @@ struct cell {
 	double smooth;
 	int64_t smooth_ns, asked_ns;
 	bool is_smooth, is_asked, bit;
-	bool is_told;              /* of channels_trace(): what it told last   */
+	bool is_told;              /* of channels_trace(): the value it gave last */
 	int told_quality;
 	union iec_value told;
 

@@ -90,7 +90,7 @@ void channels_exchange(struct channels *now, struct channels *next);
 enum hal_quality channels_quality(const struct channels *channels);
 /** channels_point - the quality of a point of the map; good if it has no channel. Scan-safe: yes. */
 enum hal_quality channels_point(const struct channels *channels, int point);
-/** channels_lines - what channels_tell_lines() has told. Scan-safe: yes. */
+/** channels_lines - the states that channels_tell_lines() gave. Scan-safe: yes. */
 enum hal_quality channels_lines(const struct channels *channels);
 /** channels_changes - how often the quality of a point became another one. By the thread that scans. Scan-safe:
  * yes. */

@@ -361,7 +361,7 @@ static bool set_module_type(struct line_reader *line, const struct option_word *
 	return true;
 }
 
-/* Writes go out on each change anyway: the word is there for who wants to read it. */
+/* Outputs are written on each change anyway: the word has no effect. */
 static bool set_on_change(struct line_reader *line, const struct option_word *option)
 {
 	(void)line;

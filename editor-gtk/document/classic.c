@@ -42,7 +42,7 @@ gboolean classic_save_is(const char *path)
 	return kind >= 0 && kinds[kind].dialect != CLASSIC_NUMERIC;
 }
 
-/* ---- what it tells ---- */
+/* ---- reports ---- */
 
 static void add_line(GPtrArray *lines, bool refused, const char *pou, int rung, int row,
 		     int col, char *text)

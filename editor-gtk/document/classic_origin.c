@@ -59,7 +59,7 @@ static struct came came_now(LadderOrigin *origin, int pou, int rung)
 	return came;
 }
 
-/* ---- what was and what is ---- */
+/* ---- rungs before and after ---- */
 
 static void take(struct came *now, struct came *was)
 {
@@ -214,7 +214,7 @@ static void project_changed(LadderOrigin *origin)
 	origin->pous = pous;
 }
 
-/* ---- what is asked ---- */
+/* ---- queries ---- */
 
 const char *ladder_origin_path(LadderOrigin *origin)
 {

@@ -151,7 +151,7 @@ static void tell_whole(LadderDocument *document)
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
 }
 
-/* Before anybody is told of the change. */
+/* Before the signal of the change. */
 static void count_version(LadderDocument *document)
 {
 	document->version++;

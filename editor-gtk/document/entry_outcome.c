@@ -54,7 +54,7 @@ static int line_of(LadderDocument *document, int pou, const struct var *var)
 	return of.found ? line : 0;
 }
 
-/* ---- what is told ---- */
+/* ---- messages ---- */
 
 static void tell_wrong(GString *out, LadderDocument *document, int pou,
 		       const struct entry *entry)

@@ -359,7 +359,7 @@ const char *history_redo_name(const struct history *history)
 	return step ? step->name : NULL;
 }
 
-/* ---- what was saved ---- */
+/* ---- the saved state ---- */
 
 void history_mark_saved(struct history *history)
 {

@@ -79,7 +79,7 @@ int io_machine_name(const struct io_machine *machine, int line, char *out, size_
 	return snprintf(out, size, "%s", found->name);
 }
 
-/* ---- reading what can be read ---- */
+/* ---- reading, also of a map with errors ---- */
 
 static void blank_line(char *text, size_t len, int line)
 {
@@ -253,7 +253,7 @@ static const struct diag *diag_at(const struct diag_list *list, int line)
 	return NULL;
 }
 
-/* A safe value belongs to each output, so each line without is told. */
+/* A safe value belongs to each output, so each line without one gets a warning. */
 static void check_safe(struct io_check *check, const struct io_point *point)
 {
 	char address[24];

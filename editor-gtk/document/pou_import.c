@@ -20,7 +20,7 @@ struct wanted {
 	int pous, globals, structures;
 };
 
-/* ---- what they need ---- */
+/* ---- dependencies ---- */
 
 static bool want(bool *all, int index)
 {
@@ -94,7 +94,7 @@ static bool want_all(struct wanted *wanted, struct project *project)
 	return good;
 }
 
-/* ---- what is there already ---- */
+/* ---- names that exist already ---- */
 
 static int find_global(const struct project *project, const char *name)
 {

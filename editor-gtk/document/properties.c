@@ -160,7 +160,7 @@ char *pou_set_comment(LadderDocument *document, int pou, const char *text)
 	return why;
 }
 
-/* ---- what can be said about a POU ---- */
+/* ---- facts about a POU ---- */
 
 const char *pou_fact_label(enum pou_fact fact)
 {

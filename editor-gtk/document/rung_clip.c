@@ -519,7 +519,7 @@ static void cut_text(struct reading *r, gsize len)
 	}
 }
 
-/* ---- what is wrong ---- */
+/* ---- errors ---- */
 
 static bool refuse(struct reading *r, char *why)
 {
@@ -852,7 +852,7 @@ struct declare {
 	char *clash;                /* message about the first clash           */
 };
 
-/* ---- what is not known ---- */
+/* ---- names that the project lacks ---- */
 
 /* Does the source have a name that is new here? Mostly not: most text is pasted into the
  * project it was copied from. */

@@ -315,7 +315,7 @@ const char *symbol_beside(LadderDocument *document, int table, int index)
 	return name;
 }
 
-/* ---- what is wrong ---- */
+/* ---- errors ---- */
 
 static bool speaks_of(const struct diag *diag, const struct symbol_row *symbol)
 {
@@ -1297,7 +1297,7 @@ bool symbol_set_access(LadderDocument *document, int table, int index,
 	return good;
 }
 
-/* What is typed in the column Access. */
+/* The text of the column Access. */
 struct wanted_access { enum symbol_access access; char *name; };
 
 /* A word for what operators may do, a name, or both with a colon between them. Without a word, the

@@ -244,7 +244,7 @@ void fbd_layout_hint(const struct fbd_layout *layout, int box, float x, float y,
 		*column = layout->plan.columns + 1;
 }
 
-/* ---- what is at a point ---- */
+/* ---- parts at a point ---- */
 
 static bool contains(graphene_rect_t rect, float x, float y, float slack)
 {

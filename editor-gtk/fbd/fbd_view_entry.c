@@ -441,7 +441,7 @@ static bool take_add(LadderFbdView *view, const char *line)
 	return good;
 }
 
-/* ---- Enter at what is there ---- */
+/* ---- Enter at a part ---- */
 
 static bool take_value(const struct asked *asked, const char *line, bool write)
 {

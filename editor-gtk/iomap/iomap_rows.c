@@ -95,7 +95,7 @@ static bool iomap_values(const struct io_text *io, int row, struct io_values *ou
 	       io_values_read(io->text + span->at, span->len, out);
 }
 
-/* Levels of chips, and what cannot be told from them. */
+/* Levels of chips, and drivers whose lines look the same. */
 static bool is_pin(const struct io_text *io, int row)
 {
 	struct io_values values;
@@ -254,7 +254,7 @@ static bool module_has(const struct io_values *values, struct iec_addr addr)
 	return false;
 }
 
-/* Lines without errors are told by the check, which also knows the types of modules. */
+/* The check gives the lines without errors; it also knows the types of modules. */
 bool iomap_has(const struct io_text *io, const struct io_check *check, struct iec_addr addr)
 {
 	struct io_values values;
@@ -1075,7 +1075,7 @@ static bool make_device(struct iomap_line *out, const struct io_text *io, const 
 	return bus >= 0;
 }
 
-/* What comes next on a page whose lines are no points. */
+/* The next line of a page whose lines are no points. */
 static enum io_kind kind_for(const struct io_text *io, enum iomap_page page, int row)
 {
 	if (page == IOMAP_BUSES)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * left - a queue of what waits for the focus to have moved; see left.h.
+ * left - a queue of work that waits until the focus has moved; see left.h.
  */
 #include "editor-gtk/kit/left.h"
 

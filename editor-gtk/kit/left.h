@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * left - what is done when the focus has left a widget, after GTK has moved it.
+ * left - work for the moment after GTK has moved the focus away from a widget.
  *
  * GTK tells that the focus leaves while it moves it. A handler that replaces widgets then, because it
  * sets what was typed, may remove the very widget that gets the focus. Such work waits here until GTK

@@ -3,7 +3,7 @@
  * grid_view_edit - the verbs that change the rungs of a sheet, and the clipboard.
  *
  * A verb acts on the selected rungs, or on that of the cursor: grid_edit makes new ones, which
- * the document gets as one named step. A refusal is told.
+ * the document gets as one named step. A refusal is shown at the cursor.
  *
  * The clipboard holds text of a rung file (rung_clip.h), for text editors and other windows. A
  * rung with outputs is pasted as a new rung; a part without outputs, and outputs alone, into

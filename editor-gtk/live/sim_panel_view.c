@@ -250,7 +250,7 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 	view->telling = false;
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void forget_refusal(LadderSimRowView *view)
 {
@@ -614,7 +614,7 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 	ladder_sim_row_view_update(view);
 }
 
-/* ---- what is clicked ---- */
+/* ---- clicks ---- */
 
 static void select_line(LadderSimRowView *view)
 {

@@ -307,7 +307,7 @@ char *board_copy_save(const struct board_copy *copy, const char *folder, const c
 	return why;
 }
 
-/* ---- what is sent ---- */
+/* ---- files to send ---- */
 
 static void add_u32(GByteArray *bytes, guint32 value)
 {

@@ -103,7 +103,7 @@ static void begin(LadderBoardDownload *download)
 			       sending_unref);
 }
 
-/* ---- what it would change ---- */
+/* ---- the changes that it would make ---- */
 
 static char *loss_text(uint8_t reason, const char *name)
 {

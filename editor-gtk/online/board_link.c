@@ -117,7 +117,7 @@ G_DEFINE_FINAL_TYPE(LadderBoardLink, ladder_board_link, G_TYPE_OBJECT)
 enum { STATE_CHANGED, STATUS, PROGRAM_CHANGED, TOLD, ASKS, FAILED, SIGNALS };
 static guint signals[SIGNALS];
 
-/* ---- what goes between the threads ---- */
+/* ---- messages between the threads ---- */
 
 static void asked_unref(gpointer data)
 {
@@ -294,7 +294,7 @@ static void wait_for_more(struct session *session)
 			continue;
 }
 
-/* Requests, one after the other, and what is told meanwhile. */
+/* Requests, one after the other, and frames that were not asked for. */
 static enum desk_end serve(struct session *session)
 {
 	for (;;) {
@@ -864,7 +864,7 @@ void ladder_board_link_disconnect(LadderBoardLink *link)
 	set_state(link, LINK_OFF, NULL);
 }
 
-/* ---- what is known ---- */
+/* ---- state of the link ---- */
 
 enum link_state ladder_board_link_state(LadderBoardLink *link)
 {

@@ -25,7 +25,7 @@
 #define PING_PART 4          /* of the time of a slow line, that pings take      */
 #define LAPS_MOST 8          /* times that the record may be asked for again   */
 #define LOG_MOST (16u << 20) /* bytes of it that are kept: then it is fetched anew */
-#define LATE_US G_GINT64_CONSTANT(200000) /* less is not told               */
+#define LATE_US G_GINT64_CONSTANT(200000) /* less is not shown              */
 
 /* A list that the board publishes. */
 struct set {
@@ -47,7 +47,7 @@ struct _LadderBoardValues {
 	struct sim_program *program; /* the one to be shown                    */
 	guint8 identity[32];     /* of the program of `mirror`, or of the last attempt */
 	bool tried, loading;
-	guint reads;             /* that ladder_board_values_took_read() has not told */
+	guint reads;             /* that ladder_board_values_took_read() has not answered */
 	bool filled;             /* the values have come once                  */
 	bool again;              /* views needed more while the board was asked */
 	GPtrArray *sets;         /* of struct set                              */

@@ -58,7 +58,7 @@ static GtkWidget *group_new(GtkWidget *page, const char *title)
 	return group;
 }
 
-/* ---- what is chosen ---- */
+/* ---- the choice ---- */
 
 static void end(LadderCompareDialog *dialog, guint signal)
 {

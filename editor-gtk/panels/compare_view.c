@@ -224,7 +224,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 		gtk_list_item_get_child(item))), GTK_ACCESSIBLE_PROPERTY_LABEL, row->spoken, -1);
 }
 
-/* ---- what is compared ---- */
+/* ---- the two sides ---- */
 
 static char *name_of(LadderDocument *document)
 {

@@ -78,7 +78,7 @@ static void mark_all_missing(struct tree *tree)
 		mark_missing(tree, tree->root);
 }
 
-/* ---- what is unfolded ---- */
+/* ---- unfolded rows ---- */
 
 static LadderTreeRow *item_of(GtkTreeListRow *at)
 {

@@ -103,7 +103,7 @@ static void draw(gpointer data, struct picture *picture, struct lettering *lette
 		put_nothing(picture, lettering);
 }
 
-/* ---- what it tells ---- */
+/* ---- its lines ---- */
 
 static char *name_picture(LadderReportView *view, const struct classic_rung *rung)
 {

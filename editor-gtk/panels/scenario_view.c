@@ -79,7 +79,7 @@ static void show_summary(LadderScenarioView *view)
 	g_free(text);
 }
 
-/* What stands there before the first run. Caller frees. */
+/* The text before the first run. Caller frees. */
 static char *before_run(LadderScenarioView *view)
 {
 	GPtrArray *files = scenario_files(ladder_document_path(view->document));

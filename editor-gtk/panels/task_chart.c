@@ -34,7 +34,7 @@ struct _LadderTaskChart {
 
 G_DEFINE_FINAL_TYPE(LadderTaskChart, ladder_task_chart, GTK_TYPE_BOX)
 
-/* ---- what is shown at a time ---- */
+/* ---- the shown range of time ---- */
 
 static LadderTaskLane *lane_of(GtkListBoxRow *row)
 {

@@ -64,7 +64,7 @@ static void ladder_icon_init(LadderIcon *icon)
 	theme_follow(icon, G_CALLBACK(gtk_widget_queue_draw));
 }
 
-/* ---- what is done with it ---- */
+/* ---- click and drag ---- */
 
 static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
 					LadderIcon *icon)

@@ -206,7 +206,7 @@ static void add_symbol(struct maker *maker, int pou, const char *symbol)
 			add_row(maker, &maker->xref.use[i]);
 }
 
-/* ---- what is never used ---- */
+/* ---- symbols without uses ---- */
 
 static guint64 key_of(const struct xref_target *target)
 {
@@ -436,7 +436,7 @@ bool ladder_uses_view_is_lost(LadderUsesView *view)
 	return view->lost;
 }
 
-/* ---- what is asked for ---- */
+/* ---- queries ---- */
 
 void ladder_uses_view_set_mode(LadderUsesView *view, enum uses_mode mode)
 {

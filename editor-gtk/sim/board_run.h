@@ -35,7 +35,7 @@ bool board_status_line(struct run_status *status, const char *line);
 
 LadderBoardRun *ladder_board_run_new(void);
 /** ladder_board_run_start - @file with @map, both paths; the state must be BOARD_OFF.
- * Fails: false, and @error says why: no ladderd. What ladderd itself refuses is told. */
+ * Fails: false, and @error says why: no ladderd. Refusals of ladderd come by the signal told. */
 bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *map,
 			    GError **error);
 /** ladder_board_run_where - where its link listens, as runtime/online/stream.h reads it: a socket

@@ -36,8 +36,8 @@ struct _LadderSim {
 	LadderDocument *older;      /* of a program before an edit; NULL: none yet */
 	guint64 older_era;          /* era of that program                     */
 	guint64 life;               /* how often it began                      */
-	guint refused;              /* count of the last refusal that was told */
-	struct sim_events known;    /* events that were told                   */
+	guint refused;              /* count of the last refusal that was shown */
+	struct sim_events known;    /* events that were shown                  */
 	enum sim_state told;        /* state and period (ns) when state-changed */
 	gint64 told_period;         /* was emitted last                        */
 	gint64 period_ns;
@@ -526,7 +526,7 @@ static void refuse(LadderSim *sim, struct location at, const char *why)
 	g_signal_emit(sim, signals[REFUSED], 0, &at, why);
 }
 
-/* ---- what comes from the thread ---- */
+/* ---- messages of the thread ---- */
 
 static char *halt_words(const struct sim_program *program, const struct resource *resource)
 {
@@ -596,7 +596,7 @@ static void tell_refusal(LadderSim *sim)
 	     false);
 }
 
-/* Not told if no scan ran before the edit. */
+/* No message if no scan ran before the edit. */
 static void tell_edit(LadderSim *sim)
 {
 	const struct record *record = ladder_sim_lock_record(sim);
@@ -1112,8 +1112,8 @@ static void build_text(LadderSim *sim, char *text, gsize len, guint64 version, b
 	g_object_unref(task);
 }
 
-/* What was foreseen has become the text of the document, by one change, or what it was read from. Files
- * beside it may have changed if there were more. */
+/* Is the text that was built ahead now that of the document, or of its file? By one change only: more
+ * of them may have changed the files beside it. */
 static bool came_true(LadderSim *sim, struct rebuild *rebuild, const char *text)
 {
 	if (!rebuild || !rebuild->foreseen ||
@@ -1229,7 +1229,7 @@ const char *ladder_sim_why_not(LadderSim *sim, enum sim_wish wish)
 	return sim->source ? sim->source->why_not(sim->source, wish) : NULL;
 }
 
-/* True: it is told why not. */
+/* True after a message that says why not. */
 static bool refuses(LadderSim *sim, enum sim_wish wish)
 {
 	const char *why = ladder_sim_why_not(sim, wish);
@@ -1253,7 +1253,7 @@ static void start_if_stopped(LadderSim *sim)
 		order(sim, sim->mirror ? ACT_WARM : ACT_START, 0);
 }
 
-/* May the thread be told to do this? The newest scan is shown then. */
+/* May the thread get this order? The newest scan is shown then. */
 static bool may_order(LadderSim *sim, enum sim_wish wish)
 {
 	if (!ladder_sim_is_on(sim) || refuses(sim, wish))

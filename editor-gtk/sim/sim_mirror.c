@@ -37,7 +37,7 @@ struct sim_mirror {
 	bool plays;              /* a recording: all is known, and nothing comes  */
 	guint8 *last_bad;        /* of its last scan, as of struct playback      */
 	gsize last_bad_len;
-	int forces;              /* as the board counts; -1: not told          */
+	int forces;              /* as the board counts; -1: not known         */
 	bool other;              /* something became known: places are to be found again */
 	GHashTable *known;       /* word of a place → enum sim_quality, + 1      */
 	GHashTable *marks;       /* word of a place → GArray of struct mark, oldest first */
@@ -460,7 +460,7 @@ void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 
 		mirror->other = true;
 }
 
-/* ---- what is to be published ---- */
+/* ---- choosing the published variables ---- */
 
 struct places {
 	const struct program *program;
@@ -562,7 +562,7 @@ void sim_mirror_forget_power(struct sim_mirror *mirror, const char *name)
 		mirror->other = true;
 }
 
-/* ---- what was published ---- */
+/* ---- reading published values ---- */
 
 static void put_text(struct sim_mirror *mirror, struct location at, const struct iec_string *from)
 {

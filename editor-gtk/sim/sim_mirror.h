@@ -51,12 +51,12 @@ struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc not
 				  gpointer data);
 struct sim_source *sim_mirror_source(struct sim_mirror *mirror);
 const char *sim_mirror_name(const struct sim_mirror *mirror);
-/** sim_mirror_forces - as the board counts them; -1: it has not told yet, or it is a recording. */
+/** sim_mirror_forces - as the board counts them; -1: not known yet, or it is a recording. */
 int sim_mirror_forces(const struct sim_mirror *mirror);
 /** sim_mirror_set_forces - whether the count is another one now. */
 bool sim_mirror_set_forces(struct sim_mirror *mirror, int count);
 
-/* ---- what is to be published ---- */
+/* ---- choosing the published variables ---- */
 
 /** sim_mirror_places - at most @most variables, of struct location: first those that views need,
  * then the others in the order of the program. *all: there are no more. Caller: g_array_unref. */
@@ -72,7 +72,7 @@ void sim_mirror_forget(struct sim_mirror *mirror);
 /** sim_mirror_forget_power - likewise of the cells of one unit. */
 void sim_mirror_forget_power(struct sim_mirror *mirror, const char *unit);
 
-/* ---- what was published ---- */
+/* ---- reading published values ---- */
 
 /** sim_mirror_value - the value of a variable; a STRING may be too long for its room. */
 void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced, enum sim_quality quality,

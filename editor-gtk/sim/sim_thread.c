@@ -169,7 +169,7 @@ static void scan(struct sim_thread *thread)
 	thread->changed = true;
 }
 
-/* What comes next needs a whole scan. */
+/* The next order needs a whole scan. */
 static void leave_scan(struct sim_thread *thread)
 {
 	if (!stands(thread))
@@ -247,7 +247,7 @@ static void scan_in_time(struct sim_thread *thread)
 		publish(thread, false);
 }
 
-/* Of another program or period, what was counted says nothing. */
+/* Counts of another program or period mean nothing. */
 static void forget_cost(struct sim_thread *thread)
 {
 	for (guint i = 0; i < SIM_LATE_STEPS; i++)

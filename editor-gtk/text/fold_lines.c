@@ -105,7 +105,7 @@ const char *fold_next(const char *line)
 	       (guchar)*line == 0xe2 ? line + 3 : line + 1;
 }
 
-/* What is open while lines are read. */
+/* The blocks that are open while lines are read. */
 struct open {
 	const char *end;  /* the block; "(": a comment                          */
 	int line;

@@ -218,7 +218,7 @@ static struct seen *look_up(LadderLineValues *values, const char *line)
 	return seen;
 }
 
-/* ---- what is shown ---- */
+/* ---- values of a line ---- */
 
 /* The same variable once. */
 static bool was_before(GArray *parts, guint index)
@@ -368,7 +368,7 @@ static void find_result(LadderLineValues *values, int line, struct seen *seen)
 	seen->missing = !place && values->lacks && seen->columns > 0;
 }
 
-/* ---- what is shown ---- */
+/* ---- the columns ---- */
 
 static char *text_of_line(GtkTextBuffer *buffer, int line)
 {
@@ -470,7 +470,7 @@ static int draw(const struct pen *pen, const char *text, int x, int y, enum toke
 	return width;
 }
 
-/* A BOOL is told by weight as well as by colour. */
+/* Weight, too, and not colour alone, tells TRUE from FALSE. */
 static void draw_result(const struct pen *pen, const struct seen *seen, int x, int y)
 {
 	if (!seen->after[0])

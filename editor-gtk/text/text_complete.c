@@ -102,7 +102,7 @@ static void ladder_proposal_init(LadderProposal *proposal)
 
 /* ---- all candidates ---- */
 
-/* What is of the place stands above what is everywhere. */
+/* The order of candidates: words for this place alone first, words for any place last. */
 static int rank_of(const struct ladder_word *word)
 {
 	static const struct {

@@ -13,7 +13,7 @@
 
 #define FIRST_PIECE 200 /* lines that are read first to find the end of a block */
 
-/* What is known of a line. */
+/* Facts about a line. */
 struct row {
 	struct fold_state state; /* at its begin                               */
 	guint8 kind;             /* enum fold_kind                              */

@@ -11,7 +11,7 @@
 
 #include <glib.h>
 
-/* Bytes of a text, and what stands there afterwards. */
+/* Bytes of a text, and their replacement. */
 struct text_mend {
 	gsize at, len;
 	char *with;          /* owned                                          */

@@ -265,7 +265,7 @@ static void show_lines(struct text_stops *stops)
 	draw(stops);
 }
 
-/* Each step is told at once. */
+/* Each step is shown at once. */
 static void show_waiting(struct text_stops *stops)
 {
 	const bool before = stops->waits->len;

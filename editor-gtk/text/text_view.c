@@ -89,7 +89,7 @@ static bool is_action(LadderTextView *view)
 	       project->pou[view->pou].kind == POU_ACTION;
 }
 
-/* What is to be shown. NULL: it has gone. Caller frees. */
+/* The text of the shown part in the document. NULL: the part is gone. Caller frees. */
 static char *text_of_document(LadderTextView *view)
 {
 	char *list = list_of_document(view), *shown, *text;

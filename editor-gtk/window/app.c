@@ -352,7 +352,7 @@ static void tell_draft_failed(gpointer object, const char *why)
 	g_free(text);
 }
 
-/* ---- told to end ---- */
+/* ---- signals that end the program ---- */
 
 /* Ends the editor without questions; unsaved changes are restored at the next start. */
 static gboolean end_now(gpointer application)

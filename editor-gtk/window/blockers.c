@@ -166,7 +166,7 @@ static char *why_of(GtkWidget *asked)
 					   ladder_text_view_why(LADDER_TEXT_VIEW(asked));
 }
 
-/* The text follows the values while the cursor stays and its page is open, and nothing else is told. */
+/* The text follows the values while the cursor stays and its page is open, and no other message stands there. */
 static void look_again(struct blockers *blockers)
 {
 	struct messages *messages = blockers->core->messages;

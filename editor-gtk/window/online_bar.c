@@ -77,7 +77,7 @@ static void asks(LadderBoardLink *link, const char *question, gboolean yes_no,
 	gtk_window_present(GTK_WINDOW(dialog));
 }
 
-/* ---- what it says ---- */
+/* ---- its text ---- */
 
 enum same { SAME_UNKNOWN, SAME, SAME_ERRORS, SAME_CHANGED, SAME_OTHER, SAME_NONE };
 

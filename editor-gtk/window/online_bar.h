@@ -29,7 +29,7 @@ struct online_bar {
 void online_bar_init(struct online_bar *bar, struct core *core, struct compare *compare);
 void online_bar_clear(struct online_bar *bar);
 /** online_bar_choose - connects to the board at @where, unless it is connected. What would end a simulation or
- * another connection is asked first. What fails is told. */
+ * another connection is asked first. A failure is a message. */
 void online_bar_choose(struct online_bar *bar, const char *where);
 /** online_bar_share - connects another window to the board of this one, as ladder_window_share_board()
  * says; without a board it does nothing. */

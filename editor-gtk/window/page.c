@@ -10,7 +10,7 @@
 #include "editor-gtk/text/file_view.h"
 #include "editor-gtk/window/messages.h"
 
-/* ---- what it is ---- */
+/* ---- kind and name ---- */
 
 GtkWidget *page_inside(GtkWidget *child)
 {
@@ -105,7 +105,7 @@ GtkTextBuffer *page_text(AdwTabPage *page)
 	       buffer_of(page);
 }
 
-/* ---- what it tells the window ---- */
+/* ---- signals for the window ---- */
 
 static void moved(struct core *core)
 {

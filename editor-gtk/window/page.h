@@ -38,7 +38,7 @@ void page_set_pou(GtkWidget *content, int pou);
 LadderSideFile *page_file(AdwTabPage *page);
 /** page_text - the visible text of a program or a file; NULL: none. Borrowed. */
 GtkTextBuffer *page_text(AdwTabPage *page);
-/** page_follow - has the window told when the text cursor of the page moves. */
+/** page_follow - the window gets a signal when the text cursor of the page moves. */
 void page_follow(struct core *core, AdwTabPage *page);
 
 #endif

@@ -50,7 +50,7 @@ LadderTextView *ladder_sfc_page_text(LadderSfcPage *page)
 	return page->below_active && page->text ? LADDER_TEXT_VIEW(page->text) : NULL;
 }
 
-/* ---- what stands below ---- */
+/* ---- the part below the chart ---- */
 
 static void moved(LadderSfcPage *page)
 {

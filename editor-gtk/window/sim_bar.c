@@ -25,7 +25,7 @@
 #define TITLE_PADDING 12 /* px beside the texts of the title                     */
 #define WHEN_US 200000 /* us between updates of the title                        */
 
-/* ---- what it says ---- */
+/* ---- its text ---- */
 
 static GtkWidget *label_of(GtkWidget *widget, const char *class)
 {
@@ -342,7 +342,7 @@ static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar 
 	go_to_fault(bar);
 }
 
-/* ---- what it does ---- */
+/* ---- its commands ---- */
 
 static void offer_errors(struct sim_bar *bar, int errors)
 {

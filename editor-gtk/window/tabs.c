@@ -30,7 +30,7 @@
 
 #define OPEN_MOST 8 /* POUs that are opened with a file, at most               */
 
-/* ---- what is open ---- */
+/* ---- open tabs ---- */
 
 static AdwTabPage *nth(struct tabs *tabs, int index)
 {

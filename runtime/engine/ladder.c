@@ -755,7 +755,7 @@ static bool build(struct ladder *ladder)
 	return good;
 }
 
-/* Several copies of a function have the same mistakes: each is told once. */
+/* Several copies of a function have the same mistakes: reports each once. */
 static void say_once(const struct project *project, struct diag_list *diags)
 {
 	bool copies = false;

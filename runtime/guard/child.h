@@ -30,7 +30,7 @@ void child_page(struct child *child);
  *
  * The signals that the guard hands on stay blocked, so one that comes before ladderd listens waits
  * for it. The kernel sends the child SIGTERM if the guard dies. Allocates nothing; vfork() does
- * without an MMU. Fails: false, told.
+ * without an MMU. Fails: false, after a message.
  */
 bool child_start(struct child *child, char **argv, int heartbeat_ms, bool stopped,
 		 unsigned count, int how);

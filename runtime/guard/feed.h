@@ -13,7 +13,7 @@
 struct feed {
 	const char *path;      /* of the watchdog device; NULL: none          */
 	int device;            /* -1: none is open                            */
-	bool lost;             /* told: the device takes no byte              */
+	bool lost;             /* reported: the device takes no byte          */
 	int socket;            /* -1: no service manager                      */
 	struct sockaddr_un to;
 	socklen_t to_len;
@@ -21,9 +21,9 @@ struct feed {
 	int64_t fed_ms;
 };
 
-/** feed_open - opens what @device (borrowed; NULL: none) and the environment name. Fails: false, told. */
+/** feed_open - opens what @device (borrowed; NULL: none) and the environment name. Fails: false, after a message. */
 bool feed_open(struct feed *feed, const char *device);
-/** feed_give - feeds both if it is time. A device that takes no byte any more is told once and opened
+/** feed_give - feeds both if it is time. A device that takes no byte any more is reported once and opened
  * again at each feed. */
 void feed_give(struct feed *feed, int64_t now_ms);
 /** feed_tell - sends a state such as "READY=1"; never waits. */

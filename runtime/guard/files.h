@@ -26,11 +26,11 @@ struct files {
 /** files_begin - no file. */
 void files_begin(struct files *files);
 /** files_know - other files; those of files_more() go. Their devices are there now: which ones they are is looked up,
- * as a device may come back with another number (pwmchip0 as pwmchip1). One that has no room is told. */
+ * as a device may come back with another number (pwmchip0 as pwmchip1). Reports one that has no room. */
 void files_know(struct files *files, const struct guard_files *known);
 /** files_more - files beside those, until others come or none. */
 void files_more(struct files *files, const struct guard_files *more);
-/** files_write - writes all safe numbers, once. One that cannot be written is told once, and does not hinder the
+/** files_write - writes all safe numbers, once. One that cannot be written is reported once, and does not hinder the
  * others. Returns whether all are. */
 bool files_write(struct files *files);
 #endif

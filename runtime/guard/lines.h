@@ -33,7 +33,7 @@ void lines_levels(struct lines *lines, const struct guard_levels *levels);
 /** lines_answer - the levels of all lines, for a ladderd that is about to request them. */
 void lines_answer(const struct lines *lines, struct guard_levels *out);
 /** lines_take - requests the lines that are not held yet, with their safe levels. A line that
- * cannot be had is told once, and does not hinder the others. Returns whether all are held. */
+ * cannot be had is reported once, and does not hinder the others. Returns whether all are held. */
 bool lines_take(struct lines *lines);
 void lines_release(struct lines *lines);
 #endif

@@ -58,7 +58,7 @@ struct guard {
 	bool killed;           /* the guard has killed ladderd                */
 	bool hung;             /* … because its scan hung                     */
 	bool deaf;             /* ladderd has closed its socket               */
-	bool strange;          /* a bad packet was told                       */
+	bool strange;          /* a bad packet was reported                   */
 };
 
 /* No stack is large enough on small boards; the memory is locked. */
@@ -352,7 +352,7 @@ static bool is_hung(int64_t now)
 	return left_ms <= 0;
 }
 
-/* What is due. */
+/* Does the work that is due. */
 static void on_time(int64_t now)
 {
 	if (guard.child.pid && !guard.killed) {

@@ -46,7 +46,7 @@ struct guard_head {
 };
 
 enum { GUARD_AS_IS, GUARD_FIRST, GUARD_SECOND, GUARD_THIRD };
-/* GUARD_KNOWN: ladderd does not know the level; it is the one that the guard was told last for this
+/* GUARD_KNOWN: ladderd does not know the level; it is the one that the guard got last for this
  * line, or else the given one. */
 enum guard_hold { GUARD_SAFE, GUARD_HOLD, GUARD_KNOWN };
 /* An output: the level at the pin, not the value, so inversion is done. */

@@ -99,7 +99,7 @@ void text_say(const char *format, ...)
 	len = strlen(text);
 	text[len++] = '\n';
 	if (write(STDERR_FILENO, text, len) < 0)
-		return; /* nobody is left who could be told */
+		return; /* nobody is left who could read it */
 }
 
 long long text_number(const char *text)

@@ -25,7 +25,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- what goes to the board ---- */
+/* ---- the parts of a download ---- */
 
 /* The folder of the program, with its slash: that of its file, or of all its files. */
 static size_t folder_len(const struct project *project)
@@ -168,7 +168,7 @@ void parcel_close(struct parcel *parcel)
 
 /* ---- download ---- */
 
-/* What is said of it goes to the person who waits. */
+/* Sends a program, and prints how much went or why not. */
 static enum status send_all(struct remote *remote, const struct stored *stored, bool all,
 			    struct sent *sent)
 {

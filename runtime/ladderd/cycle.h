@@ -41,7 +41,7 @@ struct cycle {
 	int64_t wanted_ns;     /* --period; 0: not given                      */
 	bool full_scan;        /* each scan runs the whole program            */
 	bool begin_stopped;    /* does not run at the start                   */
-	const char *stopped;   /* why it began in STOP; NULL: not told         */
+	const char *stopped;   /* why it began in STOP; NULL: not known        */
 	bool restart;          /* ends in order to begin with the newest slot */
 	bool restart_stopped;  /* … in STOP                                   */
 	uint64_t most_scans;   /* 0: no limit                                 */

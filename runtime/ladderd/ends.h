@@ -22,6 +22,6 @@
  * EVENT_ENDS: ENDS_MOST of these within ENDS_WITHIN_S; 0: there is no record. Scan-safe: no.
  */
 uint8_t ends_begin(const char *folder);
-/** ends_orderly - ladderd ends as it was told to. Scan-safe: no. */
+/** ends_orderly - ladderd ends in order. Scan-safe: no. */
 void ends_orderly(const char *folder);
 #endif

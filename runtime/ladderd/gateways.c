@@ -70,7 +70,7 @@ static void sift(const struct iomap *map, uint32_t *order, uint32_t top, uint32_
 	}
 }
 
-/* A heap: qsort() cannot be told the map. */
+/* A heap: the comparison of qsort() has no argument for the map. */
 static bool find_order(struct gateways *gateways, const struct iomap *map)
 {
 	const uint32_t count = (uint32_t)map->count;

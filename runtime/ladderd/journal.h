@@ -14,7 +14,7 @@
 struct journal;
 
 /** journal_open - @folder: of the file `events`; NULL: none. Owns: the caller,
- * journal_close(). Fails: NULL: no memory; a file that cannot be used is told. */
+ * journal_close(). Fails: NULL: no memory; a file that cannot be used is reported. */
 struct journal *journal_open(const char *folder);
 void journal_close(struct journal *journal);
 /** journal_add - numbers and stores an event; its texts are cut. */

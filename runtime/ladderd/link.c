@@ -103,10 +103,10 @@ struct link {
 	struct password password;
 	uint32_t late;                 /* rows of late scans that the log has    */
 	int64_t late_ns;               /* of the last event about them           */
-	int64_t wall_ns, moved_ns;     /* the clock of the wall less the other one; when the log told a step */
+	int64_t wall_ns, moved_ns;     /* the clock of the wall less the other one; when the log got a step */
 	int state;                     /* that the log tells                   */
 	bool disk_bad, disk_told;      /* … and whether the log tells it       */
-	int64_t disk_ns;               /* when the log told it last            */
+	int64_t disk_ns;               /* of its last event in the log         */
 	struct peer_groups groups;
 	uint8_t *views;
 	struct recorder recorder;
@@ -128,7 +128,7 @@ struct link {
 	_Atomic uint32_t turns;        /* of the thread's loop                  */
 	uint32_t turns_seen;           /* by the scan thread, and when          */
 	int64_t turned_ns;
-	bool hangs;                    /* it was told                          */
+	bool hangs;                    /* it was reported                      */
 };
 
 /* ---- the scan thread ---- */
@@ -199,7 +199,7 @@ static enum refusal host_restore(void *context, const struct order_retain *value
 	return REFUSAL_NONE;
 }
 
-/* A thread that hangs, in a write to the disk as a rule, is told; the scan goes on. */
+/* Reports a thread that hangs, in a write to the disk as a rule; the scan goes on. */
 static void watch_thread(struct link *link)
 {
 	const uint32_t turns = atomic_load_explicit(&link->turns, memory_order_relaxed);
@@ -533,7 +533,7 @@ static void watch_blocks(struct link *link)
 	atomic_store(&alarms->ring.watch, alarms->watch);
 }
 
-/* What the scan thread has told. */
+/* Takes the notes of the scan thread. */
 static void follow_alarms(struct link *link)
 {
 	struct alarms *alarms = &link->alarms;
@@ -948,7 +948,7 @@ static void serve_port(struct link *link, short happened)
 		lose_port(link);
 }
 
-/* At the end the desk is told, if the line takes it. */
+/* The last packet ends the session of the desk, if the line takes it. */
 static void close_port(struct link *link)
 {
 	if (link->port.fd < 0)
@@ -962,7 +962,7 @@ static void close_port(struct link *link)
 
 /* ---- sockets ---- */
 
-/* A session too many is told so, if it listens, and closed. */
+/* One session too many gets a refusal, if it listens, and is closed. */
 static void send_away(int fd)
 {
 	uint8_t bytes[128];
@@ -1212,7 +1212,7 @@ int link_begin(struct link *link)
 		if (link->with.slots->bad[i])
 			journal_add(link->journal, EVENT_SLOT_BAD, 0, "", i ? "prog.B" : "prog.A", "");
 	link->state = -1;
-	atomic_store(&link->exchange.state, -1); /* unknown until a scan has told it */
+	atomic_store(&link->exchange.state, -1); /* unknown until the next scan */
 	watch_blocks(link); /* before retained values come */
 	link->scans = pthread_self();
 	link->turned_ns = link->began_ns = clock_now();

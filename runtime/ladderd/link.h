@@ -27,7 +27,7 @@ struct link_store {
 	uint32_t record_kb;            /* of the record; 0: none               */
 };
 
-/* What the record is told (scan/recorder.h). */
+/* What goes into the record (scan/recorder.h). */
 enum link_note {
 	NOTE_START,    /* the program has started, with its retained values   */
 	NOTE_SWAP,     /* another program goes on                             */

@@ -212,7 +212,7 @@ void link_note(struct link *link, enum link_note note, int64_t now_ns)
 	(void)link, (void)note, (void)now_ns;
 }
 
-/* The desk is told, if the line takes it. */
+/* The last packet ends the session of the desk, if the line takes it. */
 void link_close(struct link *link)
 {
 	if (link->fd < 0)

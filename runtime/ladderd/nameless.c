@@ -529,7 +529,7 @@ static enum refusal serve_hello(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-/* What is not of a scan. */
+/* The fields of the status that no scan gives. */
 static void amend_status(const struct nameless *nameless, struct board_status *status)
 {
 	struct timespec now;

@@ -201,7 +201,7 @@ static bool note(struct slots *slots, int error, enum event_id id)
 	return !error;
 }
 
-/* After the program before runs again: what was told of it. */
+/* The program before runs again: restores the state and the reason of its slot. */
 static void note_before(struct slots *slots)
 {
 	slots->unlike = slots->before.unlike;

@@ -39,7 +39,7 @@ void source_leave_code(void)
 	dl_iterate_phdr(leave_pages, &page);
 }
 
-/* This C library keeps what is freed, the more the larger it was. */
+/* This C library keeps freed memory; the larger the blocks, the more. */
 static void give_back(void)
 {
 	malloc_trim(0);

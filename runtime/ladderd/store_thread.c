@@ -29,7 +29,7 @@
 #define SECOND     INT64_C(1000000000)
 #define TICK_NS    (SECOND / 10) /* longest time between two looks           */
 #define QUIET_NS   SECOND        /* values are written after so long without a change */
-#define HANGS_MS   3000      /* a write that takes longer is told            */
+#define HANGS_MS   3000      /* a write that takes longer is reported        */
 #define FRESH      4u            /* the thread has not read `middle` yet     */
 #define STACK_LEAST 65536u
 #define TOLD_MOST  20            /* names of lost values that are printed    */

@@ -71,7 +71,7 @@ void bus_changed(struct bus *bus)
 	atomic_store(&bus->changed, true);
 }
 
-/* ---- what is heard ---- */
+/* ---- answers ---- */
 
 static void put_bad(struct bus *bus, int from, int to)
 {
@@ -614,7 +614,7 @@ static void do_write(struct bus *bus, int number)
 	plan_writes(bus, number);
 }
 
-/* ---- what is next ---- */
+/* ---- the next request ---- */
 
 static int64_t due_of(const struct bus *bus, int number, int64_t now_ns, bool alone)
 {

@@ -3,7 +3,7 @@
  * find - `ladder-modbus scan`: which units of a bus answer.
  *
  * It reads one register of each. Any answer counts, also a refusal. It writes nothing to a unit. What is no answer of
- * the unit, or damaged, is told but does not count.
+ * the unit, or is damaged, is reported but does not count.
  */
 #ifndef MODBUS_FIND_H
 #define MODBUS_FIND_H

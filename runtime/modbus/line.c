@@ -112,7 +112,7 @@ bool line_open(struct line *line)
 		return false;
 	}
 	line->open = true;
-	/* One master for a line: programs that ask are told that it is taken. */
+	/* One master for a line: other programs that open it get the error "busy". */
 	if (!is_tcp(line) && flock(modbus_get_socket(line->modbus), LOCK_EX | LOCK_NB) != 0) {
 		snprintf(line->why, sizeof(line->why), "another program uses it");
 		hang_up(line);

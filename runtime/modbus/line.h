@@ -36,7 +36,7 @@ bool line_say(struct line *line, uint8_t unit, const struct pdu *pdu);
 int line_fd(const struct line *line);
 /** line_wire - for bus_open(). */
 struct wire line_wire(struct line *line);
-/** line_baud_is_known - whether this machine can be told this rate. */
+/** line_baud_is_known - whether this machine knows this rate. */
 bool line_baud_is_known(uint32_t baud);
 /** line_now - monotonic. */
 int64_t line_now(void);

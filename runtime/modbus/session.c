@@ -185,7 +185,7 @@ static bool is_same_map(void)
 	       (!session.text_len || memcmp(session.text, session.gateway.text, session.text_len) == 0);
 }
 
-/* All is examined before anything is driven. False: something is not right, which is told. */
+/* All is examined before anything is driven. False after a message: something is not right. */
 static bool begin_map(void)
 {
 	bool good;
@@ -215,7 +215,7 @@ static bool begin_map(void)
 	return session.runs;
 }
 
-/* Nothing is driven; ladderd and the log are told why, and in a while all is examined again. */
+/* Drives nothing, reports why to ladderd and the log, and examines all again later. */
 static void tell_lack(void)
 {
 	struct gateway_report *report = &session.report;

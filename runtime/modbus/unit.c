@@ -86,7 +86,7 @@ enum unit_trust unit_answered(struct unit *unit, const struct pdu *request, cons
 	return trust;
 }
 
-/* The form of the answers to a read: what they have in common with those to others. */
+/* The form of the answer to a read: its function and length. Two reads of one form have answers that look alike. */
 static int form(const uint8_t *request)
 {
 	const int count = pdu_word(request + 3);

@@ -35,7 +35,7 @@ static const struct {
 #include "online/alarms.def"
 };
 
-/* ---- what is watched ---- */
+/* ---- watched blocks ---- */
 
 /* The kind of the block whose COUNT this is; KINDS: of none. */
 static size_t kind_of(const struct symbol *symbol, size_t *len)

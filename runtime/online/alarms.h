@@ -50,7 +50,7 @@ enum alarm_kind { ALARM_OF_CONDITION, ALARM_OF_LIMIT, ALARM_OF_EVENT };
 struct alarm_block {
 	uint32_t at;           /* offset of the instance                      */
 	uint32_t kind;         /* enum alarm_kind                             */
-	uint32_t count;        /* that was told last                           */
+	uint32_t count;        /* that the list got last                       */
 	uint8_t state;
 	char name[64];
 };
@@ -97,12 +97,12 @@ struct alarms {
 /** alarm_watch_new - the blocks of the program of @image, whose memory is not read. Owns: the caller, free(). Scan-safe: no. Fails: NULL:
  * no memory. A program without names has none. */
 struct alarm_watch *alarm_watch_new(const struct image *image);
-/** alarm_watch_carry - @to goes on with what was told of blocks of the same name and kind: what a
- * block counted before a download does not come again, and its text is told anew. Only when no scan
+/** alarm_watch_carry - @to goes on where blocks of the same name and kind were: what a
+ * block counted before a download does not come again, and its text is read again. Only when no scan
  * looks at either. */
 void alarm_watch_carry(struct alarm_watch *to, const struct alarm_watch *from);
 /** alarm_begin - the program has started, its retained values are there: how often a block came
- * before does not count again; its state is told after the first scan. Scan-safe: yes. */
+ * before does not count again; its state is read after the first scan. Scan-safe: yes. */
 void alarm_begin(struct alarm_ring *ring, const struct resource *resource);
 /** alarm_look - after a scan: puts changes into the ring. Scan-safe: yes; bounded by the blocks. */
 void alarm_look(struct alarm_ring *ring, const struct resource *resource);
@@ -110,7 +110,7 @@ void alarm_look(struct alarm_ring *ring, const struct resource *resource);
 bool alarm_take(struct alarm_ring *ring, struct alarm_note *out);
 
 /** alarm_list_doubt - another program runs, or the board has begun (@begins): alarms that are not
- * told again until the note that has `sync` have gone. */
+ * reported again until all notes up to the one with `sync` were taken. */
 void alarm_list_doubt(struct alarm_list *list, bool begins);
 /** alarm_list_note - brings the list up to date. */
 void alarm_list_note(struct alarm_list *list, const struct alarm_note *note);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * desk - requests and answers over one stream. A frame that is told is given away when it
+ * desk - requests and answers over one stream. A frame that was not asked for is given away when it
  * comes, also between a request and its answer.
  */
 #include "online/desk.h"

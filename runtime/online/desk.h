@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * desk - the desk's side of a session: sends a request, waits for its answer, takes what is
- * told meanwhile.
+ * desk - the desk's side of a session: sends a request, waits for its answer, takes frames
+ * that were not asked for.
  *
  * One thread at a time. It shows nothing; every failure is a value with a text. For programs
  * of a desk only.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * gateway - requests of a gateway, one at a time. What is told comes while it waits or listens.
+ * gateway - requests of a gateway, one at a time. Frames that were not asked for come while it waits or listens.
  */
 #include "online/gateway.h"
 
@@ -181,7 +181,7 @@ enum desk_end gateway_begin(struct gateway *gateway, const char *driver)
 	end = desk_call(&gateway->desk, &out, &in);
 	if (end != DESK_GOOD)
 		return end;
-	gateway->changed = false; /* it was told before it began */
+	gateway->changed = false; /* the message is older than the beginning */
 	gateway->map = wire_u32(&in);
 	size = wire_u32(&in);
 	if (in.failed)

@@ -4,7 +4,7 @@
  * or a network.
  *
  * It connects to ladderd on this machine with the role io, reads the map that runs, gives values of
- * inputs and is told those of outputs (docs/online.md). The number of a point is its index in
+ * inputs and gets those of outputs (docs/online.md). The number of a point is its index in
  * struct iomap of that map, the type of its value the `raw` of its channel.
  *
  * One thread at a time. A call waits until ladderd has answered, which takes less than a

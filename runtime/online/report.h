@@ -7,7 +7,7 @@
 
 #include "online/service.h"
 
-#define REPORT_UNITS 64        /* of one gateway, that are told; others are left out */
+#define REPORT_UNITS 64        /* of one gateway in the status; others are left out */
 
 struct gateway_unit {
 	char name[40];                 /* "rs485/1": bus and unit             */

@@ -32,7 +32,7 @@ size_t cobs_encode(const uint8_t *bytes, size_t len, uint8_t *out)
 	return at;
 }
 
-/* What is written lies before what is read. */
+/* In place: bytes are written before the place where they are read. */
 size_t cobs_decode(uint8_t *bytes, size_t len)
 {
 	size_t from = 0, to = 0;

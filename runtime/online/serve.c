@@ -78,7 +78,7 @@ struct order server_restart(const struct expect *expect, bool stopped)
 			       .mode = stopped ? MODE_STOP : MODE_WARM, .expect = *expect };
 }
 
-/* ---- what is watched ---- */
+/* ---- watched bytes ---- */
 
 static void sort_ranges(struct range *range, uint32_t count)
 {

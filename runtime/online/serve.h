@@ -47,7 +47,7 @@ struct kept {
 struct session {
 	bool used, greeted, over;
 	bool told_role;        /* the log says that it was refused for its role */
-	bool changed;          /* to be told: another program runs            */
+	bool changed;          /* not announced yet: another program runs     */
 	bool unlocked;         /* the program password was given              */
 	bool may_io;           /* it gets the role io if it asks for it       */
 	enum role role;
@@ -85,7 +85,7 @@ struct server {
 	struct values_status values;   /* likewise, of the I/O map            */
 	struct gateway_report report[GATEWAY_COUNT]; /* the last ones          */
 	uint64_t io_session[GATEWAY_COUNT]; /* `opened` of the session that began last */
-	int64_t io_told_ns[GATEWAY_COUNT]; /* when the log told of it last, 0: never */
+	int64_t io_told_ns[GATEWAY_COUNT]; /* of its last event in the log, 0: none */
 	bool io_told[GATEWAY_COUNT];       /* … that it began                  */
 	int64_t now_ns;        /* of the last step                            */
 	bool no_memory;        /* for the image of a new program: no reading  */
@@ -150,7 +150,7 @@ enum refusal asked_refuse_role(struct asked *asked, enum role needed);
 bool asked_is_locked(const struct asked *asked);
 /** asked_tell_mode - the detail of REFUSAL_NOT_NOW of server->order. */
 void asked_tell_mode(struct asked *asked);
-/** server_with_quality - serve_io.c: a copy of @view whose values have the quality that @session is told. */
+/** server_with_quality - serve_io.c: a copy of @view whose values have the quality that @session gets. */
 struct view server_with_quality(struct server *server, const struct session *session, const struct view *view);
 /** server_name_place - the first name of a place, in server->name; its address if it has none. */
 void server_name_place(struct server *server, struct location at);

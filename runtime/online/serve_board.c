@@ -50,7 +50,7 @@ static enum refusal learn_status(struct server *server)
 	return refusal;
 }
 
-/* A scan that hangs tells nothing: the board says what it said last, and that. */
+/* A scan that hangs gives no values: the answer has the last ones, and says that it hangs. */
 static bool is_hung(struct server *server)
 {
 	if (!server_hangs(server) || !*server->known.version)

@@ -223,7 +223,7 @@ bool server_is_over(const struct server *server, int session);
 /** server_settle - a program that was given to the scan thread may run by now: goes on with it.
  * Before server_changed(); server_step() does it, too. */
 void server_settle(struct server *server);
-/** server_changed - the board went back to @program by itself; each session is told @why. */
+/** server_changed - the board went back to @program by itself; each session gets @why. */
 void server_changed(struct server *server, const struct program *program, const char *why);
 
 /** server_image - the program that runs, as the server knows it. */

@@ -3,8 +3,8 @@
  * sums - sums of the blocks of a program, by which a desk finds what a board has already.
  *
  * The weak sum of a window can be moved by a byte without reading the window again; the
- * strong one says that two blocks are very likely the same. Whether all of a program is right
- * is told by the SHA-256 of the whole.
+ * strong one says that two blocks are very likely the same. The SHA-256 of the
+ * whole decides whether a program is right.
  */
 #ifndef ONLINE_SUMS_H
 #define ONLINE_SUMS_H

@@ -40,7 +40,7 @@ struct peer {
 	uint32_t *asked;       /* the value of the outbox that is published as number so-and-so */
 	struct bus bus[BUSES]; /* by their numbers in the map; of others fd is -1 and interface NULL */
 	int bus_count;
-	int told[BUSES];       /* the error that was told                     */
+	int told[BUSES];       /* the error that was reported                 */
 	int away;              /* … about ladderd: enum desk_end              */
 	uint64_t run;
 	int64_t keep_ns, report_ns, heard_ns;

@@ -13,7 +13,7 @@ static gboolean is_in_hidden_page(GtkWidget *widget)
 	return FALSE;
 }
 
-/* At once: the next frame may be the one in which this is told. */
+/* At once: GTK may warn in the next frame. */
 static void look(GtkWidget *text)
 {
 	int from, to;

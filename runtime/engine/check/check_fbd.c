@@ -114,7 +114,7 @@ static void check_wire(struct fbd_check *f, const struct fbd_name *source)
 		if (n->wire != source->wire || n == source)
 			continue;
 		if (is_source(n) && n < source)
-			return; /* this is a second source, which was told */
+			return; /* a second source: reported already */
 		read |= n->use == FBD_READ || n->use == FBD_BEFORE;
 		if (is_source(n)) {
 			snprintf(text, sizeof(text), "%d", line_number(f, source->item));

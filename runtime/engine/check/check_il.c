@@ -1174,7 +1174,7 @@ static bool il_check_whole_move(struct il_check *c, int at)
 	return il_check_same(c, in, from, to) && can_write(c, out, to);
 }
 
-/* A function with ARRAY[*] that has no copy for this call; told. */
+/* A function with ARRAY[*] that has no copy for this call. Reports it. */
 static bool has_any_bounds(struct il_check *c, const struct il_line *line)
 {
 	const struct project *project = scope_project(c->fn.scope);

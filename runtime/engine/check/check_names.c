@@ -687,7 +687,7 @@ static void check_action(struct names_check *c, const struct pou *pou)
 	const uint32_t id = names_intern(&c->project->names, own, strlen(own));
 	char owner[LIMIT_ARG];
 
-	if (!pou->name) /* the reader told it */
+	if (!pou->name) /* the reader has reported it */
 		return;
 	if (pou_owner(c->project, pou) < 0) {
 		snprintf(owner, sizeof(owner), "%.*s", own == name ? 60 : (int)(own - name) - 1, name);
@@ -1068,7 +1068,7 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 	}
 }
 
-/* Has @pou a variable that a value of the CONFIGURATION is for? Its name is told if there is none. */
+/* Has @pou the variable that a line of the CONFIGURATION names? Reports the name if not. */
 __attribute__((noinline))
 static bool has_value(struct names_check *c, const struct config_entry *entry, const struct pou *pou,
 		      const struct st_item *item)

@@ -652,7 +652,7 @@ static void check_place(struct operand_check *c, struct operand_spot at, struct 
 	m = id ? scope_find(c->scope, c->pou, id, &why) : NULL;
 	snprintf(text, sizeof(text), "%.*s", node->len < LIMIT_NAME ? node->len : LIMIT_NAME, node->text);
 	if (id && !m)
-		return; /* the name is told as any other */
+		return; /* as any other unknown name */
 	if (!m)
 		operand_report(c, DIAG_ADR_OF, at, node->len ? text : "+");
 	else if (!m->var || (m->constant && !m->through) || m->addr.area != AREA_NONE)

@@ -165,7 +165,7 @@ static void report_way(struct teller *c, enum diag_id id, int line, int column,
 	report(c, id, line, column, arg);
 }
 
-/* ---- what was found in the states ---- */
+/* ---- warnings about the states ---- */
 
 static void tell_find(struct teller *c, const struct token_find *find)
 {
@@ -227,7 +227,7 @@ static void tell_found(struct teller *c)
 	report(c, DIAG_SFC_GAVE_UP, c->pou->line, 0, text);
 }
 
-/* ---- what is never reached ---- */
+/* ---- steps that are never reached ---- */
 
 /* Reports an unreachable step, without the steps that are unreachable only because of it. */
 static void skip_behind(const struct tokens *t, uint8_t *told, int *queue, int step)

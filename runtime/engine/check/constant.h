@@ -60,7 +60,7 @@ struct il_result il_function_result(const struct fn_check *c, enum iec_type type
  *
  * If all inputs are constants, the function is computed: il_function_result().
  * Owns: nothing.   Scan-safe: no.
- * Fails: false after a diagnostic, or where one was told before.
+ * Fails: false after a diagnostic, or where there was one before.
  */
 bool il_check_inputs(struct fn_check *c, const struct il_line *line, const struct il_result *in,
 		     int count, enum iec_type stored, enum iec_type *common);

@@ -13,7 +13,7 @@
 #include "engine/check/scope.h"
 #include "engine/model/advice.h"
 
-/* What is wanted. */
+/* The kinds of words that fit a place. */
 struct expect_want {
 	unsigned int kinds;        /* enum expect_kind, or'ed                   */
 	uint16_t classes;          /* of variables, pins: enum iec_class; 0: any */

@@ -217,7 +217,7 @@ static bool add_state(struct tokens *t, const uint64_t *bits, int before)
 	return true;
 }
 
-/* ---- what is found ---- */
+/* ---- findings ---- */
 
 /* Keeps the first finding of a kind at a step or arc: its way is a shortest one. */
 static bool add_find(struct tokens *t, struct token_find find)

@@ -58,7 +58,7 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
  * uses_add - notes one use
  * @use: USE_READ, USE_WRITTEN, USE_CALLED
  *
- * True when this is the second call of the same instance; later ones are not told.
+ * True when this is the second call of the same instance; later ones are not reported.
  */
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use);

@@ -131,7 +131,7 @@ static bool shares(const struct walk *w, enum word word)
 	       word == FN_LIMIT || (!word_is_own(word) && word_is_test(scope_row(w->scope, word)));
 }
 
-/* What waits and what comes in line @at meet; the first input of SEL and MUX only chooses. */
+/* The operand of line @at meets the value that waits for its type. The first input of SEL and MUX only chooses. */
 static void meet(struct walk *w, int at, int end, bool chooses)
 {
 	uint32_t of;

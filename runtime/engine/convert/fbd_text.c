@@ -385,7 +385,7 @@ static bool may_fail(const char *text, size_t len)
 	return false;
 }
 
-/* What stands behind the first word of an item: its condition. */
+/* The text behind the first word of an item: its condition. */
 static const char *condition_of(const struct fbd_writer *n, const struct st_item *item)
 {
 	return text_of(n, item->text) + strlen(st_form((enum st_kind)item->kind)->word);

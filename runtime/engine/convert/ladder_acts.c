@@ -226,7 +226,7 @@ static void freeze_many(struct rungs *r, bool all)
 
 /* ---- expressions ---- */
 
-/* What is known of the text of a cell. */
+/* Facts about the text of a cell. */
 struct words {
 	const struct term *term;
 	bool fails;         /* it may be impossible to compute                 */
@@ -444,7 +444,7 @@ static bool is_pin(const struct arg *arg, const char *name)
 	return arg->pin_len == strlen(name) && strncasecmp(arg->pin, name, arg->pin_len) == 0;
 }
 
-/* What is written at the box, and its pins that branches feed. */
+/* The parameters of a box, and its pins that branches feed. */
 static void take_args(struct rungs *r, int element, struct call *call, bool function)
 {
 	const struct network_element *at = &r->network.element[element];

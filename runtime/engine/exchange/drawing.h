@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * drawing - a rung or network as another tool has drawn it: what stands where.
+ * drawing - a rung or network as another tool has drawn it: its elements and their places.
  *
  * An importer makes one for each rung and network whose elements have places; the editor shows it beside
  * the result. It says nothing that is compiled.

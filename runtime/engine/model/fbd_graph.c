@@ -1138,7 +1138,7 @@ static void take_item(struct maker *m)
 	arena_reset(&m->scratch);
 }
 
-/* ---- what stands further down ---- */
+/* ---- feedback ---- */
 
 /* A name that no line above gives: a wire or an output from further down is the value of the scan before. */
 static void feed_back(struct maker *m, int pin)

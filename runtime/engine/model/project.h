@@ -195,7 +195,7 @@ struct source_file {
 	const char *name;       /* borrowed from the arena                     */
 	uint32_t tail;          /* comments at its end, if it is not the first */
 	bool plain;             /* IEC text without the first line of a rung file */
-	bool read;              /* false: it is none of ours, which was told    */
+	bool read;              /* false: a file of another kind; reported      */
 	bool foreign;           /* another tool's file: nothing here writes it */
 };
 

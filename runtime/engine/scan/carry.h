@@ -81,9 +81,9 @@ struct carry_loss {
  *       the plan; `memory` NULL: only forces are known
  * @take: gets each loss once; its name lives during the call
  *
- * Without values, every text with less room is told. Without forces, none is. Constants,
- * temporaries and edges are not told. A variable with an address keeps what is at the
- * address, so it is told only if its area has become too small. Images without names
+ * Without values, every text with less room is reported. Without forces, none is. Constants,
+ * temporaries and edges are not reported. A variable with an address keeps what is at the
+ * address, so it is reported only if its area has become too small. Images without names
  * give no losses.
  * Owns: nothing. Scan-safe: no. Fails: never.
  */

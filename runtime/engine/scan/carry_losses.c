@@ -65,7 +65,7 @@ static void tell_texts(const struct teller *teller, const struct carry_lost *los
 
 /* ---- forces ---- */
 
-/* Forces that end and are not told yet: a bit for each. */
+/* Forces that end and are not reported yet: a bit for each. */
 struct ending {
 	uint64_t bit[LIMIT_FORCES / 64];
 };
@@ -94,7 +94,7 @@ static void tell_address(const struct teller *teller, struct location at)
 	tell(teller, CARRY_FORCE, text, at);
 }
 
-/* False: none is left to be told by its name. */
+/* False: the names of all were reported. */
 static bool find_ending(const struct teller *teller, struct ending *ending)
 {
 	const struct image *now = teller->now;

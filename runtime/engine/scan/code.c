@@ -516,7 +516,7 @@ static bool check_areas(struct verifier *v)
 	return true;
 }
 
-/* What comes behind the checksum. A call of its own would take room on a small board. */
+/* Reads the header behind the checksum. Not inline it would take more room on a small board. */
 static inline __attribute__((always_inline)) bool open_header(const void *bytes, struct arena *scratch,
 							      struct program *out, enum diag_id *why, size_t *where)
 {

@@ -181,7 +181,7 @@ static void show_new(struct mender *m, const char *to)
 		snprintf(m->out->to, sizeof(m->out->to), "%s", blank);
 }
 
-/* Puts @to in the place of @len bytes at @at. The first change is told. */
+/* Puts @to in the place of @len bytes at @at. m->out gets the first change, for the message. */
 static void change(struct mender *m, size_t at, size_t len, const char *to)
 {
 	const size_t add = strlen(to);
@@ -667,7 +667,7 @@ static void mend_commas(struct mender *m)
 	} while (at >= 0);
 }
 
-/* ---- what is missing ---- */
+/* ---- missing words and signs ---- */
 
 /* Cell @n of a row: its bytes without blanks around. False: there is no more. */
 static bool cell_at(const struct mender *m, int n, size_t *from, size_t *to)
@@ -718,7 +718,7 @@ static bool operator_follows(const struct mender *m, size_t at)
 	return is_operator(m->text[at]);
 }
 
-/* ---- what stands behind the word of a cell ---- */
+/* ---- operands of cells ---- */
 
 /* An operand at the cursor: a name with its path, an address or a constant. Returns its bytes; 0: none. */
 static size_t plain_length(const struct mender *m, size_t at, size_t to)
@@ -844,7 +844,7 @@ static bool drop_quotes(struct mender *m, size_t at, size_t to)
 	return true;
 }
 
-/* What is declared for the edge of a value. */
+/* The declaration for the edge of a value. */
 static const char *edge_block(const struct word_row *row)
 {
 	return strcmp(row->word, "N") == 0 ? "Fall : F_TRIG" : "Rise : R_TRIG";
@@ -1158,7 +1158,7 @@ static void mend_steps(struct mender *m)
 	change(m, start, (size_t)(at - m->text) + 2 - start, made);
 }
 
-/* ---- what is computed where only a name or a number can stand ---- */
+/* ---- expressions where only a name or a number can stand ---- */
 
 /* The first bytes of a computation, for the message. */
 static void show_computed(struct mender *m, size_t at, size_t len)
@@ -1173,7 +1173,7 @@ static void show_computed(struct mender *m, size_t at, size_t len)
 		 used < len ? "…" : "");
 }
 
-/* What stands at the cursor is an expression. @more: it is more than a name or a number; @inner:
+/* The text at the cursor is an expression. @more: it is more than a name or a number; @inner:
  * of `(A)` and `A` the name. */
 static bool is_computed(const char *text, size_t len, bool index, bool *more,
 			struct expr_tail *inner)

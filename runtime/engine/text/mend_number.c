@@ -2,7 +2,7 @@
  *
  * mend_number - a comma that is a point, points between thousands, units of times.
  *
- * Whether a comma separates two values is told by the brackets around it.
+ * The brackets around a comma decide whether it separates two values.
  */
 #include "engine/text/mend_number.h"
 

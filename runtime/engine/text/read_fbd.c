@@ -221,7 +221,7 @@ static bool said_chain(struct fbd_reader *f, struct lex lex)
 	return false;
 }
 
-/* The line has errors; where it just ends, that is told instead of them. */
+/* The line has errors. If it only ends too early, that is the only message. */
 static bool said_end(struct fbd_reader *f, const struct lex *lex, int count, int errors)
 {
 	struct diag_list *diags = f->r->diags;
@@ -237,7 +237,7 @@ static bool said_end(struct fbd_reader *f, const struct lex *lex, int count, int
 	return said_at(f, DIAG_FBD_LINE_ENDS, &end);
 }
 
-/* S:FS, I:1/3: an address of another tool is told instead of the error at its colon. */
+/* S:FS, I:1/3: an address of another tool gets its own message, not one about the colon. */
 static bool said_elsewhere(struct fbd_reader *f, const struct lex *line, const struct token *token, int count, int errors)
 {
 	struct diag_list *diags = f->r->diags;

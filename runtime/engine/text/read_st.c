@@ -609,7 +609,7 @@ static enum st_kind split_end(struct st_reader *s, struct lex *lex)
 	return ST_KINDS;
 }
 
-/* A word of another language is told and taken for the right one; ST_KINDS: it is none, or @told. */
+/* Reports a word of another language, and reads it as the right one. ST_KINDS: it is no such word, or @told. */
 static enum st_kind foreign_word(struct st_reader *s, struct lex *lex, bool *told)
 {
 	const struct st_block *block = innermost(s);
@@ -621,7 +621,7 @@ static enum st_kind foreign_word(struct st_reader *s, struct lex *lex, bool *tol
 	    lex_is(&ahead, "[") || lex_is(&ahead, "."))
 		return kind;
 	if (block && block->kind == ST_CASE && lex_is(lex, "Default") && lex_is(&ahead, ":")) {
-		take_as(lex, "ELSE"); /* the colon is told */
+		take_as(lex, "ELSE"); /* the colon was reported */
 		return ST_ELSE;
 	}
 	if (lex_is(lex, "END_REPEAT") && block && block->kind == ST_REPEAT) {
@@ -812,7 +812,7 @@ static bool said_number(struct st_reader *s, const struct lex *first, const stru
 	return !said_foreign(s, &at, from, (int)(to - from), right);
 }
 
-/* Takes back what was said since @count and @errors, if there is a better reason. */
+/* Removes the messages since @count and @errors: there is a better one. */
 static void said_better(struct st_reader *s, enum st_kind kind, const struct lex *first,
 			const struct lex *lex, int count, int errors)
 {
@@ -841,7 +841,7 @@ static void said_better(struct st_reader *s, enum st_kind kind, const struct lex
 	diags->errors = now_errors;
 }
 
-/* VAR … END_VAR between statements: told, and stepped over. */
+/* VAR … END_VAR between statements: reports it, and skips it. */
 static bool skip_declarations(struct st_reader *s)
 {
 	static const char *const heads[] = { "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP" };

@@ -622,7 +622,7 @@ static void read_declarations(struct reader *r, struct var_table *table)
 	}
 }
 
-/* What may stand behind a heading. */
+/* The words that may follow a heading. */
 static uint16_t may_be(uint16_t head)
 {
 	if (head & (VAR_IN_OUT | VAR_TEMP))

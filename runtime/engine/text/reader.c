@@ -959,7 +959,7 @@ bool text_is_plain(const char *text, size_t len)
 {
 	static const char *const words[] = {
 		"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "FUNCTIONBLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL",
-		"NAMESPACE", "USING", "CLASS", "INTERFACE", /* told as what they are */
+		"NAMESPACE", "USING", "CLASS", "INTERFACE", /* the message names them */
 	};
 	struct lex lex;
 

@@ -59,7 +59,7 @@ struct reader {
 	bool plain;        /* no rung file: IEC text, in which a line has no meaning
 			      outside of instruction lists                 */
 	uint16_t number;   /* of the file in project.source                */
-	uint32_t pragma[PRAGMAS_MOST]; /* string ids: kinds that were told */
+	uint32_t pragma[PRAGMAS_MOST]; /* string ids: kinds that were reported */
 	int pragmas;
 	bool boxed;        /* reading the statements of an EXECUTE box     */
 	bool lost;         /* rows follow whose RUNG or PROGRAM is missing */

@@ -100,7 +100,7 @@ void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
 /** text_write_st - Structured Text, a statement a line. Scan-safe: no. */
 void text_write_st(const struct project *project, const struct st *st, const struct sink *sink);
-/* What stands above a network or a rung: string ids; 0: none. */
+/* Comments above a network or a rung: string ids; 0: none. */
 struct text_heading {
 	uint32_t label, title, comment;
 	bool off;

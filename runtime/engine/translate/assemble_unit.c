@@ -834,7 +834,7 @@ static void keep_written(struct list *list, const struct il_line *line)
 
 /* ---- the same of the list that a ladder or a chart becomes ---- */
 
-/* What comes behind it may not run; the result stays what it was. */
+/* The instructions behind it may be skipped; the current result does not change. */
 static bool leaves(const struct il_line *line)
 {
 	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
@@ -857,7 +857,7 @@ static enum iec_type type_after(const struct list *list, const struct il_line *l
 	return leaves(line) && !(line->modifiers & MOD_C) ? IEC_NONE : result_type(&list->now);
 }
 
-/* Is the result what it was before the line? Only of lines that always run. */
+/* Does the line leave the current result as it was? Only of lines that always run. */
 static bool is_kept(const struct frame *frame, const struct il_line *line, enum iec_type type)
 {
 	return frame->always && line->kind == IL_OP && frame->listed_count > 0 &&

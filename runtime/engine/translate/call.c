@@ -340,7 +340,7 @@ static bool is_plain_move(const struct word_row *row, enum word word,
 	       type != IEC_STRING && CODE_TYPE(call->input[0]) == type;
 }
 
-/* @fn: its ENO is told by bits_made() if only a temporary has it. */
+/* @fn: bits_made() records its ENO if only a temporary has it. */
 static void emit_call(struct list *list, const struct word_row *row, enum word word,
 		      const struct call *call, struct fn_code fn)
 {

@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is copied: operands of the variable and of the place with the address. */
+/* A copy: operands of the variable and of the place with the address. */
 struct copied { uint32_t within, place; enum iec_area area; uint32_t line; };
 
 /* Is @line of VAR_CONFIG about a variable in a block of the program of @unit? */

@@ -223,7 +223,7 @@ static struct value chain_fit(struct chain *c, struct value value, enum iec_type
 	return chain_convert(c, value, type, 0);
 }
 
-/* What was computed from bit strings, cut to where it goes. */
+/* Cuts the result of bit strings to the width of its place. */
 static struct value cut(struct chain *c, struct value value, enum iec_type as, enum iec_type hint,
 			uint32_t target)
 {
@@ -1008,7 +1008,7 @@ static struct value next_computed(struct chain *c, const char **at)
 	return value;
 }
 
-/* Where the place behind computed indices or a pointer is: what they add to a place that is known. */
+/* The offset that computed indices or a pointer add to a known place. */
 static struct value place_behind(struct chain *c, uint32_t place, const struct meaning *m)
 {
 	const struct value none = { .type = IEC_NONE };

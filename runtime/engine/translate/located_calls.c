@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PARTS_MOST 256 /* values that a copy is made of; more of them are told as LD334 */
+#define PARTS_MOST 256 /* values of one copy; more of them are LD334 */
 
 /* The operands of all values of one structure or array, in their order. */
 struct parts {

@@ -833,7 +833,7 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 	return !as->failed;
 }
 
-/* What goes into each section. */
+/* The contents of each section. */
 struct piece { const void *bytes; size_t size; };
 
 static void *write_pieces(struct assembler *as, const struct piece *piece,

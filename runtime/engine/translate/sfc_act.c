@@ -24,7 +24,7 @@ static bool is_timed(enum qualifier qualifier)
 	return qualifier == QUALIFIER_SD || qualifier == QUALIFIER_SL;
 }
 
-/* ---- what is called ---- */
+/* ---- which actions are called for ---- */
 
 static int add_called(struct sfc_il *s, int action, uint32_t operand)
 {
@@ -265,7 +265,7 @@ void sfc_ask(struct sfc_il *s)
 			 s->called_count);
 }
 
-/* ---- what is done ---- */
+/* ---- execution of actions ---- */
 
 void sfc_forget(struct sfc_il *s)
 {

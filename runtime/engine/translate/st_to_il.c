@@ -167,7 +167,7 @@ static bool next_part(struct st_il *s, struct st_walk *walk, struct st_part *par
 	return true;
 }
 
-/* A simulation may stand before what comes next: st_to_il(). */
+/* A simulation can stop before the next instruction: st_to_il(). */
 static void begins(struct st_il *s)
 {
 	s->ld.begins = true;
@@ -524,7 +524,7 @@ static void for_begin(struct st_il *s, struct st_open *open, uint32_t from)
 	jump(s, MOD_C | MOD_N, open->out);
 }
 
-/* What is asked of the end once need not be asked of the variable in each round. */
+/* A fact about the constant end of a FOR, found once, saves a test of the variable in each round. */
 static void note_end(struct st_il *s, struct st_open *open, enum iec_type type)
 {
 	union iec_value by = { .i = 1 };
@@ -1669,7 +1669,7 @@ static const struct config_entry *entry_of(struct st_il *s)
 	return NULL;
 }
 
-/* What goes into the program before it runs, or, @output, comes out of it behind. */
+/* Stores the inputs of the program before it runs or, @output, its outputs behind it. */
 static void put_values(struct st_il *s, const struct config_entry *entry, bool output)
 {
 	const uint8_t mark = s->ld.mark;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * record_file - reads records one after another. next_item() checks their form; open checks
- * what they say about each program, so that a playback need not.
+ * record_file - reads records one after another. next_item() checks their form. Opening a file
+ * checks places and values against each program, so a playback need not.
  */
 #include "engine/trial/record_file.h"
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define RANGE_MAX 65536 /* columns of one range */
-#define VALUE_TEXT (IEC_VALUE_TEXT + 16) /* a value and what is told of it */
+#define VALUE_TEXT (IEC_VALUE_TEXT + 16) /* a value and its mark, as "!stale" */
 
 void trace_init(struct trace *trace, const struct image *image,
 		const struct sink *out, enum trace_form form, bool changes)

@@ -27,7 +27,7 @@ struct trace_column {
 	bool gone;             /* the image has no such variable now           */
 	union iec_value last;  /* value shown last; 0 to begin with; a STRING's bytes are
 			        * the trace's own */
-	const char *bad;       /* what was told of it last: see struct trace; NULL: it was good */
+	const char *bad;       /* its mark in the last line: see struct trace; NULL: it was good */
 };
 
 struct trace {

@@ -678,7 +678,7 @@ static void walk_written(struct xref_walk *walk, struct var *var)
 	walk->values = 0;
 }
 
-/* What stands behind the name of declaration @index. */
+/* The text behind the name of declaration @index. */
 static void walk_declaration(struct xref_walk *walk, struct var_table *table, int index)
 {
 	struct var *var = &table->var[index];

@@ -4,7 +4,7 @@
  *
  * It is IEC text with headings in comments. Between POUs stand parts that are none: libraries,
  * pictures, the configuration of a controller. They are left out. A POU whose body is drawn
- * cannot be read: that is told with its line.
+ * cannot be read: an error names its line.
  */
 #include "engine/exchange/iec_file/iec_file_parts.h"
 

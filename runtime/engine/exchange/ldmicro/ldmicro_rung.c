@@ -92,7 +92,7 @@ static struct extent extent_of(struct ldmicro_conversion *c, struct ldmicro_node
 	return all;
 }
 
-/* ---- what may stand in one rung ---- */
+/* ---- elements that may be in one rung ---- */
 
 /* What coils have done that act later here than there. */
 struct pending {

@@ -1032,7 +1032,7 @@ static bool read(struct import *import)
 	return import->arena->failed && diag_add(import->diags, place, "%s", "");
 }
 
-/* ---- what it is ---- */
+/* ---- recognising a project ---- */
 
 static bool has(const char *bytes, size_t len, const char *word)
 {

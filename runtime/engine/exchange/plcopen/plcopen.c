@@ -192,7 +192,7 @@ static void put_lists(struct plcopen *c, struct xml_node *project)
 		}
 }
 
-/* ---- what stands in the application of a device ---- */
+/* ---- the application of a device ---- */
 
 static struct xml_node *child_or_new(struct plcopen *c, struct xml_node *parent, const char *name)
 {

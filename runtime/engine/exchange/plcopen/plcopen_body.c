@@ -26,7 +26,7 @@ enum plcopen_language plc_language(struct xml_node *body, struct xml_node **elem
 	return PLCOPEN_NONE;
 }
 
-/* ---- a part that is written before what stands above it ---- */
+/* ---- text that is made before the text above it ---- */
 
 struct plc_part plc_part_begin(struct plcopen *c)
 {

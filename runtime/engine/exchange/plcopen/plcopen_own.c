@@ -3,7 +3,7 @@
  * plcopen_own - the text that an export of this project has put beside what the XML says.
  *
  * It is read only while the XML says what it said then: all of it, or that of a POU. It names no
- * other file: who wrote the XML does not decide what is read from this machine.
+ * other file, so an XML from elsewhere cannot have a file of this machine read.
  */
 #include "engine/exchange/plcopen/plcopen_convert.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * plcopen_picture - what stands where in a network, for a picture beside the result.
+ * plcopen_picture - the elements of a network and their places, for a picture beside the result.
  *
  * Coordinates are read for this alone. A network with two elements at one place has no picture: its tool
  * lays it out anew each time.
