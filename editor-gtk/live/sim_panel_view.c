@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/style.h"
+#include "editor-gtk/live/sim_panel_line.h"
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/kit/spelling.h"
 
@@ -44,6 +45,11 @@ G_DEFINE_FINAL_TYPE(LadderSimRowView, ladder_sim_row_view, GTK_TYPE_WIDGET)
 LadderSimRow *ladder_sim_row_view_row(LadderSimRowView *view)
 {
 	return view->row;
+}
+
+static GtkBox *part_of(LadderSimRowView *view, enum line_part part)
+{
+	return ladder_sim_line_part(LADDER_SIM_LINE(view->line), part);
 }
 
 /* ---- its accessible name ---- */
@@ -427,7 +433,7 @@ static void add_entry(LadderSimRowView *view)
 	g_signal_connect_swapped(view->entry, "changed", G_CALLBACK(text_changed), view);
 	gtk_widget_add_controller(view->entry, keys);
 	left_connect(view->entry, note_entry, entry_left, g_object_unref, view);
-	gtk_box_insert_child_after(GTK_BOX(view->line), view->entry, view->value);
+	gtk_box_insert_child_after(part_of(view, LINE_END), view->entry, view->value);
 }
 
 static char *field_name(const LadderSimRowView *view)
@@ -594,6 +600,7 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 {
 	const bool heading = row && row->kind == SIM_HEADING;
 
+	ladder_sim_line_begin(LADDER_SIM_LINE(view->line));
 	end_edit(view);
 	forget_refusal(view);
 	g_set_object(&view->row, row);
@@ -712,16 +719,15 @@ static void ladder_sim_row_view_class_init(LadderSimRowViewClass *class)
 					     GTK_ACCESSIBLE_ROLE_GROUP);
 }
 
-static GtkWidget *add_label(GtkWidget *to, const char *class, bool expand)
+static GtkWidget *add_label(GtkBox *to, const char *class, PangoEllipsizeMode cut)
 {
 	GtkWidget *label = gtk_label_new(NULL);
 
 	gtk_label_set_xalign(GTK_LABEL(label), 0);
-	gtk_widget_set_hexpand(label, expand);
-	if (expand)
-		gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_widget_set_hexpand(label, cut != PANGO_ELLIPSIZE_NONE);
+	gtk_label_set_ellipsize(GTK_LABEL(label), cut);
 	gtk_widget_add_css_class(label, class);
-	gtk_box_append(GTK_BOX(to), label);
+	gtk_box_append(to, label);
 	return label;
 }
 
@@ -742,8 +748,8 @@ static void add_heading(LadderSimRowView *view)
 	gtk_widget_add_css_class(view->heading, "heading-line");
 	view->arrow = gtk_image_new();
 	gtk_box_append(GTK_BOX(view->heading), view->arrow);
-	view->title = add_label(view->heading, "sim-heading", false);
-	view->where = add_label(view->heading, "sim-place", true);
+	view->title = add_label(GTK_BOX(view->heading), "sim-heading", PANGO_ELLIPSIZE_NONE);
+	view->where = add_label(GTK_BOX(view->heading), "sim-place", PANGO_ELLIPSIZE_END);
 	g_signal_connect_swapped(click, "released", G_CALLBACK(heading_released), view);
 	gtk_widget_add_controller(view->heading, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_set_parent(view->heading, GTK_WIDGET(view));
@@ -761,43 +767,58 @@ static void add_controls(LadderSimRowView *view)
 	show_only(view->push);
 	gtk_box_append(GTK_BOX(place), view->toggle);
 	gtk_box_append(GTK_BOX(place), view->push);
-	gtk_box_append(GTK_BOX(view->line), place);
+	gtk_box_append(part_of(view, LINE_END), place);
 	can_be_pressed(view, place);
 }
 
-static void add_line(LadderSimRowView *view)
+static void add_lead(LadderSimRowView *view)
 {
 	GtkGesture *click = gtk_gesture_click_new();
+	GtkBox *lead = part_of(view, LINE_LEAD);
 
-	view->line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
 	view->unfold = gtk_image_new();
-	gtk_box_append(GTK_BOX(view->line), view->unfold);
+	gtk_box_append(lead, view->unfold);
 	g_signal_connect_swapped(click, "released", G_CALLBACK(heading_released), view);
 	gtk_widget_add_controller(view->unfold, GTK_EVENT_CONTROLLER(click));
 	view->lamp = g_object_new(GTK_TYPE_BOX, "css-name", "lamp", "accessible-role",
 				  GTK_ACCESSIBLE_ROLE_IMG, NULL);
 	gtk_widget_set_valign(view->lamp, GTK_ALIGN_CENTER);
-	gtk_box_append(GTK_BOX(view->line), view->lamp);
+	gtk_box_append(lead, view->lamp);
 	can_be_pressed(view, view->lamp);
-	view->address = add_label(view->line, "sim-address", false);
-	view->name = add_label(view->line, "sim-name", true);
-	view->pin = add_label(view->line, "sim-pin", false);
-	gtk_label_set_max_width_chars(GTK_LABEL(view->pin), 10);
-	gtk_label_set_ellipsize(GTK_LABEL(view->pin), PANGO_ELLIPSIZE_END);
-	view->tag = add_label(view->line, "sim-tag", false);
-	gtk_widget_set_valign(view->tag, GTK_ALIGN_CENTER);
-	view->badge = add_label(view->line, "sim-forced", false);
+}
+
+static GtkWidget *add_mark(LadderSimRowView *view, enum line_part part, const char *class)
+{
+	GtkWidget *mark = add_label(part_of(view, part), class, PANGO_ELLIPSIZE_NONE);
+
+	gtk_widget_set_valign(mark, GTK_ALIGN_CENTER);
+	return mark;
+}
+
+static void add_end(LadderSimRowView *view)
+{
+	view->badge = add_mark(view, LINE_END, "sim-forced");
 	gtk_label_set_text(GTK_LABEL(view->badge), "F");
 	tip_set(view->badge, _("Forced"));
-	gtk_widget_set_valign(view->badge, GTK_ALIGN_CENTER);
-	view->quality = add_label(view->line, "sim-quality", false);
-	gtk_widget_set_valign(view->quality, GTK_ALIGN_CENTER);
+	view->quality = add_mark(view, LINE_END, "sim-quality");
 	gtk_widget_set_visible(view->quality, FALSE);
-	view->value = add_label(view->line, "sim-value", false);
+	view->value = add_label(part_of(view, LINE_END), "sim-value", PANGO_ELLIPSIZE_END);
 	gtk_label_set_xalign(GTK_LABEL(view->value), 1);
-	gtk_label_set_ellipsize(GTK_LABEL(view->value), PANGO_ELLIPSIZE_END);
 	can_edit(view);
 	add_controls(view);
+}
+
+static void add_line(LadderSimRowView *view)
+{
+	view->line = ladder_sim_line_new();
+	add_lead(view);
+	view->address = add_label(part_of(view, LINE_ADDRESS), "sim-address", PANGO_ELLIPSIZE_NONE);
+	/* Names differ at their ends: GateOpenButton, GateCloseButton. */
+	view->name = add_label(part_of(view, LINE_NAME), "sim-name", PANGO_ELLIPSIZE_MIDDLE);
+	view->pin = add_label(part_of(view, LINE_ABOUT), "sim-pin", PANGO_ELLIPSIZE_END);
+	gtk_label_set_max_width_chars(GTK_LABEL(view->pin), 10);
+	view->tag = add_mark(view, LINE_ABOUT, "sim-tag");
+	add_end(view);
 	gtk_widget_set_parent(view->line, GTK_WIDGET(view));
 }
 

@@ -5,6 +5,7 @@
  *
  * SIM_PICTURES=FOLDER saves pictures of it.
  */
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/window/app.h"
 #include "tests/editor/panel_shown.h"
 #include "tests/editor/keys.h"
@@ -514,6 +515,107 @@ static const char *page(void)
 	return gtk_stack_get_visible_child_name(GTK_STACK(gtk_widget_get_last_child(box)));
 }
 
+/* ---- names ---- */
+
+#define LETTERS 24
+
+/* The least width of the panel in a window of 1024 px. */
+#define PANEL_WIDTH 280
+
+/* A name of so many letters that differs from all others. */
+static char *name_of(int kind, int letters)
+{
+	GString *name = g_string_new(NULL);
+
+	g_string_append_printf(name, "%c%c", 'A' + kind, 'a' + letters);
+	while ((int)name->len < letters)
+		g_string_append_c(name, "OpenDoorButton"[name->len % 14]);
+	g_string_truncate(name, (gsize)letters);
+	return g_string_free(name, FALSE);
+}
+
+static const char *const kinds[] = {
+	"", "", ": BOOL", ": DINT := 2000000000", ": TIME := T#23h59m",
+	": STRING := 'a text that alone is wider than the panel is'", ": TON", ": CTU",
+};
+
+static void open_names(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nVAR\n"), *rungs = g_string_new(NULL);
+
+	for (int letters = 3; letters <= LETTERS; letters++)
+		for (guint kind = 0; kind < G_N_ELEMENTS(kinds); kind++) {
+			char *name = name_of((int)kind, letters);
+
+			g_string_append_printf(text, "  %s ", name);
+			if (kind < 2) /* an input, an output */
+				g_string_append_printf(text, "AT %%%cX%d.%d : BOOL", "IQ"[kind], letters / 8,
+						       letters % 8);
+			else
+				g_string_append(text, kinds[kind]);
+			g_string_append(text, ";\n");
+			if (kind >= 6)
+				g_string_append_printf(rungs, kind == 6 ? "RUNG\n  | %s %s PT:=T#12h30m |\n" :
+						       "RUNG\n  | %s %s PV:=20000 |\n", kinds[kind] + 2, name);
+			g_free(name);
+		}
+	g_string_append_printf(text, "END_VAR\nPROGRAM Main LD\n%sEND_PROGRAM\n", rungs->str);
+	ladder_sim_end(sim);
+	ladder_document_open_text(document, "/tmp/x/names.rung", text->str, text->len, true);
+	CHECK(ladder_sim_begin(sim, NULL));
+	g_string_free(rungs, TRUE);
+	g_string_free(text, TRUE);
+}
+
+/* Of the lines that have a widget: how many there are, how many of their names are cut. */
+static void count_names(GtkWidget *widget, int *all, int *cut, int *low)
+{
+	GtkWidget *name = LADDER_IS_SIM_ROW_VIEW(widget) ? panel_find(widget, panel_has_class, "sim-name") : NULL;
+
+	if (name && gtk_widget_get_mapped(name)) {
+		++*all;
+		*low += gtk_widget_get_height(widget) < 32;
+		if (pango_layout_is_ellipsized(gtk_label_get_layout(GTK_LABEL(name))) && ++*cut < 4)
+			printf("# %d px: %s\n", gtk_widget_get_width(GTK_WIDGET(panel)),
+			       gtk_label_get_text(GTK_LABEL(name)));
+		return;
+	}
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child; child = gtk_widget_get_next_sibling(child))
+		count_names(child, all, cut, low);
+}
+
+static void check_names(int width, const char *what)
+{
+	int all = 0, cut = 0, low = 0;
+
+	gtk_window_set_default_size(GTK_WINDOW(window), width, 860);
+	CHECK_SOON(gtk_widget_get_width(GTK_WIDGET(panel)) == width);
+	turn(60);
+	count_names(GTK_WIDGET(panel), &all, &cut, &low);
+	CHECK_AS(all > 20 && cut == 0, what);
+	CHECK_AS(low > all / 4, "a line whose parts have room is a low one");
+}
+
+/* Names of up to 24 letters are read whole beside any value, with and without a mark of force. */
+static void test_names(void)
+{
+	open_names();
+	for (int width = PANEL_WIDTH; width <= 520; width += 40) {
+		check_names(width, "no name is cut");
+		for (int letters = 3; letters <= LETTERS && width == PANEL_WIDTH; letters++)
+			for (int kind = 0; kind < 3; kind++) {
+				char *name = name_of(kind, letters);
+
+				live_value_force(sim, false, row_of(name)->at, (union iec_value){ .i = 1 });
+				g_free(name);
+			}
+	}
+	save_pictures(window, "SIM_PICTURES", "names");
+	ladder_sim_release_all(sim);
+	gtk_window_set_default_size(GTK_WINDOW(window), 290, 860);
+	CHECK_SOON(gtk_widget_get_width(GTK_WIDGET(panel)) == 290);
+}
+
 static void test_empty(void)
 {
 	static const char text[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | |\nEND_PROGRAM\n";
@@ -568,6 +670,7 @@ int main(int argc, char **argv)
 	test_map();
 	test_structures();
 	test_wholes();
+	test_names();
 	test_empty();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));

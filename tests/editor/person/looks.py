@@ -98,13 +98,16 @@ class French(Editor):
 
 
 def french(screen):
-    """1024 px in French, simulating: the tab at the edge of the hidden side answers, messages of alarms have room"""
+    """1024 px in French, simulating: the tab at the edge of the hidden side answers, messages of alarms and long names have room"""
     shutil.copytree(os.path.join(ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
     editor = French(screen, os.path.join(screen.home, 'ladders', 'cement-plant', 'cement-plant.rung'))
     editor.says('Idle')
     editor.keys('ctrl+m')
     editor.says('SIMULATION')
     until(lambda: not editor.all('Find an element'), 'the left side to be folded')
+    long, short = (until(lambda: [n for n in editor.all(name, 'label') if n.box()[3] > 0], name)[0].box()
+                   for name in ('DischargedButton', 'MixButton'))
+    assert long[0] < short[0], 'the long name stands above its address: %s, %s' % (long, short)
     editor.tab(editor.shown_as('Status chart'))  # it is where the edge of the left side was
     editor.find('Write all new values', 'push button')
 
