@@ -258,17 +258,19 @@ $(HAL_TEST)/iio_real: $(call obj,$(IIO_C_libiio) tests/hal/iio_sys.c)
 $(HAL_TEST)/iio_real: LIBIIO = -Wl,--export-dynamic -ldl
 $(HAL_TEST)/iio_fake $(HAL_TEST)/iio_real: $(IIO_TEST) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBIIO) -lm
-$(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir,--wrap=fdatasync,--wrap=iomap_read -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
+SYS_FAKE := -Wl,--wrap=iomap_read,--wrap=pwrite,--wrap=pwrite64
+$(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(HAL_TEST)/sys_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) $(SYS_FAKE) -Wl,--wrap=opendir,--wrap=fdatasync -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
-# ladderd and ladder-guard with lines that both share.
+# ladderd and ladder-guard with lines that both share; files in place of converters and pulse widths.
 GUARD_FAKES := $(HAL_TEST)/guarded_ladderd $(HAL_TEST)/guarded_guard
 GUARD_WRAP  := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl,--wrap=opendir,--wrap=poll,--wrap=syscall,--wrap=waitpid
-$(HAL_TEST)/guarded_ladderd: $(LADDERD) $(call obj,tests/hal/guard_fake.c $(HAL_CORE) hal/gpio_find.c hal/gpio_uapi.c) $(BUILD)/libonline.a $(BUILD)/libladder.a
+$(HAL_TEST)/guarded_ladderd: $(LADDERD) $(call obj,tests/hal/guard_fake.c tests/hal/sys_fake.c $(filter-out hal/iio_none.c,$(HAL_CORE)) hal/gpio_find.c hal/gpio_uapi.c) \
+                            $(HAL_TEST)/fake_iio/iio_libiio.o $(HAL_TEST)/fake_iio/fake_iio.o $(BUILD)/libonline.a $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(GUARD_WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(GUARD_WRAP) $(SYS_FAKE) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
 $(HAL_TEST)/guarded_guard: $(GUARD) $(call obj,tests/hal/guard_fake.c)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(GUARD_WRAP) -o $@ $^

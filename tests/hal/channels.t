@@ -42,8 +42,9 @@ sub make_devices {
 	show('class/pwm/pwmchip0/export', '');
 	show("class/pwm/pwmchip0/pwm0/$_", '0') for qw(period duty_cycle enable);
 }
-# A number that was written over a longer one keeps the end of it: these all have the same length.
-sub duty { return 0 + (get('sys/class/pwm/pwmchip0/pwm0/duty_cycle') || 0) }
+# The number of a file: behind it may be the rest of an older one.
+sub number_in { return get($_[0]) =~ /^(\d+)/ ? $1 : 0 }
+sub duty { return number_in('sys/class/pwm/pwmchip0/pwm0/duty_cycle') }
 
 my $rung = put('copy.rung', <<'END');
 RUNGBOARD 1
@@ -255,7 +256,7 @@ sub make_chip { # a link in the class, as the kernel makes it
 	make_path("$sys/class/pwm");
 	symlink "../../$at", "$sys/class/pwm/pwmchip$number" or die;
 }
-sub duty_of { return 0 + (get("sys/class/pwm/pwmchip$_[0]/pwm0/duty_cycle") || 0) }
+sub duty_of { return number_in("sys/class/pwm/pwmchip$_[0]/pwm0/duty_cycle") }
 # The last word: the number that a chip of the same name, which was there from the start, has in the end.
 for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its name', '1-0040', '1-0041', "pca9685\n", 1],
 	      ['elsewhere, without a name', '1-0040', '1-0041', '', 0], ['gone', '1-0040', undef, '', 0],
@@ -325,10 +326,10 @@ for my $case ([1, 70, '', qr{ladderd: ladder-guard knows (\d+) outputs of conver
 	}
 	my @duty = map { my $chip = $_; map { "sys/class/pwm/pwmchip$chip/pwm$_/duty_cycle" } 0 .. $channels - 1 } 0 .. $chips - 1;
 	$pid = start_guard($copied, $rung, '--io', put('many.io', $lines));
-	ok(until_true(sub { (get('sys/class/pwm/pwmchip0/pwm0/enable') || 0) == 1 && get('err') =~ $told }), 'too many outputs are told')
+	ok(until_true(sub { number_in('sys/class/pwm/pwmchip0/pwm0/enable') == 1 && get('err') =~ $told }), 'too many outputs are told')
 		or diag get('err');
 	my ($known) = get('err') =~ $told;
-	my $are_safe = sub { scalar grep { (get($_) || 0) == $safe } @duty };
+	my $are_safe = sub { scalar grep { number_in($_) == $safe } @duty };
 	ok(until_true(sub { $are_safe->() == 0 }), 'the program has written them all') or diag get('err');
 	unlink $copied;
 	kill 'KILL', child_of($pid);

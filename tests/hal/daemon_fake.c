@@ -4,7 +4,6 @@
  * hangs. The environment controls the chips:
  *
  *   FAKE_DEV      folder in place of /dev
- *   FAKE_SYS      folder in place of /sys
  *   FAKE_FAIL_AT  reads fail from this one on, until FAKE_HEAL_AT
  *   FAKE_DEAF_AT  writes fail from this one on, until FAKE_HEAR_AT
  *   FAKE_SLOW_AT  reads take 15 ms from this one on
@@ -13,7 +12,6 @@
  *   FAKE_CRASH_AT this read ends in SIGSEGV
  *   FAKE_SYNC_HANGS  fdatasync() waits while there is this file
  */
-#include "hal/iomap.h"
 #include "tests/hal/fake.h"
 
 #include <dirent.h>
@@ -32,20 +30,6 @@ DIR *__wrap_opendir(const char *path)
 	const char *dev = getenv("FAKE_DEV");
 
 	return __real_opendir(dev && strcmp(path, "/dev") == 0 ? dev : path);
-}
-
-bool __real_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
-		       size_t len, struct diag_list *diags);
-bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
-		       size_t len, struct diag_list *diags);
-
-bool __wrap_iomap_read(struct iomap *map, struct arena *arena, const char *file, const char *text,
-		       size_t len, struct diag_list *diags)
-{
-	const bool good = __real_iomap_read(map, arena, file, text, len, diags);
-
-	map->sys = getenv("FAKE_SYS");
-	return good;
 }
 
 int __real_fdatasync(int fd);
