@@ -11,6 +11,7 @@ import ctypes
 import fcntl
 import glob
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -24,6 +25,7 @@ sys.path[:0] = [TOP + '/tests/modbus', TOP + '/tests/online']
 import board  # noqa: E402
 import client  # noqa: E402
 import plant  # noqa: E402
+import ways_out  # noqa: E402
 from board import until  # noqa: E402
 from far import Units  # noqa: E402
 from plant import Machine, near, tell  # noqa: E402
@@ -322,6 +324,60 @@ BUS plant modbus-tcp host=127.0.0.1:{port} timeout=300ms
     units.close()
     for thing in (lines, valve, lamp):
         thing.close()
+
+
+# ---- each way out of RUN ----
+
+class Ways(ways_out.Fakes):
+    """Lines of gpio-sim, pulse widths of a chip, converters."""
+    ladderd, guard = BUILD + '/ladderd', BUILD + '/ladder-guard'
+    places = {'a pulse width': 'pwm chip=pca9685-pwm channel={n} period=20ms range=0..10000 at 0%..100%',
+              'a converter': 'iio device=dac{n} channel=voltage0 range=0..10000 at 0V..10V'}
+    near = {'a pulse width': 4, 'a converter': 1}
+    lines_stay = False
+    ways = [name for name in ways_out.WAYS if name != 'the watchdog of scans']  # it needs a driver that hangs
+
+    def begin(self, folder):
+        self.chip = Chip('pca9685', 0x40).there()
+        self.dacs = [Converter(f'dac{n}') for n in range(len(ways_out.CHOICES))]
+        self.lines = None
+        self.answer()
+
+    def answer(self):
+        if not self.lines:
+            self.lines = Lines('ways', ['IN0', 'IN1'] + [f'OUT{n}' for n in range(ways_out.OUTS)])
+
+    def fail(self):
+        """The chip is unplugged."""
+        self.lines.close()
+        self.lines = None
+
+    def input(self, line, level):
+        self.lines.pull(f'IN{line}', level)
+
+    def line(self, n):
+        return self.lines.value(f'OUT{n}'), 0
+
+    def pulse(self, n):
+        return round(pulse(self.chip, n) * 10000)
+
+    def converter(self, n):
+        return round(self.dacs[n].output() * 1000)
+
+    def end(self):
+        for thing in (self.lines, self.chip, *self.dacs):
+            thing.close()
+
+
+def test_each_way_out_of_run():
+    """Lines, pulse widths, converters and units of Modbus have their safe values; see ways_out.py."""
+    cells = 0
+    for name in Ways.ways:
+        try:
+            cells += ways_out.way_out(ways_out.WAYS[name], random.Random(1), Ways())
+        except Exception as error:
+            raise AssertionError(name) from error
+    tell(f'{len(Ways.ways)} ways out, {cells} outputs')
 
 
 # ---- the cement plant on two boards ----
