@@ -229,6 +229,113 @@ END
 	is(slurp("$dir/again.rung"), slurp("$dir/coils.rung"), 'which is the same');
 }
 
+# NOT in front of an output of a block is a coil in its rung, or a contact behind it: no Structured Text.
+{
+	spew("$dir/inverse.rung", <<'END');
+RUNGBOARD 1
+
+VAR
+  A AT %IX0.0 : BOOL;
+  B AT %IX0.1 : BOOL;
+  X AT %QX0.0 : BOOL;
+  Y AT %QX0.1 : BOOL;
+  Z AT %QX0.2 : BOOL;
+  M : TIME;
+  N : INT;
+  T : TON;
+  C : CTUD;
+END_VAR
+
+PROGRAM Main FBD
+NETWORK
+  T(IN := A, PT := T#20ms, NOT Q => X, ET => M)
+  Y := NOT T.Q
+NETWORK
+  C(CU := A, CD := B, R := A AND B, PV := 1, NOT QU => X, NOT QD => Z, CV => N)
+NETWORK
+  T(IN := X, PT := T#20ms, NOT Q => w)
+  X := w OR Z
+END_PROGRAM
+END
+	my ($good, $said) = converts('inverse.rung', 'ld', 'inverse-ld.rung');
+	ok($good, 'inverted outputs become a ladder') or diag($said);
+	my $rungs = slurp("$dir/inverse-ld.rung") =~ s/ +/ /gr;
+	like($rungs, qr/\| NO A \| TON T PT:=T#20ms ET=>M \| COILNOT X \|\n \| \| \^\| COILNOT Y \|\n/, 'as negated coils behind their block');
+	like($rungs, qr/^ \| NC C\.QU \| COIL X \|\nRUNG\n \| NC C\.QD \| COIL Z \|\n/m, 'and as contacts, of outputs that are no power');
+	unlike($rungs, qr/EXECUTE/, 'without Structured Text');
+	srand 9;
+	spew("$dir/s", "\@print X Y Z M N T.Q C.CV\n" . join '', map { sprintf "%%IX0.%d=%d\n", rand 2, rand 2 } 1 .. 60);
+	my $was = trace_of('inverse.rung', 's');
+	ok($was =~ /^60 t=/m && $was =~ /X=0.*X=1/s && $was eq trace_of('inverse-ld.rung', 's'), 'and it does the same');
+}
+
+# Comments and titles come along into lists, in their order: of networks, of ladders with boxes, of Structured Text.
+{
+	spew("$dir/said.rung", <<'END');
+RUNGBOARD 1
+
+VAR
+  A AT %IX0.0 : BOOL;
+  X AT %QX0.0 : BOOL;
+  N AT %QW2   : INT;
+END_VAR
+
+// c00
+PROGRAM Main FBD
+// c01
+(* c02
+   c03 *)
+NETWORK "c04"
+  X := A // c05
+  // c06
+  N := ADD(N, (* c07 *) 1)
+NETWORK OFF Away "c08"
+  N := 7 // c09
+NETWORK
+  JMP Away IF X
+  // c10
+END_PROGRAM
+
+PROGRAM Rungs LD
+// c11
+RUNG "c12"
+  | NO A (* c13 *) | COIL X |
+RUNG
+  | NO A | EXECUTE E | COIL X |
+  EXECUTE E:
+    // c14
+    N := 3; // c15
+    N := N + 1; // c16
+  END_EXECUTE
+// c17
+RUNG OFF "c18"
+  | NO X | COIL X |
+END_PROGRAM
+
+PROGRAM Words ST
+  // c19
+  IF A THEN
+    // c20
+    N := 1; // c21
+  ELSE // c22
+    FOR N := 1 TO (* c23 *) 3 DO
+      // c24
+      X := NOT X;
+    END_FOR;
+  END_IF;
+  // c25
+END_PROGRAM
+END
+	my ($good, $said) = converts('said.rung', 'il', 'said-il.rung');
+	ok($good, 'a project with comments becomes lists') or diag($said);
+	my $text = slurp("$dir/said-il.rung");
+	is(join(' ', $text =~ /\bc(\d\d)\b/g), join(' ', map { sprintf '%02d', $_ } 0 .. 25), 'all comments are there, once and in their order') or diag($text);
+	like($text, qr|  ST    X // c05\n// c06\n|, 'one behind a line stands behind its last instruction');
+	like($text, qr|  ST    N // c15\n(?: .*\n)*  .*N\)? // c16\n_|, 'also inside of a box');
+	system "cd $dir && $ladder fmt said-il.rung 2>/dev/null";
+	is(slurp("$dir/said-il.rung"), $text, 'the list is written as fmt writes it');
+}
+
 # More contacts than a rung has columns, also in parentheses: before a block, and behind it.
 for my $nested (0, 1) {
 	my $bit = sub { sprintf '%%IX%d.%d', int $_[0] / 8, $_[0] % 8 };

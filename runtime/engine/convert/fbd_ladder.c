@@ -64,6 +64,8 @@ struct box {
 	const struct path *after; /* between the box and its coil; NULL: nothing */
 	uint32_t behind[WIDE]; /* the coils behind it: string ids              */
 	int coils;
+	struct inverted { uint32_t pin, place; } inverted[WIDE]; /* NOT pin => place: string ids */
+	int inversions;
 };
 
 static const char *text_of(const struct ladders *l, uint32_t id)
@@ -1151,12 +1153,55 @@ static bool block_input(struct ladders *l, struct box *box, const struct word_ro
 	return true;
 }
 
-static bool block_output(struct ladders *l, struct box *box, const struct st_part *part, bool draw)
+/* May the output that is stored at @node be one of those that are stored inverted before it? */
+static bool is_inverted_place(struct ladders *l, const struct box *box, const struct expr_node *node)
+{
+	struct sink_memory memory;
+	const char *text;
+	bool found = false;
+
+	if (!box->inversions)
+		return false;
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	sink_text(&sink, "=> ");
+	sink_write(&sink, node->text, node->len);
+	text = text_of(l, take_text(l, &memory));
+	for (int i = 0; i < box->inversions; i++) {
+		const char *place_text = text_of(l, box->inverted[i].place);
+		const struct token name = { .kind = TOKEN_NAME, .text = place_text, .len = strlen(place_text) };
+
+		found |= text_may_write(l->acts, text, &name);
+	}
+	return found;
+}
+
+/* NOT Q => Lamp becomes a coil behind the box. */
+static bool inverted_output(struct ladders *l, struct box *box, const struct word_row *row, const struct st_part *part)
+{
+	const struct expr_node *node = node_of(l, l->acts->expr->root);
+	const int pin = word_pin_find(row, part->pin.text, part->pin.len);
+
+	if (pin < 0 || row->pin[pin].type != IEC_BOOL || word_first_bool(row, PIN_IN) < 0 || !draws(l, l->acts->expr->root) ||
+	    box->inversions == WIDE)
+		return false;
+	box->inverted[box->inversions++] = (struct inverted){ acts_intern(l->acts, part->pin.text, part->pin.len),
+							      acts_intern(l->acts, node->text, node->len) };
+	return true;
+}
+
+static bool block_output(struct ladders *l, struct box *box, const struct word_row *row, const struct st_part *part,
+			 bool draw)
 {
 	const struct expr_node *node = node_of(l, l->acts->expr->root);
 	const struct sink sink = sink_to_memory(&box->text);
 
-	if (node->op != EXPR_NAME || !is_sure_name(l, node) || part->pin.len == 0 || part->inverted)
+	if (node->op != EXPR_NAME || !is_sure_name(l, node) || part->pin.len == 0)
+		return false;
+	if (part->inverted)
+		return inverted_output(l, box, row, part);
+	if (is_inverted_place(l, box, node))
 		return false;
 	if (!draw)
 		return true;
@@ -1177,6 +1222,7 @@ static bool block_parts(struct ladders *l, struct box *box, const struct st_item
 	struct st_part part;
 	int inputs = 0;
 
+	box->inversions = 0;
 	st_begin(&walk, &l->acts->project->names, item);
 	if (!next_part(l, &walk, &part)) /* what is called */
 		return false;
@@ -1187,7 +1233,7 @@ static bool block_parts(struct ladders *l, struct box *box, const struct st_item
 			return false;
 		if (part.role == ST_INPUT)
 			powered |= word_pin_find(row, part.pin.text, part.pin.len) == first;
-		if (part.role == ST_INPUT ? !block_input(l, box, row, &part, draw) : !block_output(l, box, &part, draw))
+		if (part.role == ST_INPUT ? !block_input(l, box, row, &part, draw) : !block_output(l, box, row, &part, draw))
 			return false;
 	}
 	return powered || first < 0;
@@ -1347,6 +1393,51 @@ static void take_lines(struct ladders *l, int count)
 	l->skip = count;
 }
 
+static uint32_t inverse_coil(struct ladders *l, uint32_t coil)
+{
+	return cell(l, "COILNOT", text_of(l, coil) + strlen("COIL "))->text;
+}
+
+/* Are all inverted outputs the power behind the block, with room for their coils? */
+static bool inverts_power(const struct ladders *l, const struct box *box, const struct word_row *row)
+{
+	const int first = word_first_bool(row, PIN_OUT);
+
+	for (int i = 0; i < box->inversions; i++) {
+		const char *pin = text_of(l, box->inverted[i].pin);
+
+		if (word_pin_find(row, pin, strlen(pin)) != first)
+			return false;
+	}
+	return box->inversions <= (box->branches ? 1 : WIDE);
+}
+
+/* Outputs that are stored inverted, in the rung of the box. */
+static void inverse_coils(struct ladders *l, struct box *box)
+{
+	for (int i = 0; i < box->inversions; i++) {
+		const char *operand = text_of(l, box->inverted[i].place);
+
+		box->behind[box->coils++] = cell(l, "COILNOT", text_with_wires(l, operand, strlen(operand)))->text;
+	}
+}
+
+/* The same in rungs behind it. */
+static void inverse_rungs(struct ladders *l, const struct box *box, const char *instance)
+{
+	for (int i = 0; i < box->inversions; i++) {
+		const char *operand = text_of(l, box->inverted[i].place);
+		struct sink_memory memory;
+
+		sink_memory_init(&memory);
+		const struct sink sink = sink_to_memory(&memory);
+
+		sink_printf(&sink, "%s.%s", instance, text_of(l, box->inverted[i].pin));
+		put_rung(l, cell(l, "NC", text_of(l, take_text(l, &memory))),
+			 cell(l, "COIL", text_with_wires(l, operand, strlen(operand)))->text, 0);
+	}
+}
+
 /* The coils of the lines behind a call that store the power behind the block alone. A row of a pin has no room. */
 static void coils_behind(struct ladders *l, struct box *box, const struct meaning *instance, const struct word_row *row)
 {
@@ -1357,14 +1448,17 @@ static void coils_behind(struct ladders *l, struct box *box, const struct meanin
 	       (item = line_behind(l, &by)) != NULL) {
 		const uint32_t coil = coil_of(l, item);
 		const int root = l->acts->expr->root;
+		const struct expr_node *node = node_of(l, root);
+		const bool inverse = coil && item->kind == ST_ASSIGN && node->op == EXPR_NOT &&
+				     is_power_of(l, node->left, instance, row);
 		const bool more = coil && !box->coils && !box->branches && is_drawn(l, root) && goes_on(l, root, instance, row) &&
 				  has_room_behind(l, box, root);
 
-		if (!coil || (!more && !is_power_of(l, root, instance, row)))
+		if (!coil || (!more && !inverse && !is_power_of(l, root, instance, row)))
 			break;
 		if (more)
 			box->after = path_behind(l, root, instance, row);
-		box->behind[box->coils++] = coil;
+		box->behind[box->coils++] = inverse ? inverse_coil(l, coil) : coil;
 		last = by;
 		if (more)
 			break;
@@ -1444,8 +1538,10 @@ static void call(struct ladders *l, const struct st_item *item)
 	const struct word_row *row;
 	const struct pou *pou;
 	struct box *box = arena_alloc(l->acts->arena, sizeof(*box));
+	const char *instance = "";
 	struct st_walk walk;
 	struct st_part part;
+	bool same_rung;
 
 	st_begin(&walk, &l->acts->project->names, item);
 	if (!box || !next_part(l, &walk, &part)) {
@@ -1474,11 +1570,18 @@ static void call(struct ladders *l, const struct st_item *item)
 	st_begin(&walk, &l->acts->project->names, item);
 	if (next_part(l, &walk, &part)) {
 		node = node_of(l, l->acts->expr->root);
-		put_text(l, node->text, node->len, &sink);
+		instance = text_with_wires(l, node->text, node->len);
+		sink_text(&sink, instance);
 	}
 	block_parts(l, box, item, row, m, true);
-	coils_behind(l, box, m, row);
+	same_rung = inverts_power(l, box, row);
+	if (same_rung) {
+		inverse_coils(l, box);
+		coils_behind(l, box, m, row);
+	}
 	put_box(l, box);
+	if (!same_rung)
+		inverse_rungs(l, box, instance);
 }
 
 /* ---- functions as boxes ---- */
