@@ -94,17 +94,46 @@ static char *edited(GtkWidget *cell, const LadderPanelRow *row)
 	return NULL;
 }
 
+/* Keeps the text that is being typed. */
+static void show_text(GtkWidget *cell, const char *text)
+{
+	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
+	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
+
+	if (shown && strcmp(shown, now) != 0)
+		return;
+	if (strcmp(now, text) != 0)
+		gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+	tip_set(cell, text);
+}
+
+/* The owner may write it in another way: i0.3 becomes I0.3. If it has done so already, the cell has
+ * ignored that, because its text was not yet set. @before: the text of the row. */
+static void show_written(GtkWidget *cell, const char *before)
+{
+	GtkListItem *item = item_of(cell);
+	const LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
+	const char *text = row ? panel_row_text(row, column_of(cell)->field) : before;
+
+	if (strcmp(text, before) != 0)
+		show_text(cell, text);
+}
+
 static bool apply(GtkWidget *cell, LadderPanelRow *row, const char *text)
 {
-	char *why = NULL;
+	char *why = NULL, *before = g_strdup(panel_row_text(row, column_of(cell)->field));
 	bool good;
 
 	g_object_ref(row);
 	g_object_ref(cell);
 	good = set(column_of(cell), row, text, &why);
 	mark(cell, good ? NULL : g_strdup(text), why);
+	if (good)
+		show_written(cell, before);
 	g_object_unref(cell);
 	g_object_unref(row);
+	g_free(before);
 	return good;
 }
 
@@ -725,20 +754,6 @@ static void connect_entry(GtkWidget *cell, GtkListItem *item)
 			 G_CALLBACK(pressed), item);
 	if (!column_of(cell)->cells->later)
 		cells_on_take(cell, commit, item);
-}
-
-/* Keeps the text that is being typed. */
-static void show_text(GtkWidget *cell, const char *text)
-{
-	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
-	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
-
-	if (shown && strcmp(shown, now) != 0)
-		return;
-	if (strcmp(now, text) != 0)
-		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
-	tip_set(cell, text);
 }
 
 /* The icon of a cell without choices opens its form. A refused cell has another icon. */

@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/spelling.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/style.h"
@@ -276,7 +277,8 @@ static GtkWidget *which_new(const struct test *test)
 	for (guint i = 0; i < test->addresses->len; i++) {
 		char text[24];
 
-		iec_addr_print(g_array_index(test->addresses, struct iec_addr, i), text, sizeof(text));
+		spelling_address(spelling_screen(), g_array_index(test->addresses, struct iec_addr, i), text,
+				 sizeof(text));
 		g_ptr_array_add(names, g_strdup(text));
 	}
 	drop_fill(GTK_DROP_DOWN(which), names);

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/spelling.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/name.h"
@@ -134,6 +135,46 @@ char *iomap_field(const struct io_text *io, int row, enum io_field field)
 	return out;
 }
 
+/* %IX0.0..3 as I0.0..3, or the other way round. NULL: it does not begin with an address. */
+static char *respelled(enum spelling spelling, const char *text)
+{
+	const char *rest = strstr(text, "..");
+	const gsize len = rest ? (gsize)(rest - text) : strlen(text);
+	struct iec_addr addr;
+	char first[32];
+
+	if (iec_addr_parse(text, len, &addr) != ADDR_OK)
+		return NULL;
+	spelling_address(spelling, addr, first, sizeof(first));
+	return g_strconcat(first, text + len, NULL);
+}
+
+/* A bus may have a name like an address. */
+static bool has_addresses(const struct io_text *io, int row, enum io_field field)
+{
+	const enum io_kind kind = io->row[row].kind;
+
+	return field == IO_OF || (field == IO_ADDRESS && (kind == IO_KIND_POINT || kind == IO_KIND_WINDOW));
+}
+
+char *iomap_shown(const struct io_text *io, int row, enum io_field field)
+{
+	char *text = iomap_field(io, row, field);
+	char *shown = *text == '%' && has_addresses(io, row, field) ? respelled(spelling_screen(), text) : NULL;
+
+	if (!shown)
+		return text;
+	g_free(text);
+	return shown;
+}
+
+char *iomap_typed(const struct io_text *io, int row, enum io_field field, const char *text)
+{
+	char *typed = *text != '%' && has_addresses(io, row, field) ? respelled(SPELLING_IEC, text) : NULL;
+
+	return typed ? typed : g_strdup(text);
+}
+
 /* Caller: g_free(). */
 static char *said_of_row(const struct io_machine *machine, const struct diag *diag)
 {
@@ -218,7 +259,7 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 	const struct diag *diag = check ? io_check_at(check, line, &warns) : NULL;
 
 	for (int i = 0; columns[page][i] != IO_FIELDS; i++) {
-		row->text[i] = iomap_field(io, number, columns[page][i]);
+		row->text[i] = iomap_shown(io, number, columns[page][i]);
 		if (io_text_has(io, number, columns[page][i]))
 			row->flags |= 1u << i;
 	}
@@ -287,7 +328,7 @@ char *iomap_lacks(const struct io_uses *uses, const struct io_text *io,
 
 		if (iomap_has(io, check, use->addr) || count++ >= LACKS_SHOWN)
 			continue;
-		iec_addr_print(use->addr, address, sizeof(address));
+		spelling_address(spelling_screen(), use->addr, address, sizeof(address));
 		g_string_append_printf(text, "%s%s%s%s", text->len ? ", " : "", address,
 				       *use->name ? " " : "", use->name);
 	}
@@ -382,7 +423,7 @@ static void offer_addresses(const struct io_uses *uses, const struct io_text *io
 
 		if ((wide && addr.bits != values.first.bits) || iomap_has(io, NULL, addr))
 			continue;
-		iec_addr_print(addr, address, sizeof(address));
+		spelling_address(spelling_screen(), addr, address, sizeof(address));
 		offer(choices, address, uses->use[i].name);
 	}
 }

@@ -42,6 +42,10 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 			      int number);
 /** iomap_field - io_text_field() for g_free(); never NULL. */
 char *iomap_field(const struct io_text *io, int row, enum io_field field);
+/** iomap_shown - as the table shows it: addresses are spelled as the preferences ask for. Caller: g_free. */
+char *iomap_shown(const struct io_text *io, int row, enum io_field field);
+/** iomap_typed - as the map has it: I0.0..3 is %IX0.0..3. Caller: g_free. */
+char *iomap_typed(const struct io_text *io, int row, enum io_field field, const char *text);
 /** iomap_has - does a row have this address, or a bit of it? @check: NULL: unknown. */
 bool iomap_has(const struct io_text *io, const struct io_check *check, struct iec_addr addr);
 /** iomap_lacks - "The program uses, the map lacks: ..."; NULL: nothing. Caller: g_free. */

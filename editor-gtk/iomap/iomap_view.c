@@ -139,7 +139,7 @@ static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
 	bool same = row->index < io->count && iomap_page_of(io, row->index) == page;
 
 	for (int i = 0; same && iomap_column(page, i) != IO_FIELDS; i++) {
-		char *text = iomap_field(io, row->index, iomap_column(page, i));
+		char *text = iomap_shown(io, row->index, iomap_column(page, i));
 
 		same = strcmp(text, panel_row_text(row, i)) == 0;
 		g_free(text);
@@ -188,7 +188,10 @@ static bool set_column(GObject *owner, LadderPanelRow *row, int column, const ch
 		return false; /* the view is disposed */
 	text = map_text(view);
 	if (io_text_read(&io, text, strlen(text)) && is_same_row(&io, row)) {
-		said = io_text_set(&io, index, field, value, &edit);
+		char *typed = iomap_typed(&io, index, field, value);
+
+		said = io_text_set(&io, index, field, typed, &edit);
+		g_free(typed);
 		good = said == IO_GOOD;
 		*why = good ? NULL : g_strdup(refusal(said));
 		if (good)

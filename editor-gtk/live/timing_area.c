@@ -11,6 +11,8 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/lettering.h"
+#include "editor-gtk/kit/settings.h"
+#include "editor-gtk/kit/spelling.h"
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/live_value.h"
 
@@ -148,6 +150,12 @@ static bool has_scan(LadderTimingArea *area, guint64 scan)
 	return scan >= timing_first(area->timing) && scan < timing_end(area->timing);
 }
 
+/* As the preferences spell addresses. Caller: g_free(). */
+static char *shown_name(const struct timing *timing, int line)
+{
+	return spelling_shown(timing_name(timing, line));
+}
+
 /* The lines whose values are not good at the scan that is shown. */
 static void say_bad(LadderTimingArea *area)
 {
@@ -156,11 +164,14 @@ static void say_bad(LadderTimingArea *area)
 
 	for (int i = 0; twin && has_scan(area, twin->scan) && i < timing_lines(area->timing); i++) {
 		const enum sim_quality quality = timing_quality(area->timing, i, twin->scan);
+		char *name;
 
 		if (quality == SIM_GOOD)
 			continue;
+		name = shown_name(area->timing, i);
 		g_string_append(text, text->len ? ", " : "");
-		g_string_append_printf(text, _("%s: %s"), timing_name(area->timing, i), live_quality_word(quality));
+		g_string_append_printf(text, _("%s: %s"), name, live_quality_word(quality));
+		g_free(name);
 	}
 	if (g_strcmp0(area->bad, text->str) != 0)
 		gtk_accessible_update_property(GTK_ACCESSIBLE(area), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text->str, -1);
@@ -698,7 +709,7 @@ static void draw_name(struct drawing *drawing, int line, double top)
 {
 	const struct location at = timing_at(drawing->timing, line);
 	enum sim_quality quality = SIM_GOOD;
-	char value[32] = "";
+	char value[32] = "", *name = shown_name(drawing->timing, line);
 
 	if (line == drawing->area->selected)
 		fill(drawing, TOKEN_ACCENT, drawing->theme->wash, 0, top, NAMES_PX,
@@ -708,11 +719,12 @@ static void draw_name(struct drawing *drawing, int line, double top)
 				  value, sizeof(value));
 		quality = timing_quality(drawing->timing, line, scan_shown(drawing));
 	}
-	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(drawing->timing, line), 14,
+	text(drawing, LETTER_SYMBOL, TOKEN_INK, name, 14,
 	     top + (quality == SIM_GOOD ? 22 : 15), NAMES_PX - 100);
 	if (quality != SIM_GOOD)
 		text(drawing, LETTER_ADDRESS, TOKEN_ERROR, live_quality_text(quality), 14, top + 29, NAMES_PX - 100);
 	text(drawing, LETTER_VALUE, TOKEN_ACCENT, value, NAMES_PX - 78, top + 22, 74);
+	g_free(name);
 }
 
 /* ---- cursors ---- */
@@ -860,7 +872,7 @@ static gboolean query_tooltip(GtkWidget *widget, int x, int y, gboolean keyboard
 	LadderTimingArea *area = LADDER_TIMING_AREA(widget);
 	const struct timing *timing = area->timing;
 	const int line = keyboard ? -1 : line_at(area, y);
-	char *text, from[32], to[32];
+	char *text, *name, from[32], to[32];
 	guint64 scan, end;
 
 	(void)unused;
@@ -870,9 +882,11 @@ static gboolean query_tooltip(GtkWidget *widget, int x, int y, gboolean keyboard
 	end = MIN(stretch_end(timing, line, scan), timing_end(timing) - 1);
 	live_time_print(timing_time(timing, stretch_begin(timing, line, scan)), from, sizeof(from));
 	live_time_print(timing_time(timing, end), to, sizeof(to));
-	text = g_strdup_printf(_("%s: %s, from %s to %s"), timing_name(timing, line),
+	name = shown_name(timing, line);
+	text = g_strdup_printf(_("%s: %s, from %s to %s"), name,
 			       live_quality_word(timing_quality(timing, line, scan)), from, to);
 	gtk_tooltip_set_text(tooltip, text);
+	g_free(name);
 	g_free(text);
 	return TRUE;
 }
@@ -993,5 +1007,8 @@ GtkWidget *ladder_timing_area_new(LadderSim *sim)
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), area,
 				G_CONNECT_SWAPPED);
 	theme_follow(area, G_CALLBACK(gtk_widget_queue_draw));
+	if (settings_get())
+		g_signal_connect_object(settings_get(), "changed::spelling", G_CALLBACK(gtk_widget_queue_draw),
+					area, G_CONNECT_SWAPPED);
 	return GTK_WIDGET(area);
 }

@@ -7,6 +7,7 @@
 #include "editor-gtk/canvas/canvas.h"
 #include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/document/pins.h"
+#include "editor-gtk/document/spelled.h"
 #include "editor-gtk/document/symbols.h"
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/sheet.h"
@@ -171,7 +172,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	bool warning = false;
 
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
-		row->text[i] = g_strdup(symbol->text[i]);
+		row->text[i] = i == FIELD_ADDRESS ? spelled_shown(document, symbol->text[i]) :
+			       g_strdup(symbol->text[i]);
 	row->text[PIN_KIND] = g_strdup(kind);
 	row->number = symbol->uses;
 	row->table = symbol->table;
