@@ -766,6 +766,13 @@ void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question)
 		(int)rect.size.height });
 }
 
+void canvas_blame(LadderCanvas *canvas, const struct entry *entry)
+{
+	if (entry->sense == ENTRY_WRONG && state_of(canvas)->entry)
+		ladder_entry_popup_wrong(LADDER_ENTRY_POPUP(state_of(canvas)->entry), entry->wrong,
+					 entry->wrong_at, entry->wrong_len);
+}
+
 static char *say_why(void *why, const char *line, int cursor, bool *good)
 {
 	(void)line;

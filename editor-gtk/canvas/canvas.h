@@ -17,6 +17,7 @@
 #define EDITOR_CANVAS_H
 
 #include "editor-gtk/document/document.h"
+#include "editor-gtk/edit/entry.h"
 #include "editor-gtk/kit/lettering.h"
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/kit/verbs.h"
@@ -221,6 +222,8 @@ struct canvas_question {
 };
 /** canvas_ask - opens the entry at the cursor and closes an open one. */
 void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question);
+/** canvas_blame - underlines what is wrong in the line of the open entry, if anything is. */
+void canvas_blame(LadderCanvas *canvas, const struct entry *entry);
 /** canvas_refuse - opens an entry at the cursor that only says @why, as an error: what is typed
  * next must not change another cell. */
 void canvas_refuse(LadderCanvas *canvas, const char *prompt, const char *why);

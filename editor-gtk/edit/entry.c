@@ -6,6 +6,7 @@
  * plain name, in this order. A declared name wins over a mnemonic without operand; so does
  * a name before AT or a colon.
  */
+#include "editor-gtk/edit/entry_address.h"
 #include "editor-gtk/edit/entry_expression.h"
 #include "editor-gtk/edit/grid_edit.h"
 #include "editor-gtk/kit/i18n.h"
@@ -735,6 +736,7 @@ static bool read_with(reading *read, const struct entry_place *place, const char
 		return entry_wrong(out, N_("the line is not valid UTF-8"), "", 0);
 	if (read(place, copy, len, out))
 		return true;
+	entry_blame_address(place, out);
 	out->declares = 0;
 	return false;
 }

@@ -57,7 +57,9 @@ struct entry {
 	const char *why;          /* N_() text, with %s where @what belongs if that is
 				     not empty; NULL: nothing is wrong         */
 	char what[ENTRY_NAME];
-	char instead[40];         /* what a second %s of @why says: what to write */
+	char instead[64];         /* what a second %s of @why says: what to write */
+	char wrong[ENTRY_NAME];   /* the word of the line that @why is about; "": the whole line */
+	size_t wrong_at, wrong_len; /* its wrong part, in bytes                */
 	const struct var *known;  /* the variable whose declaration @why is about;
 				     borrowed from the project; NULL: none     */
 };

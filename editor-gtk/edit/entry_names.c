@@ -50,6 +50,8 @@ bool entry_is_name(const char *text, size_t len)
 
 /* ---- addresses of other dialects ---- */
 
+const char entry_no_address[] = N_("“%s” is not an address");
+
 bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 			 const char **why)
 {
@@ -75,7 +77,7 @@ bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 		return true;
 	}
 	if (len > 0 && text[0] == '%')
-		*why = N_("“%s” is not an address");
+		*why = entry_no_address;
 	return *why != NULL;
 }
 

@@ -54,6 +54,8 @@ const struct var *entry_var_find(const struct entry_place *place, const char *te
  * true and sets @why, N_() text. */
 bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 			 const char **why);
+/** entry_no_address - the @why of a text that has not the form of an address, N_(). */
+extern const char entry_no_address[];
 /** entry_is_name - may a variable have this name? */
 bool entry_is_name(const char *text, size_t len);
 /** entry_name_taken - by a variable, a POU, a label, or in the line itself. */

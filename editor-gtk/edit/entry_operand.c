@@ -27,6 +27,9 @@ bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t 
 	entry->why = why;
 	memcpy(entry->what, what, len);
 	entry->what[len] = '\0';
+	memcpy(entry->wrong, entry->what, len + 1);
+	entry->wrong_at = 0;
+	entry->wrong_len = len;
 	return false;
 }
 
@@ -467,7 +470,7 @@ static bool read_address(const struct entry_place *place, const struct piece *pi
 	if (piece->len == 0)
 		return true;
 	if (!entry_address_parse(piece->text, piece->len, out, &why))
-		why = N_("“%s” is not an address");
+		why = entry_no_address;
 	else if (!why && !project_has(place->project, *out))
 		why = N_("“%s” is not an address of this project");
 	return !why || entry_wrong(entry, why, piece->text, piece->len);
@@ -530,7 +533,10 @@ static bool is_other(const struct entry_place *place, const struct var *var,
 		 var->type != IEC_NONE ? iec_type_row(var->type)->word :
 		 words_row(&project->words, var->fb)->word);
 	entry->known = var;
-	return entry_wrong(entry, N_("the name is declared already as %s"), text, strlen(text));
+	entry_wrong(entry, N_("the name is declared already as %s"), text, strlen(text));
+	entry->wrong_len = (size_t)snprintf(entry->wrong, sizeof(entry->wrong), "%.319s",
+					    project_text(project, var->name));
+	return false;
 }
 
 /* ---- a new name ---- */

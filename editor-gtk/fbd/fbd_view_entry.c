@@ -288,6 +288,7 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 	entry = g_new(struct entry, 1);
 	text = value_of(view, asked->at, line, write, entry);
 	told = entry_outcome_tell(view->canvas->document, view->canvas->pou, entry, line, good);
+	canvas_blame(LADDER_CANVAS(view), entry);
 	*good = text != NULL;
 	g_free(text);
 	g_free(entry);

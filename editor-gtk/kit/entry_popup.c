@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/entry_row.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/kit/verbs.h"
 
 #include <string.h>
@@ -163,6 +164,47 @@ static void clear_rows(LadderEntryPopup *popup)
 	gtk_list_box_unselect_all(GTK_LIST_BOX(popup->list));
 }
 
+/* ---- what is wrong ---- */
+
+static bool in_word(char c)
+{
+	return g_ascii_isalnum(c) || c == '_' || (guchar)c >= 0x80;
+}
+
+/* The first place of the word that is no part of another one; NULL: there is none. */
+static const char *find_word(const char *line, const char *word)
+{
+	const gsize len = strlen(word);
+	const char *at = len ? strstr(line, word) : NULL;
+
+	while (at && ((at > line && in_word(*at) && in_word(at[-1])) ||
+		      (in_word(at[len - 1]) && in_word(at[len]))))
+		at = strstr(at + 1, word);
+	return at;
+}
+
+void ladder_entry_popup_wrong(LadderEntryPopup *popup, const char *word, gsize at, gsize len)
+{
+	const char *line = gtk_editable_get_text(GTK_EDITABLE(popup->line)), *found = find_word(line, word);
+	const GdkRGBA *color = &theme_screen()->color[TOKEN_ERROR];
+	PangoAttribute *wave[2];
+	PangoAttrList *list;
+
+	if (!found)
+		return;
+	list = pango_attr_list_new();
+	wave[0] = pango_attr_underline_new(PANGO_UNDERLINE_ERROR);
+	wave[1] = pango_attr_underline_color_new((guint16)(color->red * 65535), (guint16)(color->green * 65535),
+						 (guint16)(color->blue * 65535));
+	for (gsize i = 0; i < G_N_ELEMENTS(wave); i++) {
+		wave[i]->start_index = (guint)((gsize)(found - line) + at);
+		wave[i]->end_index = wave[i]->start_index + (guint)len;
+		pango_attr_list_insert(list, wave[i]);
+	}
+	gtk_entry_set_attributes(GTK_ENTRY(popup->line), list);
+	pango_attr_list_unref(list);
+}
+
 /* The row of a candidate. */
 static const char *row_line(LadderEntryPopup *popup, int row)
 {
@@ -181,6 +223,7 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 
 	g_clear_handle_id(&popup->asking, g_source_remove);
 	clear_rows(popup);
+	gtk_entry_set_attributes(GTK_ENTRY(popup->line), NULL);
 	told = popup->calls.changed(popup->calls.context, line_of(popup),
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
 				    &good);

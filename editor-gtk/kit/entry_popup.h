@@ -48,6 +48,9 @@ GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const ch
 /** ladder_entry_popup_add - adds a candidate, if it is not there already: the same text and
  * line. Its strings are copied. */
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
+/** ladder_entry_popup_wrong - underlines a part of the first @word of its line, until the line changes.
+ * @at, @len: of the part, in bytes of @word. Called from `changed`. */
+void ladder_entry_popup_wrong(LadderEntryPopup *popup, const char *word, gsize at, gsize len);
 /** ladder_entry_popup_ask - asks its owner for the candidates again. */
 void ladder_entry_popup_ask(LadderEntryPopup *popup);
 /** ladder_entry_popup_select - selects a part of its line, in bytes. */

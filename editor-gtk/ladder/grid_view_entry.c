@@ -101,6 +101,7 @@ static char *element_outcome(const struct asked *asked, const char *line, size_t
 	entry_read(&place, whole, entry);
 	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line + from,
 				  good);
+	canvas_blame(LADDER_CANVAS(asked->view), entry);
 	count = at < from ? 0 : entry_candidates(&place, whole, skipped + at - from, found,
 						 CANDIDATES);
 	for (int i = 0; i < count; i++)
@@ -562,6 +563,7 @@ static char *value_outcome(const struct asked *asked, const struct pin_line *pin
 	whole = whole_line(box, line, &skipped);
 	entry_read(&place, whole, entry);
 	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line, good);
+	canvas_blame(LADDER_CANVAS(asked->view), entry);
 	g_free(whole);
 	g_free(line);
 	g_free(entry);

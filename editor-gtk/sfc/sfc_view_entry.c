@@ -258,6 +258,7 @@ static char *outcome(const struct asked *asked, const char *line, struct entry *
 		return g_strdup("");
 	}
 	told = entry_outcome_tell(view->canvas->document, view->canvas->pou, entry, line, good);
+	canvas_blame(LADDER_CANVAS(view), entry);
 	*good = *good || lenient;
 	return told;
 }

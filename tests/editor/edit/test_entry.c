@@ -105,12 +105,12 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "T37.ET > 5s", "[ T37.ET > T#5s ] + T37 TON" }, { "T1 > 50", "[ T1 > 50 ] + T1 INT" },
 	{ "MOV 5 D0", "MOVE IN:=5 OUT=>D0 + D0 INT %VW0" },
 	{ "%TM0.V", "! “%TM0.V” is not a pin or member" },
-	{ "%TM0.Z", "! “%TM0.Z” is not an address" },
+	{ "%TM0.Z", "! “%TM0.Z” is not an address: the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
 	{ "O:0/10", "NO %QX1.2" }, { "%B3", "NO %MX0.3" }, { "SM0.5", "NO %SMX0.5" },
 	{ "X10", "! “X10” is octal in some controllers and hexadecimal in others: "
 		 "write %IX1.0" },
 	{ "%IX0.9", "! “%IX0.9” is not an address: the bits of a byte are 0 to 7" },
-	{ "%ZX0.9", "! “%ZX0.9” is not an address" },
+	{ "%ZX0.9", "! “%ZX0.9” is not an address: the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
 	{ "SYS_FIRST_SCAN", "NO SYS_FIRST_SCAN" },
 	/* boxes */
 	{ "TON", "TON Delay1 PT:=T#1s + Delay1 TON" },
@@ -193,8 +193,8 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "OUT Start %IX0.0", "! “Start” cannot be written" },
 	{ "Open %IW2", "! “%IW2” is not the address of a BOOL" },
 	{ "Open %IX0.9", "! “%IX0.9” is not an address: the bits of a byte are 0 to 7" },
-	{ "Open %IX60000.0", "! “%IX60000.0” is not an address of this project" },
-	{ "Open %ZX0.1 : BOOL", "! “%ZX0.1” is not an address" },
+	{ "Open %IX60000.0", "! “%IX60000.0” is not an address of this project: its area ends at byte 511" },
+	{ "Open %ZX0.1 : BOOL", "! “%ZX0.1” is not an address: the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
 	{ "Open AT Start", "! “Start” is not an address" },
 	{ "Open AT", "! “Open” needs an address behind AT" },
 	{ "Open AT : BOOL", "! “Open” needs an address behind AT" },
@@ -252,7 +252,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ ">Sum AT %MW4:INT:=5", "[ Sum := 5 ] + Sum INT %MW4" },
 	{ ">Sum AT %MW4 := 5", "[ Sum := 5 ] + Sum INT %MW4" },
 	{ ">Sum AT %MW4:=5", "[ Sum := 5 ] + Sum INT %MW4" },
-	{ ">Sum AT N7:4 := 5", "! “N7:4” is not an address" },
+	{ ">Sum AT N7:4 := 5", "! “N7:4” is not an address: the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
 	{ ">Horn AT O:0/5 : BOOL := Start", "[ Horn := Start ] + Horn BOOL %QX0.5" },
 	{ ">Horn : BOOL := TRUE", "[ Horn := TRUE ] + Horn BOOL" },
 	{ ">Level : INT := 5", "[ Level := 5 ]" },
@@ -722,6 +722,50 @@ static void check_length(const struct entry_place *place)
 	}
 }
 
+/* The part that is wrong stands in brackets; behind it, what may stand there. */
+static void check_wrong_parts(const struct entry_place *place)
+{
+	static const struct { const char *line, *says; } cases[] = {
+		{ "%IX0.9", "%IX0.[9] the bits of a byte are 0 to 7" },
+		{ ">%QX0.8", "%QX0.[8] the bits of a byte are 0 to 7" },
+		{ "I0.9", "I0.[9] the bits of a byte are 0 to 7" },
+		{ "Level > 5 AND %MX0.8", "%MX0.[8] the bits of a byte are 0 to 7" },
+		{ "%MW2.16", "%MW2.[16] its bits are 0 to 15" },
+		{ "%md2.32", "%md2.[32] its bits are 0 to 31" },
+		{ "%IX99999.0", "%IX[99999].0 of this project: its area ends at byte 511" },
+		{ "Level > %MD8190", "%MD[8190] of this project: its area ends at byte 8191" },
+		{ "%KX0.0", "%[KX]0.0 the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
+		{ "%", "%[] the areas are I, Q, M, V, S, SM, AI, AQ, XI, XQ, XAI, XAQ" },
+		{ "%IZ0.1", "%I[Z0.1] behind the area stand X, B, W, D or L, and a number" },
+		{ "%QX", "[%QX] behind the area stand X, B, W, D or L, and a number" },
+		{ "Lamp %IX0.9 : BOOL", "%IX0.[9] the bits of a byte are 0 to 7" },
+		{ "2Fast", "[2Fast]" }, { "Gone.Q", "[Gone.Q]" }, { "Level", "[Level]" },
+		{ "Start %IX0.3", "[Start]" }, { "NO Wait.Frob", "[Wait.Frob]" },
+	};
+	struct entry_place at = *place;
+	struct entry entry;
+	char said[400];
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(*cases); i++) {
+		const char *line = cases[i].line;
+		const char *why;
+
+		at.output = *line == '>';
+		entry_read(&at, line + at.output, &entry);
+		why = entry.why ? strstr(entry.why, "address") : NULL;
+		snprintf(said, sizeof(said), "%.*s[%.*s]%s", (int)entry.wrong_at, entry.wrong, (int)entry.wrong_len,
+			 entry.wrong + entry.wrong_at, entry.wrong + entry.wrong_at + entry.wrong_len);
+		if (strchr(cases[i].says, ' ') && why) {
+			const size_t used = strlen(said);
+
+			snprintf(said + used, sizeof(said) - used, why + strlen(why + 7 == strstr(why, ": ") ? "address:" : "address"),
+				 entry.instead);
+		}
+		if (!CHECK(entry.sense == ENTRY_WRONG && strcmp(said, cases[i].says) == 0))
+			printf("# %s: %s\n", line, said);
+	}
+}
+
 int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
@@ -737,6 +781,7 @@ int main(int argc, char **argv)
 		if (!strcmp(project_text(place.project, place.project->pou[i].name), "Main"))
 			place.pou = i;
 	check_lines(&place);
+	check_wrong_parts(&place);
 	check_offers(&place);
 	check_box_first(&place);
 	check_notes(&place);

@@ -192,4 +192,42 @@ def given_back(screen):
     until(lambda: len(editor.elements()) == 3, 'one rung')
 
 
-main([typed, refused, chosen, anywhere, given_back])
+def marked(editor, line):
+    """The parts of an open line that are underlined as wrong."""
+    text, at, parts = line.text(), 0, []
+    while at < len(text):
+        run, start, end = editor.ask([(line.path, 'Text', 'GetAttributeRun', 'ib', at, False)])[0]
+        if run.get('underline') == 'error':
+            parts.append(text[start:end])
+        at = max(end, at + 1)
+    return parts
+
+
+def underlined(screen):
+    """the wrong part of an address, or a refused name, is underlined while it is typed, and the message says what is allowed"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+
+    def says(line, part, text):
+        editor.type(line)
+        editor.says(text)
+        until(lambda: marked(editor, editor.asked()[0]) == part, '%s in %s to be underlined' % (part, line))
+
+    for line, part, text in (
+            ('NO %IX0.9', ['9'], 'the bits of a byte are 0 to 7'), ('%QX0.8', ['8'], 'the bits of a byte are 0 to 7'),
+            ('%IX99999.0', ['99999'], 'its area ends at byte 511'), ('%KX0.0', ['KX'], 'the areas are I, Q, M'),
+            ('2fast', ['2fast'], '“2fast” cannot be the name of a variable'),
+            ('Start_of_belt %IX0.3', ['Start_of_belt'], 'the name is declared already as'),
+            ('%MW0 > %MW4 + %QW2.16', ['16'], 'its bits are 0 to 15')):
+        says(line, part, text)
+        editor.shot('declared-underlined-' + part[0])
+        editor.keys('ctrl+a', 'BackSpace')
+        until(lambda: not marked(editor, editor.asked()[0]), 'nothing to be underlined')
+    says('OUT Lamp %QX0.9', ['9'], 'the bits of a byte are 0 to 7')
+    editor.keys('BackSpace', '5')
+    until(lambda: editor.asked()[0].text() == 'OUT Lamp %QX0.5' and not marked(editor, editor.asked()[0]), 'a good line')
+    editor.keys('Return')
+    editor.gone()
+
+
+main([typed, underlined, refused, chosen, anywhere, given_back])
