@@ -140,6 +140,34 @@ my @edges = map { my $word = $_; map { "| $word $_ | COIL Lamp |" } 'A > 5', 'A 
 
 judge('edges of what is no BOOL', "PROGRAM Main LD\nRUNG", qr/^$/, @edges);
 
+# Whole cells as other controllers have them.
+my @habits = map { "| $_ | COIL Lamp |" } 'NO Ready // hand', '1', '0', 'TRUE', 'NO 1', 'NC 0', '[ A > 50% ]',
+	'[ A between 1 and 5 ]', '[ A > 5', 'A > 5 ]', '( A > 5 )', 'IF Ready THEN', 'IF A > 5 THEN', 'LIM 1 A 5', 'LIM 1, A, 5',
+	'NO [Ready]', 'NO <Ready>', 'NO {Ready}', 'NC ~Ready', 'NO #Ready', 'NO I 0.3', 'NO Local:1:I.Data.3', '[ N7:3 > 5 ]',
+	'BST XIC Ready NXB XIO Horn BND';
+
+for my $first ('NO', 'NC', 'XIC', 'XIO') {
+	for my $second ('NO', 'NC', 'XIO') {
+		push @habits, "| $first Ready $_ $second Horn | COIL Lamp |" for 'AND', 'OR', '&', '';
+		push @habits, "| $first Ready, $second Horn | COIL Lamp |", "| $first(Ready)$second(Horn) | COIL Lamp |";
+	}
+}
+for my $block (['TON', 'Delay', 'PT:=T#5s', 'IN'], ['TOF', 'Rest', 'PT:=T#5s', 'IN'], ['TP', 'Pulse', 'PT:=T#5s', 'IN'],
+	['CTU', 'Parts', 'PV:=5', 'CU']) {
+	my ($word, $name, $value, $power) = @$block;
+	my ($bare) = $value =~ /=(.*)/;
+
+	push @habits, map { "| $_ | COIL Lamp |" } "$word $name ($power:=Ready, $value)", "$word $name($power:=NOT Ready, $value)",
+		map { "NO Ready | $_" } "$word $name ($power:=Ready, $value)", "$word $name, $value", "$word $name [$value]",
+		"$name $word $value", "$name $value", "$name($value)", "$word $name " . $value =~ s/:=/=>/r,
+		"$word($name,7,0)", "$word $name 7000 0", $word eq 'CTU' ? () : ("$word $name S5T#5s", "$word $name PT:=00:00:05"),
+		"$word $name K50";
+}
+push @habits, map { "| NO Ready | $_ |" } 'COIL Lamp // hand', 'COIL Lamp, COIL Horn', 'COIL Lamp COIL Horn', '= Lamp', 'S Lamp 1',
+	'-(Lamp)-', '--( Lamp )--', '-(S)- Lamp', 'COIL #Lamp', 'COIL Q 0.1', 'CPT Sum A+B', 'CPT(Sum,A*2)', 'CLR Sum', 'INC Sum',
+	'DEC Sum', '[ A := A + 1; B := 2 ]', 'MOV K100 A', '+ | COIL Lamp', '.... | COIL Lamp', 'NOP | COIL Lamp';
+judge('cells of other controllers', "PROGRAM Main LD\nRUNG", qr/^$/, @habits);
+
 # What Logix sets by itself.
 my @bodies = (["PROGRAM Main LD\nRUNG", '| NO %s | COIL Lamp |', '| NC %s | COIL Lamp |', '| [ %s OR Ready ] | COIL Lamp |'],
 	['PROGRAM Main IL', "LD %s\n  ST Lamp", "LDN %s\n  ST Lamp"]);

@@ -6,6 +6,7 @@
  * order until the line reads. It never changes the project.
  */
 #include "engine/text/mend.h"
+#include "engine/text/mend_habits.h"
 #include "engine/text/mend_number.h"
 #include "engine/text/mend_steps.h"
 
@@ -138,11 +139,12 @@ static const struct rule {
 
 /* Longer than any line. */
 #define MADE 200
+#define MOST 160 /* bytes of a line                                              */
 
 struct mender {
 	const struct mend_line *in;
 	struct mended *out;
-	char text[160];
+	char text[MOST];
 	size_t len;
 	uint16_t where; /* of the cursor                                      */
 	int depth;      /* of [ in a row, of [ and ( elsewhere                */
@@ -1685,7 +1687,8 @@ static void put_line(const struct mender *m, struct mended *out)
 	out->line[used] = '\0';
 }
 
-bool mend_line(const struct mend_line *line, struct mended *out)
+/* As mend_line(). @habits: whole cells are written anew first. */
+static bool mend_once(const struct mend_line *line, struct mended *out, bool habits)
 {
 	static void (*const mend[])(struct mender *) = {
 		[MEND_HEAD] = mend_head, [MEND_ROW] = mend_row, [MEND_VAR] = mend_var,
@@ -1694,10 +1697,6 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 	struct mender m = { .in = line, .out = out, .len = line->len };
 	size_t lead = 0;
 
-	if (line->len >= sizeof(m.text) - 32 || memchr(line->text, '\037', line->len))
-		return false;
-	if (line->kind == MEND_LIST && mend_in_steps(line, out))
-		return true;
 	while (lead < line->len && (line->text[lead] == ' ' || line->text[lead] == '\t'))
 		lead++;
 	m.len -= lead;
@@ -1711,6 +1710,12 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 	if (!m.len)
 		return false;
 	replace_signs(&m);
+	if (habits) {
+		if (m.changed || !mend_habits(line->project, m.text, MOST - 32, out))
+			return false;
+		m.changed = true;
+		m.len = strlen(m.text);
+	}
 	if (line->kind != MEND_HEAD || !is_of_chart(&m))
 		replace_words(&m);
 	if (!m.full && line->kind != MEND_HEAD && !line_reads(&m))
@@ -1722,4 +1727,13 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 	out->column += (int)lead;
 	put_line(&m, out);
 	return true;
+}
+
+bool mend_line(const struct mend_line *line, struct mended *out)
+{
+	if (line->len >= MOST - 32 || memchr(line->text, '\037', line->len))
+		return false;
+	if (line->kind == MEND_LIST && mend_in_steps(line, out))
+		return true;
+	return (line->kind == MEND_ROW && mend_once(line, out, true)) || mend_once(line, out, false);
 }
