@@ -548,11 +548,13 @@ bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## measure drawing 5,0
 	@perl tests/bench/programs.pl lively 5000 >$(BUILD)/bench-lively.rung
 	@perl tests/bench/programs.pl chart 1000 >$(BUILD)/bench-chart.rung
 	@perl tests/bench/programs.pl lines 10000 >$(BUILD)/bench-lines.rung
+	@perl tests/bench/programs.pl blocks 10000 >$(BUILD)/bench-blocks.rung
 	@perl tests/bench/programs.pl network 300 >$(BUILD)/bench-networks.rung
 	@$(EDITOR_BENCH)
 	@GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-editor.rung ladders/garage-door.rung 2>/dev/null
 	@echo "All rungs change in each scan:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-lively.rung ladders/garage-door.rung Simulating 2>/dev/null | grep -E '^(Simulating|Lateness|Showing|In STOP)'
-	@echo "10,000 lines of Structured Text:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-lines.rung ladders/garage-door.rung 2>/dev/null | grep -E '^(Reading|Opening|Folding|A changed line)'
+	@echo "10,000 lines of Structured Text in one program:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-lines.rung ladders/garage-door.rung 2>/dev/null | grep -E '^(Reading|Opening|Folding|A changed line)'
+	@echo "10,000 lines of Structured Text in 102 POUs:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-blocks.rung ladders/garage-door.rung line 2>/dev/null | grep -E '^(Reading|Opening|A changed line)'
 	@echo "A chart of 1,000 steps:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-chart.rung ladders/garage-door.rung 2>/dev/null | grep -E '^(Reading|Opening|Scrolling|A step)'
 	@echo "300 networks of 6 boxes:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-networks.rung ladders/garage-door.rung 2>/dev/null | grep -E '^(Reading|Opening|Scrolling|A network)'
 .PHONY: editor-tests bench-editor

@@ -494,6 +494,10 @@ for my $kind (qw(seal mixed)) {
 	my (undef, $out) = load_of($kind, 10000);
 	cmp_ok(decode_json($out)->{load_bytes}, '<=', 52e6, "10,000 $kind rungs load in 52 MB");
 }
+for my $kind (qw(lines blocks parts)) { # in one program, in 100 blocks, in 1,000
+	my (undef, $out) = load_of($kind, 10000);
+	cmp_ok(decode_json($out)->{load_bytes}, '<=', 60e6, "10,000 lines of Structured Text, $kind, load in 60 MB");
+}
 
 # ---- the live view when a program stops with a fault ----
 SKIP: {

@@ -9,7 +9,9 @@
 # empty:  one rung, as small as possible
 # chart:  a chart of N steps, 50 in each of its simultaneous sequences, so that N / 50 are
 #         active; 6 transitions for 5 steps, every fifth step has a choice
-# lines:  N lines of Structured Text: conditions, sums, calls of one function
+# lines:  N lines of Structured Text in one program: conditions, sums, calls of one function
+# blocks: N lines of Structured Text in function blocks of 100 lines, and a program with an instance of each;
+#         parts: of 10 lines
 # others: N rungs of one family of words (%family); network: N networks of 6 blocks in FBD, network_ld: the same in LD
 use strict;
 use warnings;
@@ -47,8 +49,8 @@ if (defined $kind && $kind eq 'families') {
 	print join(' ', sort keys %family), "\n";
 	exit;
 }
-die "usage: programs.pl seal|mixed|dense|empty|chart|lines|FAMILY N, or programs.pl families\n"
-	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart|lines)$/);
+die "usage: programs.pl seal|mixed|dense|empty|chart|lines|blocks|parts|FAMILY N, or programs.pl families\n"
+	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart|lines|blocks|parts)$/);
 if ($family{$kind}) {
 	my ($declared, $rung) = @{$family{$kind}};
 	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
@@ -59,14 +61,27 @@ if ($family{$kind}) {
 	exit;
 }
 
+# Ten lines of Structured Text, which use A, B and On with this number.
+sub ten {
+	my $lines = "  IF A# > B# AND NOT On# THEN\n    A# := A# + B# * 3;\n    On# := A# > 100;\n  ELSIF A# = 7 THEN\n"
+		. "    B# := Scaled(A#);\n  ELSE\n    B# := B# + 1;\n  END_IF;\n";
+	return $lines =~ s/#/$_[0]/gr;
+}
+sub ten_declared { return "  A#, B# : INT;\n  On# : BOOL;\n" =~ s/#/$_[0]/gr }
+my $scaled = "FUNCTION Scaled : INT ST\nVAR_INPUT\n  X : INT;\nEND_VAR\n  Scaled := X * 2 + 1;\nEND_FUNCTION\n";
 if ($kind eq 'lines') {
 	my $parts = int($n / 10);
-	print "RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n";
-	print "  A$_, B$_ : INT;\n  On$_ : BOOL;\n" for 0 .. $parts - 1;
-	print "END_VAR\n";
-	print "  IF A$_ > B$_ AND NOT On$_ THEN\n    A$_ := A$_ + B$_ * 3;\n    On$_ := A$_ > 100;\n"
-		. "  ELSIF A$_ = 7 THEN\n    B$_ := Scaled(A$_);\n  ELSE\n    B$_ := B$_ + 1;\n  END_IF;\n" for 0 .. $parts - 1;
-	print "END_PROGRAM\n\nFUNCTION Scaled : INT ST\nVAR_INPUT\n  X : INT;\nEND_VAR\n  Scaled := X * 2 + 1;\nEND_FUNCTION\n";
+	print "RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n", (map { ten_declared($_) } 0 .. $parts - 1), "END_VAR\n",
+		(map { ten($_) } 0 .. $parts - 1), "END_PROGRAM\n\n$scaled";
+	exit;
+}
+if ($kind =~ /^(?:blocks|parts)$/) {
+	my $tens = $kind eq 'parts' ? 1 : 10;
+	my $blocks = int($n / 10 / $tens);
+	print "RUNGBOARD 1\n\nPROGRAM Main ST\nVAR\n", (map { "  Part$_ : Block$_;\n" } 0 .. $blocks - 1), "END_VAR\n",
+		(map { "  Part$_();\n" } 0 .. $blocks - 1), "END_PROGRAM\n\n$scaled";
+	print "\nFUNCTION_BLOCK Block$_ ST\nVAR\n", (map { ten_declared($_) } 0 .. $tens - 1), "END_VAR\n",
+		(map { ten($_) } 0 .. $tens - 1), "END_FUNCTION_BLOCK\n" for 0 .. $blocks - 1;
 	exit;
 }
 

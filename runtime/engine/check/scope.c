@@ -2,7 +2,7 @@
  *
  * scope - from the text of an operand to its meaning.
  *
- * Two open hashes: the declared names of all tables, and the answers by (POU, string id).
+ * Two hashes: the declared names of all tables, and the answers by (POU, string id).
  * An answer never moves. It reports nothing, because only the caller knows the place.
  */
 #include "engine/check/scope.h"
@@ -26,12 +26,12 @@ struct declared {
 
 /* An answer: the meaning of a text in a table, or the reason why it has none. */
 struct answer {
-	struct answer *next; /* of the same text in another table */
+	struct answer *next; /* of the same bucket                           */
 	uint32_t table;
 	enum diag_id why : 16;
 	bool known;
 	bool made;           /* scope_add(): the same in all networks        */
-	uint32_t text;       /* of an answer in a network                    */
+	uint32_t text;
 	struct meaning meaning;
 };
 
@@ -43,8 +43,8 @@ struct scope {
 	uint32_t *slot;            /* open hash of their numbers: small, so that
 				      most of it stays in a cache             */
 	uint32_t count, mask;
-	struct answer **answer; /* by text: its first answer                 */
-	uint32_t answers;       /* texts there is room for                   */
+	struct answer **answer; /* buckets, by table and text                */
+	uint32_t answers, buckets; /* @buckets: 0 or a power of 2             */
 	uint32_t *owner;        /* by table: that of the POU whose action it is; 0: none */
 	bool actions;           /* there are some                            */
 	bool several;           /* a value of several enumerations, with other numbers */
@@ -706,20 +706,57 @@ static const struct declared *find_wire(const struct scope *scope, uint32_t tabl
 	return id ? find_in(scope, table, names_fold(names, id)) : NULL;
 }
 
+/* The texts of a POU have numbers one after another, and so their answers lie in buckets beside each other. */
+static uint32_t answer_bucket(uint32_t buckets, uint32_t table, uint32_t text)
+{
+	return (text + table * 2654435761u) & (buckets - 1);
+}
+
 /* The earlier answer to this question; NULL: none. */
 static struct answer *find_answer(const struct scope *scope, uint32_t table,
 				  uint32_t text)
 {
-	struct answer *answer = text < scope->answers ? scope->answer[text] : NULL;
 	const uint32_t network = network_in(scope, table);
+	struct answer *answer;
 
 	if (network)
 		for (struct answer *inside = scope->inside[text % WIRED]; inside; inside = inside->next)
 			if (inside->text == text)
 				return inside;
-	while (answer && (answer->table != table || (network && !answer->made)))
+	answer = scope->answers ? scope->answer[answer_bucket(scope->buckets, table, text)] : NULL;
+	while (answer && (answer->text != text || answer->table != table || (network && !answer->made)))
 		answer = answer->next;
 	return answer;
+}
+
+static void put_answer(struct answer **bucket, uint32_t buckets, struct answer *answer)
+{
+	struct answer **at = &bucket[answer_bucket(buckets, answer->table, answer->text)];
+
+	answer->next = *at;
+	*at = answer;
+}
+
+/* Twice as many buckets when there are as many answers. False: no memory. */
+static bool more_buckets(struct scope *scope)
+{
+	const uint32_t buckets = scope->buckets ? 2 * scope->buckets : 64;
+	struct answer **bucket;
+
+	if (scope->answers < scope->buckets)
+		return true;
+	bucket = arena_alloc(scope->arena, buckets * sizeof(*bucket));
+	if (!bucket)
+		return false;
+	for (uint32_t i = 0; i < scope->buckets; i++) {
+		for (struct answer *answer = scope->answer[i], *next; answer; answer = next) {
+			next = answer->next;
+			put_answer(bucket, buckets, answer);
+		}
+	}
+	scope->answer = bucket;
+	scope->buckets = buckets;
+	return true;
 }
 
 /* Room for a new answer; NULL: no memory. */
@@ -727,27 +764,20 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 				 uint32_t text)
 {
 	struct answer *answer = arena_alloc(scope->arena, sizeof(*answer));
-	uint32_t size = (uint32_t)scope->project->names.count + 64;
 
-	if (answer && network_in(scope, table)) {
-		answer->table = table;
-		answer->text = text;
+	if (!answer)
+		return NULL;
+	answer->table = table;
+	answer->text = text;
+	if (network_in(scope, table)) {
 		answer->next = scope->inside[text % WIRED];
 		scope->inside[text % WIRED] = answer;
 		return answer;
 	}
-	if (text >= scope->answers) {
-		size += size / 4;
-		scope->answer = arena_grow(scope->arena, scope->answer,
-					   scope->answers * sizeof(*scope->answer),
-					   size * sizeof(*scope->answer));
-		scope->answers = scope->answer ? size : 0;
-	}
-	if (!answer || !scope->answer)
+	if (!more_buckets(scope))
 		return NULL;
-	answer->table = table;
-	answer->next = scope->answer[text];
-	scope->answer[text] = answer;
+	put_answer(scope->answer, scope->buckets, answer);
+	scope->answers++;
 	return answer;
 }
 

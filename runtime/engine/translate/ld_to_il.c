@@ -1129,8 +1129,10 @@ bool ld_begin(struct ld *ld)
 	ld->listing = ld->watch && t->listing;
 	ld->temps->edges = ld->temps->powers = 0;
 	ld->il->arena = t->arena;
-	ld->expr = arena_alloc(t->arena, sizeof(*ld->expr));
-	ld->ignored = arena_alloc(t->arena, sizeof(*ld->ignored));
+	t->expr = t->expr ? t->expr : arena_alloc(t->arena, sizeof(*t->expr));
+	t->ignored = t->ignored ? t->ignored : arena_alloc(t->arena, sizeof(*t->ignored));
+	ld->expr = t->expr;
+	ld->ignored = t->ignored;
 	ld->true_id = names_intern(names, "TRUE", 4);
 	ld->in_id = names_intern(names, "IN", 2);
 	ld->en_id = names_intern(names, "EN", 2);

@@ -19,6 +19,7 @@ struct power_note {
 	uint32_t in, out;   /* string ids                                     */
 };
 
+struct expr;
 struct temps;
 
 /* A POU with its lists. */
@@ -42,6 +43,8 @@ struct translation {
 	struct unit *unit;      /* one a POU                                  */
 	int unit_count;
 	bool listing;           /* while watched, lists of ladders and charts keep results, too */
+	struct expr *expr;      /* 50 KB that one POU after another uses; NULL: none did yet */
+	struct diag_list *ignored;
 };
 
 /**
