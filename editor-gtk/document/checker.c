@@ -171,16 +171,24 @@ static void take_chart_lines(struct sfc *was, const struct sfc *is)
 	was->control_line = is->control_line;
 }
 
-static bool is_same_chart(const struct pou *was, const struct pou *is)
+static bool is_same_chart(const struct sfc *was, const struct sfc *is)
 {
-	if (!was->sfc && !is->sfc && was->boxed_count > 0) /* a ladder with statements */
-		return was->boxed_count == is->boxed_count && was->st->count == is->st->count;
-	return was->sfc && is->sfc && was->sfc->step_count == is->sfc->step_count &&
-	       was->sfc->use_count == is->sfc->use_count &&
-	       was->sfc->transition_count == is->sfc->transition_count &&
-	       was->sfc->action_count == is->sfc->action_count &&
-	       was->sfc->ref_count == is->sfc->ref_count &&
-	       was->il.count == is->il.count && (was->st ? was->st->count : 0) == (is->st ? is->st->count : 0);
+	return was->step_count == is->step_count && was->use_count == is->use_count &&
+	       was->transition_count == is->transition_count &&
+	       was->action_count == is->action_count && was->ref_count == is->ref_count;
+}
+
+static int statements(const struct pou *pou)
+{
+	return pou->st ? pou->st->count : 0;
+}
+
+static bool is_same_body(const struct pou *was, const struct pou *is)
+{
+	if (!was->sfc != !is->sfc || (was->sfc && !is_same_chart(was->sfc, is->sfc)))
+		return false;
+	return was->boxed_count == is->boxed_count && was->il.count == is->il.count &&
+	       statements(was) == statements(is);
 }
 
 /* An edited rung moves the lines below it, and a file may be written in another form: the
@@ -195,7 +203,7 @@ void checker_place(struct checker *checker, struct project *project)
 		struct pou *was = &project->pou[i];
 		const struct pou *is = &read->pou[i];
 
-		if (!is_same_chart(was, is))
+		if (!is_same_body(was, is))
 			continue;
 		if (was->sfc)
 			take_chart_lines(was->sfc, is->sfc);
@@ -203,7 +211,7 @@ void checker_place(struct checker *checker, struct project *project)
 			was->boxed[k].line = is->boxed[k].line;
 		for (int k = 0; k < was->il.count; k++)
 			was->il.line[k].line = is->il.line[k].line;
-		for (int k = 0; was->st && k < was->st->count; k++)
+		for (int k = 0; k < statements(was); k++)
 			copy_place(&was->st->item[k].line, &was->st->item[k].column,
 				   is->st->item[k].line, is->st->item[k].column);
 		was->line = is->line;

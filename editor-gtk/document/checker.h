@@ -44,7 +44,7 @@ struct ladder *checker_ladder(struct checker *checker);
 struct diag_list *checker_diags(struct checker *checker);
 /** checker_version - of the text of the last check. */
 guint64 checker_version(const struct checker *checker);
-/** checker_place - gives the charts of @project, the one of the checked text,
+/** checker_place - gives the bodies of @project, the one of the checked text,
  * the lines that they have in the checked text. */
 void checker_place(struct checker *checker, struct project *project);
 

@@ -120,13 +120,15 @@ int sim_stops_shown(struct sim_program *program, LadderDocument *document, int p
 
 /* ---- conditions ---- */
 
+/* @pou: the body, by its entry. */
 static struct formula *formula_of(struct sim_program *program, struct arena *arena,
-				  const char *scope, const char *condition)
+				  const char *scope, guint32 pou, const char *condition)
 {
 	struct image image = { .program = program->program };
 	struct diag_list *ignored = g_new(struct diag_list, 1);
 	struct expr *expr = arena_alloc(arena, sizeof(*expr));
 	char *whole = st_formula_text(ladder_project(program->ladder), program->program, scope,
+				      program->program->string + program->program->entry[pou].name,
 				      condition);
 	char *kept = arena_alloc(arena, strlen(whole) + 1);
 	struct formula *formula = NULL;
@@ -159,14 +161,15 @@ static bool add_if(struct sim_stops *stops, struct sim_stop stop, const char *co
 		if (program->watched[i].pou != stop.pou)
 			continue;
 		stop.instance = program->string + program->watched[i].name;
-		stop.condition = formula_of(stops->program, &stops->arena, stop.instance, condition);
+		stop.condition = formula_of(stops->program, &stops->arena, stop.instance, stop.pou,
+					    condition);
 		good = good && stop.condition;
 		add(stops, stop);
 	}
 	if (stops->stop->len > before)
 		return good;
 	stop.condition = formula_of(stops->program, &stops->arena,
-				    program->string + program->entry[stop.pou].name, condition);
+				    program->string + program->entry[stop.pou].name, stop.pou, condition);
 	add(stops, stop);
 	return stop.condition != NULL;
 }
@@ -282,16 +285,26 @@ static int first_statement(const struct pou *pou)
 	return pou->st && first >= 0 && first < pou->st->count ? pou->st->item[first].line : 0;
 }
 
+static const char *file_of(LadderDocument *document)
+{
+	const char *file = ladder_document_file(document);
+
+	return g_intern_string(*file ? file : "-");
+}
+
 /* The text of the file with the condition in front of the first statement of the body. Caller frees;
- * *line: where, from 1. NULL: there is none. */
-static char *with_condition(LadderDocument *document, const struct pou *pou, const char *condition,
+ * *line: where, from 1. NULL: there is none. @ladder: reads the text, as the project of the document may have
+ * been read from another form of it. */
+static char *with_condition(LadderDocument *document, struct ladder *ladder, int pou, const char *condition,
 			    int *line)
 {
 	char *text = ladder_document_text(document, NULL);
+	const struct project *project = ladder_load_text(ladder, file_of(document), text, strlen(text)) ?
+		ladder_project(ladder) : NULL;
 	const char *at;
 	char *with;
 
-	*line = first_statement(pou);
+	*line = project && pou < project->pou_count ? first_statement(&project->pou[pou]) : 0;
 	at = *line ? from_line(text, *line) : NULL;
 	with = at ? g_strdup_printf("%.*s" HEAD "%s THEN ; END_IF;\n%s", (int)(at - text), text,
 				    condition, at) : NULL;
@@ -310,13 +323,6 @@ static char *first_error(const struct diag_list *diags, int line, int *column)
 		return diag_said_whole(diag);
 	}
 	return NULL;
-}
-
-static const char *file_of(LadderDocument *document)
-{
-	const char *file = ladder_document_file(document);
-
-	return g_intern_string(*file ? file : "-");
 }
 
 static bool reads(LadderDocument *document, int pou, const char *condition)
@@ -343,7 +349,7 @@ char *sim_stops_check(LadderDocument *document, int pou, const char *condition, 
 	struct ladder *ladder = ladder_document_reader(document);
 	int line = 0;
 	char *text = project && pou >= 0 && pou < project->pou_count && ladder && !strchr(condition, '\n') ?
-		with_condition(document, &project->pou[pou], condition, &line) : NULL;
+		with_condition(document, ladder, pou, condition, &line) : NULL;
 	char *why = NULL;
 
 	*column = -1;
@@ -353,7 +359,7 @@ char *sim_stops_check(LadderDocument *document, int pou, const char *condition, 
 		why = first_error(ladder_diags(ladder), line, column);
 	}
 	if (!why && !reads(document, pou, condition))
-		why = g_strdup(_("While the program stands, a condition with a call or a variable of a function cannot be computed"));
+		why = g_strdup(_("While the program stands, a condition with a call cannot be computed"));
 	g_free(text);
 	ladder_free(ladder);
 	return why;

@@ -55,8 +55,15 @@ static bool is_word(const struct token *token)
 }
 
 /* Names behind a point are parts of what stands before it. */
+/* The first of @scope and @pou that has the name; NULL: neither. */
+static const char *owner_of(const struct program *program, const char *scope, const char *pou,
+			    const struct token *name)
+{
+	return has_name(program, scope, name) ? scope : has_name(program, pou, name) ? pou : NULL;
+}
+
 char *st_formula_text(struct project *project, const struct program *program, const char *scope,
-		      const char *text)
+		      const char *pou, const char *text)
 {
 	GString *out = g_string_new(NULL);
 	const char *copied = text;
@@ -67,13 +74,15 @@ char *st_formula_text(struct project *project, const struct program *program, co
 	while (lex_next(&lex) != TOKEN_END) {
 		const struct token *token = &lex.token;
 		char *number = is_word(token) && !part ? st_formula_number(project, token) : NULL;
+		const char *owner = token->kind == TOKEN_NAME && !part && !number ?
+			owner_of(program, scope, pou, token) : NULL;
 
 		g_string_append_len(out, copied, token->text - copied);
 		copied = token->text + token->len;
 		if (number)
 			g_string_append(out, number);
-		else if (token->kind == TOKEN_NAME && !part && has_name(program, scope, token))
-			g_string_append_printf(out, "%s.%.*s", scope, (int)token->len, token->text);
+		else if (owner)
+			g_string_append_printf(out, "%s.%.*s", owner, (int)token->len, token->text);
 		else
 			g_string_append_len(out, token->text, (gssize)token->len);
 		part = token->len == 1 && *token->text == '.';

@@ -15,7 +15,8 @@
 /** st_formula_number - of a value of an enumeration, "Idle" or "Phase#Idle". Caller frees. NULL: it is
  * none. */
 char *st_formula_number(struct project *project, const struct token *token);
-/** st_formula_text - @text in the body of @scope: a program, or an instance. Caller frees. */
+/** st_formula_text - @text in the body of @scope: a program, a function, or an instance of the block @pou,
+ * which has the names of its VAR_TEMP. Caller frees. */
 char *st_formula_text(struct project *project, const struct program *program, const char *scope,
-		      const char *text);
+		      const char *pou, const char *text);
 #endif

@@ -489,6 +489,71 @@ static void add_memories(struct assembler *as, struct maps *maps, int index)
 	}
 }
 
+/* ---- what a body has while it runs ---- */
+
+/* "Belt1" behind the @len bytes of @name; with a dot between. */
+static size_t join_name(char *name, size_t len, const char *part)
+{
+	size_t size = strlen(part);
+
+	if (len > 0)
+		name[len++] = '.';
+	memcpy(name + len, part, size + 1);
+	return len + size;
+}
+
+/* A constant of a function or a block: `Scaled.Most`. */
+static void add_frame_constant(struct assembler *as, struct maps *maps, char *name, size_t len,
+			       const struct pou *pou, int index)
+{
+	const struct var *var = &pou->vars.var[index];
+	const struct word_pin like = shape_pin(var);
+	const struct meaning m = { .kind = MEANING_VARIABLE, .type = var->type, .pou = pou,
+				   .var = var, .index = index, .addr = var->at };
+
+	if (var->type == IEC_NONE || var->dims > 1 || !(vars_flags(&pou->vars, index) & VAR_CONSTANT))
+		return;
+	len = join_name(name, len, project_text(as->translation->project, var->name));
+	maps_join_index(name + len, &like, 0);
+	add_part(as, maps, name, &like, layout_spot(as, &m).offset, SYMBOL_HIDDEN);
+}
+
+static void add_frame_constants(struct assembler *as, struct maps *maps, char *name,
+				const struct pou *pou)
+{
+	const size_t len = strlen(name);
+
+	add_group(as, maps, 0, VAR_CONSTANT);
+	for (int k = 0; k < pou->vars.count && !as->failed; k++)
+		add_frame_constant(as, maps, name, len, pou, k);
+	name[len] = '\0';
+	add_group(as, maps, 0, 0);
+}
+
+/* Variables of functions, and VAR_TEMP of blocks: `Scaled.X`. Only for a simulation, where a person may
+ * stand in the body, and conditions of breakpoints read them. */
+static void add_frames(struct assembler *as, struct maps *maps)
+{
+	const struct project *project = as->translation->project;
+	char *name = as->listing ? arena_alloc(as->arena, NAME_MOST) : NULL;
+
+	for (int i = 0; name && i < as->translation->unit_count && !as->failed; i++) {
+		const struct pou *pou = &project->pou[i];
+		const struct frame *frame = &as->frame[i];
+
+		if (!pou_has_frame(pou))
+			continue;
+		const size_t len = join_name(name, 0, project_text(project, pou->name));
+
+		add_frame_constants(as, maps, name, pou);
+		if (pou->kind == POU_FUNCTION && word_is_own(pou->word))
+			add_parts(as, maps, name, pou->word, frame->offset, SYMBOL_HIDDEN);
+		name[len] = '\0';
+		if (word_is_own(pou->temp_word))
+			add_parts(as, maps, name, pou->temp_word, frame->temps, SYMBOL_HIDDEN);
+	}
+}
+
 /* ---- VAR_ACCESS ---- */
 
 /* Hidden symbols behind all others: a board without names has none of them, and a board that
@@ -670,17 +735,6 @@ static void add_power(struct assembler *as, struct maps *maps)
 	}
 }
 
-/* "Belt1" behind the @len bytes of @name; with a dot between. */
-static size_t join_name(char *name, size_t len, const char *part)
-{
-	size_t size = strlen(part);
-
-	if (len > 0)
-		name[len++] = '.';
-	memcpy(name + len, part, size + 1);
-	return len + size;
-}
-
 /* ---- power by instance ---- */
 
 /* An instance whose power is kept, and those inside it. */
@@ -823,6 +877,7 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 		add_edges(as, maps, i);
 		add_memories(as, maps, i);
 	}
+	add_frames(as, maps);
 	add_accesses(as, maps);
 	drop_empty_group(maps);
 	for (int i = 0; i < as->translation->unit_count; i++)

@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/document/document.h"
 
+#include "engine/model/st.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
@@ -245,6 +246,31 @@ static void test_list(void)
 		;
 	CHECK(has_text(document, before));
 	g_free(before);
+	g_object_unref(document);
+}
+
+/* The lines of the canonical text, which is shown: the file has two declarations and two statements in a line. */
+static void test_lines(void)
+{
+	static const char file[] = "RUNGBOARD 1\nPROGRAM Main ST\nVAR\n  a, b : INT;\nEND_VAR\n"
+		"  a := 1; IF a > 2 THEN b := 3; END_IF;\nEND_PROGRAM\n"
+		"PROGRAM Other IL\nVAR\n  c, d : INT;\nEND_VAR\n  LD c\n  ST d\nEND_PROGRAM\n";
+	LadderDocument *document = ladder_document_new();
+	const struct project *project;
+	char *text, **line;
+
+	ladder_document_open_text(document, "/x/lines.rung", file, strlen(file), true);
+	ladder_document_check_now(document);
+	project = ladder_document_project(document);
+	text = ladder_document_text(document, NULL);
+	line = g_strsplit(text, "\n", -1);
+	CHECK(project && project->pou[0].st->count == 4 && project->pou[1].il.count == 2);
+	CHECK_TEXT(line[project->pou[0].st->item[0].line - 1], "  a := 1;");
+	CHECK_TEXT(line[project->pou[0].st->item[2].line - 1], "    b := 3;");
+	CHECK_TEXT(line[project->pou[1].il.line[1].line - 1], "  ST    d");
+	CHECK_TEXT(line[project->pou[1].line - 1], "PROGRAM Other IL");
+	g_strfreev(line);
+	g_free(text);
 	g_object_unref(document);
 }
 
@@ -658,6 +684,7 @@ int main(void)
 	test_cursor();
 	test_text();
 	test_list();
+	test_lines();
 	test_damaged();
 	test_declare();
 	test_storm();

@@ -165,6 +165,80 @@ def conditional(screen):
     stands(editor, 'line 9 of Fill (instance ')
 
 
+BODIES = '''RUNGBOARD 1
+
+VAR
+  Sum : INT;
+END_VAR
+
+FUNCTION Scaled : INT ST
+VAR_INPUT
+  X : INT;
+END_VAR
+VAR CONSTANT
+  Most : INT := 5;
+END_VAR
+VAR
+  i, t : INT;
+END_VAR
+  FOR i := 1 TO 3 DO
+    t := t + X * i;
+  END_FOR;
+  Scaled := t;
+END_FUNCTION
+
+FUNCTION_BLOCK Grow ST
+VAR_IN_OUT
+  Total : INT;
+END_VAR
+VAR_TEMP
+  Now : INT;
+END_VAR
+  Now := Total * 2;
+  Total := Total + 1;
+END_FUNCTION_BLOCK
+
+PROGRAM Main ST
+VAR
+  A : Grow;
+  n : INT;
+END_VAR
+  A(Total := n);
+  Sum := Scaled(X := n);
+  IF n > 200 THEN
+    n := 0;
+  END_IF;
+END_PROGRAM
+'''
+
+
+def bodies(screen):
+    """conditions read variables, constants and arrays of a function, VAR_TEMP and VAR_IN_OUT of a block; a call is refused"""
+    editor, path, view = opened(screen, BODIES)
+    for name, heading, line, condition, where in (
+            ('Scaled, ST', 'FUNCTION Scaled', 13, 'i = 2 AND t > 30 AND X > Most', 'line 13 of Scaled, called from line 7 of Main'),
+            ('Grow, ST', 'FUNCTION_BLOCK Grow', 9, 'Now > 100 AND Total < 190', 'line 9 of Grow (instance A), called from line 6 of Main')):
+        editor.click(editor.find(name), count=2)
+        body = text_of(editor, heading)
+        to_line(editor, line)
+        editor.keys('shift+F9')
+        editor.focus_on('Condition of the breakpoint')
+        if heading.endswith('Grow'):
+            editor.type('Scaled(X := 3) > 1')
+            editor.keys('Return')
+            editor.find('While the program stands, a condition with a call cannot be computed', 'label')
+            editor.keys('ctrl+a')
+        editor.type(condition)
+        editor.keys('Return')
+        until(lambda: 'breakpoint, if ' + condition in said_of(body), 'the condition')
+        stands(editor, where)
+        editor.shot('breakpoints-body-' + heading.split()[-1])
+        editor.keys('F9')
+        until(lambda: 'breakpoint' not in said_of(body), 'no breakpoint')
+        editor.keys('F5')
+        goes_on(editor)
+
+
 def edited(screen):
     """breakpoints stay with their lines while the text is edited; an edit ends the scan that stands, with the program before"""
     editor, path, view = opened(screen)
@@ -198,4 +272,4 @@ def looks(screen):
 
 looks.size = '1024x600x24'
 stepped.quick = 'editor-gtk/text'
-main([stepped, by_pointer, conditional, edited, looks])
+main([stepped, by_pointer, conditional, bodies, edited, looks])

@@ -394,8 +394,9 @@ static void test_chart(void)
 
 /* ---- conditions, values ---- */
 
-/* A breakpoint in the first line of Fill. */
-static void add_if(struct bench *bench, struct arena *arena, const char *instance, const char *text)
+/* A breakpoint. */
+static void add_at(struct bench *bench, struct arena *arena, const char *pou, uint32_t line,
+		   const char *instance, const char *text)
 {
 	struct expr *expr = arena_alloc(arena, sizeof(*expr));
 	struct diag_list *diags = arena_alloc(arena, sizeof(*diags));
@@ -405,7 +406,82 @@ static void add_if(struct bench *bench, struct arena *arena, const char *instanc
 	CHECK(expr_parse_text(text, strlen(text), expr, diags, (struct diag){ .line = 1 }));
 	formula = formula_new(&bench->twin.resource.image, NULL, (struct formula_projects){ NULL, NULL }, expr, arena, text, diags,
 			      (struct diag){ .line = 1 });
-	CHECK(formula && stops_add(bench->stops, pou_of(bench, "Fill"), 15, formula, instance, false));
+	CHECK_AS(formula && stops_add(bench->stops, pou_of(bench, pou), line, formula, instance, false), text);
+}
+
+/* In the first line of Fill. */
+static void add_if(struct bench *bench, struct arena *arena, const char *instance, const char *text)
+{
+	add_at(bench, arena, "Fill", 15, instance, text);
+}
+
+static const char frames[] =
+	"RUNGBOARD 1\n"                     /* 1 */
+	"TYPE\n  Pair : STRUCT\n    Low, High : INT;\n  END_STRUCT;\nEND_TYPE\n"
+	"FUNCTION Sum : INT ST\n"           /* 7 */
+	"  VAR_INPUT\n    v : INT;\n  END_VAR\n"
+	"  VAR CONSTANT\n    Most : INT := 4;\n  END_VAR\n"
+	"  VAR\n    i, t : INT;\n    Row : ARRAY[1..3] OF INT;\n    Both : Pair;\n  END_VAR\n" /* 18 */
+	"  Both.High := v * 10;\n"          /* 19 */
+	"  FOR i := 1 TO 3 DO\n"
+	"    Row[i] := v + i;\n"
+	"    t := t + Row[i];\n"            /* 22 */
+	"  END_FOR;\n"
+	"  Sum := t;\n"                     /* 24 */
+	"END_FUNCTION\n"
+	"FUNCTION_BLOCK Grow ST\n"           /* 26 */
+	"  VAR_IN_OUT\n    Total : INT;\n  END_VAR\n"
+	"  VAR_TEMP\n    Now : INT;\n  END_VAR\n"
+	"  Now := Total * 2;\n"             /* 33 */
+	"  Total := Total + 1;\n"           /* 34 */
+	"END_FUNCTION_BLOCK\n"
+	"PROGRAM Main ST\n"                 /* 36 */
+	"  VAR\n    n, all : INT;\n    A : Grow;\n  END_VAR\n"
+	"  A(Total := n);\n"                /* 41 */
+	"  all := Sum(v := n);\n"
+	"END_PROGRAM\n";
+
+/* Where it stands first with that condition, of @line: n, and what the name is then. */
+static void stands_if(const char *pou, uint32_t line, const char *text, int64_t n, const char *name, int64_t value)
+{
+	struct stops_frame frame[LIMIT_CALLS + 1] = { { 0 } };
+	struct bench bench;
+	struct arena arena;
+
+	open_bench(&bench, frames);
+	arena_init(&arena);
+	add_at(&bench, &arena, pou, line, NULL, text);
+	for (int i = 0; i < 20 && !bench.twin.resource.stopped; i++)
+		stops_scan(bench.stops, &bench.twin, STOPS_GO);
+	CHECK_AS(stops_stack(bench.stops, &bench.twin, frame) && frame[0].at.line == line &&
+		 get(&bench, "Main.n") == n, text);
+	CHECK_AS(get(&bench, name) == value, name);
+	arena_free(&arena);
+	close_bench(&bench);
+}
+
+/* Conditions read what a function has, and what a block has only while it runs. */
+static void test_frames(void)
+{
+	struct ladder *ladder = ladder_new();
+	const struct program *program;
+	struct symbol_cursor cursor = { .whole = true };
+	struct image image = { 0 };
+	struct symbol symbol;
+
+	stands_if("Sum", 24, "Sum.v = 3", 3, "Sum.t", 15);
+	stands_if("Sum", 22, "Sum.i = 2 AND Sum.v > 4", 5, "Sum.Row[2]", 7);
+	stands_if("Sum", 22, "Sum.Row[Sum.i] = 6", 3, "Sum.i", 3);
+	stands_if("Sum", 21, "Sum.Both.High > 30", 4, "Sum.Both.High", 40);
+	stands_if("Sum", 21, "Sum.v > Sum.Most", 5, "Sum.Most", 4);
+	stands_if("Grow", 34, "Grow.Now >= 6", 3, "Grow.Now", 6);
+	CHECK(ladder_load_text(ladder, "stops.rung", frames, strlen(frames)) && ladder_build(ladder));
+	program = ladder_program(ladder);
+	image.program = program;
+	while (image_next_symbol(&image, &cursor, &symbol))
+		if (!CHECK(strncmp(symbol.name, "Sum.", 4) != 0 && strncmp(symbol.name, "Grow.", 5) != 0))
+			printf("# %s is in the image of a board\n", symbol.name);
+	ladder_free(ladder);
 }
 
 static void test_condition(void)
@@ -622,6 +698,7 @@ int main(void)
 	test_ladder();
 	test_chart();
 	test_condition();
+	test_frames();
 	test_show();
 	test_values();
 	test_tasks();
