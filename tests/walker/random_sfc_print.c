@@ -12,12 +12,15 @@
 
 #define ACTIONS 5
 #define TIMERS  40
+#define RING    10
 
 struct page {
 	struct random_sfc *sfc;
 	char *out;
 	size_t size, used;
 	int timers;      /* used so far                                       */
+	int beside;      /* steps of the rings beside the chart; 0: none      */
+	int printed;     /* of them                                           */
 	bool in_order;
 };
 
@@ -332,6 +335,38 @@ static void put_step(struct page *page, int number)
 	put(page, "  END_STEP\n");
 }
 
+/* ---- many steps: EACH makes lists of 64 or more ---- */
+
+/* Of rings beside the chart, each with a token: up to @count more steps. */
+static void put_beside(struct page *page, int count)
+{
+	for (; count > 0 && page->printed < page->beside; count--) {
+		const int number = page->printed++;
+		const uint64_t key = sfc_key(page->sfc->seed, 1000u + (uint32_t)number);
+		struct random_source source = sfc_source(key);
+
+		put(page, "  %s K%d:\n", number % RING ? "STEP" : "INITIAL_STEP", number);
+		if (random_chance(&source, 25) && sfc_has(page->sfc, key))
+			put_line(page, key);
+		put(page, "  END_STEP\n");
+	}
+}
+
+static void put_arcs_beside(struct page *page)
+{
+	for (int i = 0; i < page->beside; i++) {
+		struct random_source source = sfc_source(sfc_key(page->sfc->seed, 2000u + (uint32_t)i));
+		const int to = i % RING == RING - 1 ? i - RING + 1 : i + 1;
+
+		put(page, "  TRANSITION FROM K%d TO K%d := ", i, to);
+		if (random_chance(&source, 30))
+			put(page, "K%d.T >= %s", i, some_time(&source));
+		else
+			put_bool(page, &source);
+		put(page, "; END_TRANSITION\n");
+	}
+}
+
 /* Steps and transitions of a macro-step, or of the chart: in order, or mixed. Depth:
  * nested macro-steps. */
 static void put_inside(struct page *page, int macro)
@@ -352,6 +387,8 @@ static void put_inside(struct page *page, int macro)
 
 			if (in != macro || late != pass)
 				continue;
+			if (macro < 0 && arc < 0)
+				put_beside(page, (int)random_below(&source, 40));
 			if (arc < 0)
 				put_step(page, at);
 			else
@@ -595,8 +632,12 @@ static void put_program(struct page *whole, const char *name)
 	page.in_order = evolution == 1;
 
 	sfc_grow(sfc);
+	if (random_chance(&source, 10) && sfc_has(sfc, sfc_key(sfc->seed, 502)))
+		page.beside = RING * (7 + (int)random_below(&source, 12));
 	put_control(&page);
 	put_inside(&page, -1);
+	put_beside(&page, page.beside);
+	put_arcs_beside(&page);
 	for (int i = 0; i < ACTIONS; i++)
 		put_action(&page, i);
 	whole->timers = page.timers;

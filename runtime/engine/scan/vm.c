@@ -7,6 +7,9 @@
 #include "engine/scan/value.h"
 
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 /* The branch that a compiler places first. */
 #define LIKELY(x) __builtin_expect((x), 1)
@@ -15,8 +18,10 @@
  * interrupt each other. What is called in several places has one place there, too. */
 #ifdef __OPTIMIZE_SIZE__
 #define OWN_FRAME __attribute__((noinline))
+#define SELDOM
 #else
 #define OWN_FRAME
+#define SELDOM __attribute__((noinline)) /* the registers of vm_run() are for what runs often */
 #endif
 
 /* ---- operands ---- */
@@ -400,6 +405,9 @@ static bool poke(struct vm *vm, const uint32_t *at)
 #define INLINE inline __attribute__((always_inline))
 #endif
 
+/* Lists of steps, where numbers of 64 bits are cheap. */
+#define HAS_LISTS (HAS_OFTEN && sizeof(size_t) > sizeof(uint32_t))
+
 /* The marks of the most frequent one. */
 #define SHAPE(n) ((n) & (CODE_SHORT | CODE_LONG | CODE_WIDE))
 
@@ -448,7 +456,7 @@ static INLINE bool run_short(uint8_t *m, const uint32_t *at, uint32_t n, bool pu
 						run_shape(m, at, n, put);
 }
 
-static inline void clear_value(uint8_t *m, const uint32_t *at)
+static SELDOM void clear_value(uint8_t *m, const uint32_t *at)
 {
 	static const struct iec_string none = { 0, 0 };
 
@@ -458,7 +466,7 @@ static inline void clear_value(uint8_t *m, const uint32_t *at)
 		put(m, at[VALUE], (union iec_value){ .i = 0 });
 }
 
-static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static SELDOM bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where = CODE_OFFSET(at[BASE]), pair[3] = { 0, at[VALUE], 0 };
 
@@ -473,7 +481,7 @@ static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 	return true;
 }
 
-static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static SELDOM bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where = CODE_OFFSET(at[BASE]), pair[3] = { 0, 0, at[VALUE] };
 
@@ -493,7 +501,7 @@ static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 }
 
 /* @at[VALUE] and @at[BASE]: destination and source. */
-static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static SELDOM bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t to = at[VALUE], from = at[BASE];
 
@@ -557,6 +565,92 @@ static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 	return from < n ? from : n;
 }
 
+/* The active steps of a chart with many, from one of them on. EACH makes the list when it begins and
+ * walks it: nobody can foresee where the next active step is, so a search for each one takes a wrong
+ * branch. Conditions and actions write into no step but through a pointer; POKE ends the list. */
+enum { MANY = 64, LISTED = 112, FAR = UINT16_MAX - MANY };
+struct active {
+	const uint32_t *each;  /* operands of the EACH that walks it; NULL: none does */
+	uint32_t next;         /* its cursor                                  */
+	uint32_t first;        /* step[] counts from this one                 */
+	uint32_t at, count;
+	uint32_t end;          /* where the search goes on behind the list    */
+	uint16_t step[LISTED];
+};
+
+#ifdef __SSE2__
+/* 16 BOOLs as bits of a number. */
+static inline uint64_t bits_of_16(const uint8_t *at)
+{
+	const __m128i sixteen = _mm_loadu_si128((const void *)at);
+
+	return (uint32_t)_mm_movemask_epi8(_mm_cmpgt_epi8(sixteen, _mm_setzero_si128()));
+}
+#else
+/* The same: a product puts the lowest bit of byte k at bit 56 + k. */
+static inline uint64_t bits_of_16(const uint8_t *at)
+{
+	const uint64_t up = 0x0102040810204080u;
+
+	return eight_at(at) * up >> 56 | eight_at(at + 8) * up >> 56 << 8;
+}
+#endif
+
+static inline uint64_t bits_of_many(const uint8_t *at)
+{
+	return bits_of_16(at) | bits_of_16(at + 16) << 16 | bits_of_16(at + 32) << 32 |
+	       bits_of_16(at + 48) << 48;
+}
+
+/* How many bits of @x are 1. */
+static inline uint32_t count_bits(uint64_t x)
+{
+	x -= x >> 1 & 0x5555555555555555u;
+	x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
+	x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+	return (uint32_t)(x * 0x0101010101010101u >> 56);
+}
+
+/* Returns @mask without its lowest bit, which is listed. */
+static inline uint64_t list_lowest(uint16_t *out, uint32_t first, uint64_t mask)
+{
+	*out = (uint16_t)(first + (uint32_t)__builtin_ctzll(mask | UINT64_C(1) << 63));
+	return mask & (mask - 1);
+}
+
+/* Returns how many bits of @mask are listed. Two at a time, whether there are two or not. */
+static inline uint32_t list_bits(uint16_t *out, uint32_t first, uint64_t mask)
+{
+	const uint32_t count = count_bits(mask);
+
+	do {
+		mask = list_lowest(out, first, mask);
+		mask = list_lowest(out + 1, first, mask);
+		out += 2;
+	} while (mask);
+	return count;
+}
+
+/* Lists those of @n BOOLs that are TRUE, from @from on, as long as there is room for more.
+ * @n: at least MANY. */
+static SELDOM void list_active(const uint8_t *bits, uint32_t from, uint32_t n, struct active *out)
+{
+	const uint32_t left = from < n ? n - from : 0, end = from + (left < FAR ? left : FAR);
+	uint32_t count = 0, at = from;
+
+	for (; count <= LISTED - MANY && end - at >= MANY; at += MANY)
+		count += list_bits(out->step + count, at - from, bits_of_many(bits + at));
+	if (count <= LISTED - MANY && at < n && n - at < MANY) {
+		count += list_bits(out->step + count, at - from,
+				   bits_of_many(bits + n - MANY) >> (MANY - (n - at)));
+		at = n;
+	}
+	out->next = out->first = from;
+	out->at = 0;
+	out->count = count;
+	out->end = at;
+}
+
 /* EACH: true if one is TRUE; *@found is its number. */
 static inline bool find_step(uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *found)
 {
@@ -567,6 +661,28 @@ static inline bool find_step(uint8_t *m, const uint32_t *at, uint32_t n, uint32_
 	cursor = *found < n ? *found + 1 : 0;
 	memcpy(m + at[0], &cursor, sizeof(cursor));
 	return *found < n;
+}
+
+/* As find_step(), of at least MANY. */
+static INLINE bool find_listed(uint8_t *m, const uint32_t *at, uint32_t n, struct active *active,
+			       uint32_t *found)
+{
+	uint32_t cursor;
+
+	memcpy(&cursor, m + at[0], sizeof(cursor));
+	if (active->each != at || active->next != cursor)
+		list_active(m + at[1], cursor, n, active);
+	while (active->at == active->count && active->end < n)
+		list_active(m + at[1], active->end, n, active);
+	active->each = NULL;
+	cursor = 0;
+	if (active->at < active->count) {
+		*found = active->first + active->step[active->at++];
+		active->each = at;
+		active->next = cursor = *found + 1;
+	}
+	memcpy(m + at[0], &cursor, sizeof(cursor));
+	return cursor != 0;
 }
 
 /* Operands of TICK. */
@@ -581,7 +697,24 @@ static inline void add_time(uint8_t *at, int64_t dt)
 	memcpy(at, &value, sizeof(value));
 }
 
-static inline void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_ns)
+/* The times of at least MANY. If an EACH of the same BOOLs is next, it takes the list. */
+static inline void tick_listed(uint8_t *m, const uint32_t *at, uint32_t n, int64_t dt,
+			       struct active *active)
+{
+	const uint32_t *each = at + TICK_WORDS;
+
+	active->end = 0;
+	do {
+		list_active(m + at[TICK_X], active->end, n, active);
+		for (uint32_t i = 0; i < active->count; i++)
+			add_time(m + at[TICK_T] + (active->first + active->step[i]) * sizeof(dt), dt);
+	} while (active->end < n);
+	if (*each == (VM_EACH | n << 8) && each[2] == at[TICK_X] && active->first == 0)
+		active->each = each + 1;
+}
+
+static SELDOM void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_ns,
+			struct active *active)
 {
 	const uint8_t *x = m + at[TICK_X];
 	uint8_t *t = m + at[TICK_T];
@@ -591,6 +724,10 @@ static inline void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_
 	memcpy(m + at[TICK_LAST], &now_ns, sizeof(now_ns));
 	dt = m[at[TICK_HOLD]] ? 0 : (int64_t)((uint64_t)now_ns - (uint64_t)last);
 	memcpy(m + at[TICK_DT], &dt, sizeof(dt));
+	if (HAS_LISTS && n >= MANY) {
+		tick_listed(m, at, n, dt, active);
+		return;
+	}
 	for (uint32_t i = next_true(x, 0, n); i < n; i = next_true(x, i + 1, n))
 		add_time(t + i * sizeof(dt), dt);
 }
@@ -658,8 +795,15 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 		look_up(m, pc + 8);
 		look_up(m, pc + 12);
 	}
-	for (; n > 0; n--, pc += 4)
+	if (n & 2) {
 		look_up(m, pc);
+		look_up(m, pc + 4);
+		pc += 8;
+	}
+	if (n & 1) {
+		look_up(m, pc);
+		pc += 4;
+	}
 	return pc;
 }
 
@@ -724,6 +868,18 @@ static INLINE uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return en & (good ^ 1u);
 }
 
+/* A quotient or what remains. */
+static SELDOM uint32_t divide(uint32_t math, int32_t a, int32_t b, int32_t low, int64_t *out)
+{
+	*out = 0;
+	if (math == MATH_MOD && b == -1) /* nothing remains; MIN % -1 would trap */
+		return 1;
+	if (b == 0 || (b == -1 && a == low))
+		return 0;
+	*out = math == MATH_DIV ? a / b : a % b;
+	return 1;
+}
+
 /* 0: there is no result, nothing is stored. */
 static INLINE uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
 				     int64_t *out)
@@ -740,13 +896,7 @@ static INLINE uint32_t compute_whole(uint32_t math, int32_t a, int32_t b, int32_
 		*out = (int64_t)a * b;
 		return 1;
 	}
-	*out = 0;
-	if (math == MATH_MOD && b == -1) /* nothing remains; MIN % -1 would trap */
-		return 1;
-	if (b == 0 || (b == -1 && a == low))
-		return 0;
-	*out = math == MATH_DIV ? a / b : a % b;
-	return 1;
+	return divide(math, a, b, low, out);
 }
 
 static inline uint32_t fits(int64_t value, size_t size)
@@ -913,7 +1063,7 @@ static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 
 #ifndef RUNGBOARD_SMALL
 /* PEEK and POKE. */
-static void run_pointer(struct vm *vm, const uint32_t *pc, const uint32_t *base)
+static SELDOM void run_pointer(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 {
 	uint8_t *m = vm->memory;
 	const bool get = (*pc & 0xff) == VM_PEEK, all = *pc >> 8;
@@ -1046,10 +1196,12 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *run = pc;          /* last target of EACH            */
 	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
 	bool more;
+	struct active active;
 
 	const uint32_t *until = HAS_STILL && vm->until ? base + vm->until : NULL;
 	bool fresh = stood(vm, base, &pc, back, &depth, &run);
 
+	active.each = NULL;
 	vm->resume = 0;
 	if (HAS_STILL)
 		vm->until = 0;
@@ -1233,6 +1385,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (n && !pay(&budget, pc[6] / 4))
 				goto out_of_budget;
 			run_pointer(vm, pc, base);
+			active.each = NULL; /* it may have made a step active */
 			pc += 8;
 			break;)
 		case VM_ABLOCK:
@@ -1247,10 +1400,13 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 		each:
 			if (!pay(&budget, 1 + n / 8))
 				goto out_of_budget;
-			if (!find_step(m, pc + 1, n, &found)) {
+			if (!(HAS_LISTS && n >= MANY ? find_listed(m, pc + 1, n, &active, &found) :
+						       find_step(m, pc + 1, n, &found))) {
 				pc += 3 + n;
 				break;
 			}
+			if (HAS_LISTS && n >= MANY && active.at < active.count) /* where it will go on */
+				__builtin_prefetch(base + pc[3 + active.first + active.step[active.at]]);
 			run = base + pc[3 + found];
 			if (!spend(&budget, pc, run))
 				goto out_of_budget;
@@ -1259,7 +1415,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 		case VM_TICK:
 			if (!pay(&budget, 1 + n))
 				goto out_of_budget;
-			tick(m, pc + 1, n, vm->now_ns);
+			tick(m, pc + 1, n, vm->now_ns, HAS_LISTS ? &active : NULL);
 			pc += 1 + TICK_WORDS;
 			break;
 		case VM_POINT:
