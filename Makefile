@@ -119,7 +119,7 @@ unit: $(UNIT) ## build and run the unit tests
 
 $(BUILD)/unit/online/tests: $(call obj,$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c)))
 $(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c runtime/ladderd/disk.c runtime/ladderd/stats.c runtime/ladderd/alarm_store.c runtime/online/alarms.c runtime/online/wire.c)
-$(BUILD)/unit/modbus/tests: $(call obj,$(filter-out %/main.c %/session.c,$(wildcard runtime/modbus/*.c)))
+$(BUILD)/unit/modbus/tests: $(call obj,$(filter-out %/main.c %/session.c,$(wildcard runtime/modbus/*.c)) hal/buses.c hal/host.c)
 $(BUILD)/unit/modbus/tests: private ROOM_LIB = $(MODBUS_LIB)
 $(BUILD)/unit/modbus/tests: private LDFLAGS += -Wl,--gc-sections
 $(BUILD)/unit/peer/tests: $(call obj,$(addprefix runtime/peer/,datagram.c inbox.c outbox.c) runtime/online/wire.c runtime/online/service.c)
@@ -201,12 +201,15 @@ $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
 MODBUS_LIB := $(if $(MODBUS),$(shell $(PKG_CONFIG) --libs libmodbus) -pthread)
 MODBUS_O := $(if $(MODBUS),$(call obj,$(wildcard runtime/modbus/*.c)))
+# What a machine lacks for the buses of a map.
+BUSES    := $(call obj,hal/buses.c hal/host$(if $(filter 1,$(STATIC)),_static).c)
+$(BUSES): WARN += $(FRAME)
 $(MODBUS_O): WARN += $(FRAME)
 $(MODBUS_O): override CPPFLAGS += $(if $(MODBUS),$(shell $(PKG_CONFIG) --cflags libmodbus))
 all: $(if $(MODBUS),$(BUILD)/ladder-modbus,$(if $(CROSS)$(filter 1,$(SMALL) $(STATIC)),,no-modbus))
 no-modbus: ; @echo "make: ladder-modbus is left out: it needs libmodbus" >&2
 .PHONY: no-modbus
-$(BUILD)/ladder-modbus: $(MODBUS_O) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+$(BUILD)/ladder-modbus: $(MODBUS_O) $(BUSES) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(MODBUS_LIB) -lm
 
 # All gpio drivers with fakes of libgpiod and the kernel: one suite, built three times.
@@ -293,7 +296,7 @@ check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of th
 # ---- end of HAL and runtime ----
 
 # ---- the command line: ladder, its man pages ----
-LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
+LADDER := $(call obj,$(wildcard runtime/ladder/*.c)) $(BUSES)
 all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) $(XML_LIB) -lm

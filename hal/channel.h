@@ -86,6 +86,7 @@ struct io_channel {
 	int8_t reg_bit;        /* only this bit of the register; -1: all of it  */
 	bool word_swapped;     /* the register of lower number is the lower half */
 	bool byte_swapped;     /* … and within a register the first byte          */
+	bool has_word_order, has_byte_order; /* its line says so; else its DEVICE line may */
 	/* quality of=%AIW0: the worst of the inputs with these bits. A bit is TRUE if all are good; else
 	 * the value is an enum hal_quality. */
 	struct iec_addr of;
@@ -118,7 +119,7 @@ struct io_window {
 	int text_line, text_column;
 };
 
-/* DEVICE plant unit=3 read-registers=50 write-registers=20 gap=0 together
+/* DEVICE plant unit=3 read-registers=50 write-registers=20 gap=0 together word-order=little
  * The most that a device takes in one request, if Modbus allows more. 0: as Modbus allows. */
 struct io_takes {
 	int bus;
@@ -126,6 +127,7 @@ struct io_takes {
 	uint16_t read_words, write_words, read_bits, write_bits;
 	int16_t gap_words;     /* registers that nobody wants and that a read takes along; -1: as usual */
 	bool together;         /* function 23 reads and writes in one request  */
+	bool word_swapped, byte_swapped; /* of its registers; see struct io_channel */
 	int text_line, text_column;
 };
 

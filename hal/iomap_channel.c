@@ -335,20 +335,16 @@ static bool set_bit(struct line_reader *line, const struct option_word *option)
 	return true;
 }
 
-static bool set_order(const struct option_word *option, bool *swapped)
-{
-	*swapped = ascii_is("little", option->value, option->len);
-	return *swapped || ascii_is("big", option->value, option->len);
-}
-
 static bool set_word_order(struct line_reader *line, const struct option_word *option)
 {
-	return set_order(option, &line->channel.word_swapped);
+	line->channel.has_word_order = true;
+	return read_order(option, &line->channel.word_swapped);
 }
 
 static bool set_byte_order(struct line_reader *line, const struct option_word *option)
 {
-	return set_order(option, &line->channel.byte_swapped);
+	line->channel.has_byte_order = true;
+	return read_order(option, &line->channel.byte_swapped);
 }
 
 static bool set_module_type(struct line_reader *line, const struct option_word *option)
@@ -393,21 +389,6 @@ enum { CHANNEL_OPTIONS = sizeof(channel_options) / sizeof(*channel_options) };
 static unsigned bit_of(enum driver_id driver)
 {
 	return 1u << driver;
-}
-
-/* What a line must have, for the message about a wrong or missing option. */
-static const char *needs_of(enum driver_id driver)
-{
-	static const char *const needs[DRIVER_COUNT] = {
-		[DRIVER_sim] = "", [DRIVER_iio] = "device=, channel=",
-		[DRIVER_pwm] = "chip=, channel=, period=", [DRIVER_w1] = "sensor=",
-		[DRIVER_hwmon] = "device=, channel=",
-		[DRIVER_modbus] = "bus=, unit=, holding-register= (or coil= …)",
-		[DRIVER_module] = "bus=, unit=, type=", [DRIVER_peer] = "bus=, from=, name=",
-		[DRIVER_quality] = "of=",
-	};
-
-	return needs[driver] ? needs[driver] : "";
 }
 
 /* Options of a module are of its inputs and its outputs. */
@@ -775,22 +756,36 @@ static void keep_module(struct line_reader *line)
 
 /* ---- a line ---- */
 
-/* Whether all is there that the driver cannot be without. */
-static bool has_needs(const struct line_reader *line)
+static bool has(const struct line_reader *line, const char *option)
 {
-	const struct io_channel *channel = &line->channel;
-	const bool bus = channel->bus >= 0;
+	if (strcmp(option, "bus") == 0)
+		return line->channel.bus >= 0;
+	if (strcmp(option, "holding-register") == 0)
+		return line->channel.table != TABLE_NONE;
+	return is_given(line, option);
+}
 
-	switch (bit_of(line->point.driver)) {
-	case ON_IIO: case ON_HWMON: return channel->device && channel->name;
-	case ON_PWM: return channel->device && is_given(line, "channel") && channel->period_ns;
-	case ON_W1: return channel->device;
-	case ON_MODBUS: return bus && is_given(line, "unit") && channel->table != TABLE_NONE;
-	case ON_MODULE: return bus && is_given(line, "unit") && line->module;
-	case ON_PEER: return bus && channel->device && channel->name;
-	case ON_QUALITY: return channel->of_bits;
-	default: return true;
+/* Whether all is there that the driver cannot be without; else says what is not. */
+static bool has_needs(struct line_reader *line)
+{
+	static const char *const needs[DRIVER_COUNT][3] = {
+		[DRIVER_iio] = { "device", "channel" }, [DRIVER_pwm] = { "chip", "channel", "period" },
+		[DRIVER_w1] = { "sensor" }, [DRIVER_hwmon] = { "device", "channel" },
+		[DRIVER_modbus] = { "bus", "unit", "holding-register" },
+		[DRIVER_module] = { "bus", "unit", "type" }, [DRIVER_peer] = { "bus", "from", "name" },
+		[DRIVER_quality] = { "of" },
+	};
+	char missing[80] = "";
+
+	for (int i = 0; i < 3; i++) {
+		const char *option = needs[line->point.driver][i];
+		const size_t len = strlen(missing);
+
+		if (option && !has(line, option))
+			snprintf(missing + len, sizeof(missing) - len, "%s%s=%s", len ? ", " : "", option,
+				 strcmp(option, "holding-register") == 0 ? " (or coil= …)" : "");
 	}
+	return !*missing || complain_about(line->reader, DIAG_IO_CHANNEL_NEEDS, &line->address, missing);
 }
 
 /* Whether the driver knows this direction. */
@@ -839,11 +834,8 @@ static void settle(struct line_reader *line)
 
 	if (line->point.driver == DRIVER_peer && channel->bus < 0 && line->reader->net)
 		channel->bus = only_peer_bus(&line->reader->net->net);
-	if (!has_needs(line)) {
-		complain_about(line->reader, DIAG_IO_CHANNEL_NEEDS, &line->address,
-			       needs_of(line->point.driver));
+	if (!has_needs(line))
 		return;
-	}
 	if (line->point.driver == DRIVER_module) {
 		keep_module(line);
 		return;

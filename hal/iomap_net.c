@@ -637,22 +637,47 @@ static bool set_device_flag(struct io_takes *device, const struct option_word *o
 	return false;
 }
 
+bool read_order(const struct option_word *option, bool *swapped)
+{
+	*swapped = option->value && ascii_is("little", option->value, option->len);
+	return *swapped || (option->value && ascii_is("big", option->value, option->len));
+}
+
+/* Bits of read_device_word(), behind those of device_options and of the flag. */
+static bool *order_of(struct io_takes *device, const struct option_word *option, int *bit, const char **form)
+{
+	*bit = DEVICE_OPTIONS;
+#define DEVICE_ORDER(id, text, its_form, member)                              \
+	*bit += 1;                                                            \
+	*form = its_form;                                                     \
+	if (option_is(option, text))                                          \
+		return &device->member;
+#include "hal/map_words.def"
+	return NULL;
+}
+
 static void read_device_word(struct reader *reader, struct io_takes *device,
 			     const struct option_word *option, unsigned *seen)
 {
 	uint16_t number;
 	uint32_t count;
-	int i = 0;
+	const char *form = NULL;
+	int i;
+	bool *order = order_of(device, option, &i, &form);
 
-	while (i < DEVICE_OPTIONS && !option_is(option, device_options[i].name))
+	for (i = order ? i : 0; i < DEVICE_OPTIONS && !option_is(option, device_options[i].name);)
 		i++;
 	if (i == DEVICE_OPTIONS && (option->value || !set_device_flag(device, option)))
 		complain_form(reader, &option->word, "unit=3, read-registers=50, write-registers=20, "
-			      "read-coils=256, write-coils=16, gap=0 or together");
+			      "read-coils=256, write-coils=16, gap=0, together, word-order=little or byte-order=little");
 	else if (*seen & 1u << i)
 		complain(reader, DIAG_IO_OPTION_TWICE, &option->word);
 	else if (i == DEVICE_OPTIONS)
 		; /* it is set */
+	else if (order) {
+		if (!read_order(option, order))
+			complain_form(reader, &option->word, form);
+	}
 	else if (!option->value || !read_count(option->value, option->len, device_options[i].most, &count) ||
 		 count < device_options[i].least)
 		complain_form(reader, &option->word, device_options[i].form);
@@ -813,9 +838,30 @@ bool read_statement(struct reader *reader, const struct map_word *word)
 	return false;
 }
 
+/* What a DEVICE line says of the registers of its unit. It may stand behind their lines. */
+static void settle_orders(const struct iomap *map, const struct io_net *net)
+{
+	for (int i = 0; net->takes_count && i < map->count; i++) {
+		struct io_channel *channel = (struct io_channel *)map->point[i].channel;
+
+		for (int j = 0; channel && channel->bus >= 0 && j < net->takes_count; j++) {
+			const struct io_takes *device = &net->takes[j];
+
+			if (device->bus != channel->bus || device->unit_id != channel->unit_id)
+				continue;
+			if (!channel->has_word_order)
+				channel->word_swapped = device->word_swapped;
+			if (!channel->has_byte_order)
+				channel->byte_swapped = device->byte_swapped;
+		}
+	}
+}
+
 void finish_net(struct reader *reader)
 {
 	check_qualities(reader);
+	if (reader->net)
+		settle_orders(&reader->map, &reader->net->net);
 	if (reader->net && (reader->net->net.bus_count || reader->net->net.serve_count))
 		reader->map.net = &reader->net->net;
 }

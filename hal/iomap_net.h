@@ -42,6 +42,8 @@ static inline bool same_text(const char *a, const char *b)
 {
 	return a && b && strcmp(a, b) == 0;
 }
+/** read_order - big or little. */
+bool read_order(const struct option_word *option, bool *swapped);
 /** read_count - a decimal number up to @most, and nothing else. */
 bool read_count(const char *text, size_t len, uint32_t most, uint32_t *out);
 /** read_time - above 0, at most TIME_MOST. */

@@ -465,7 +465,7 @@ for my $kind (qw(value bus)) {
 }
 my ($takes_table) = $text{'docs/field.md'} =~ /^\| option of a device \|.*?\n(.*?)\n\n/ms;
 list_is('docs/field.md: the options of a device', [map { s/=.*//r } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $takes_table],
-	[$map_words =~ /^DEVICE_(?:OPTION|FLAG)\(\w+, "([a-z-]+)",/gm]);
+	[$map_words =~ /^DEVICE_(?:OPTION|FLAG|ORDER)\(\w+, "([a-z-]+)",/gm]);
 my ($modules) = $text{'docs/field.md'} =~ /^\| type \| digital inputs.*?\n(.*?)\n\n/ms;
 is(join(' ', $modules =~ /^\| `(\w+)` \| (\d+) \| (\d+) \| (\d+) \|/mg),
 	join(' ', slurp('hal/modules.def') =~ /^MODULE\((\w+), (\d+), (\d+), (\d+), 0\)/mg), 'docs/field.md: the modules');

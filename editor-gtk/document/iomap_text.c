@@ -569,6 +569,7 @@ static bool line_has(enum io_kind kind, enum io_field field)
 #define PUBLISH_OPTION(id, text, form, set) { IO_KIND_PUBLISH, IO_WORD_##id },
 #define MODULE_OPTION(id, text, table) { IO_KIND_MODULE, IO_WORD_##id },
 #define DEVICE_OPTION(id, text, form, most, least, member) { IO_KIND_DEVICE, IO_WORD_##id },
+#define DEVICE_ORDER(id, text, form, member) { IO_KIND_DEVICE, IO_WORD_##id },
 #define DEVICE_FLAG(id, text, member) { IO_KIND_DEVICE, IO_WORD_##id },
 #include "hal/map_words.def"
 		{ IO_KIND_WINDOW, IO_WORD_BUS }, { IO_KIND_WINDOW, IO_WORD_ACCESS }, { IO_KIND_PUBLISH, IO_WORD_NAMES },

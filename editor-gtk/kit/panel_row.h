@@ -10,7 +10,7 @@
 #include <gio/gio.h>
 #include <stdbool.h>
 
-#define PANEL_TEXTS 32
+#define PANEL_TEXTS 34
 
 enum panel_tone { PANEL_PLAIN, PANEL_WARNING, PANEL_ERROR };
 

@@ -8,6 +8,7 @@
 #include "ladder/picture.h"
 #include "ladder/tty.h"
 
+#include "hal/buses.h"
 #include "hal/hal.h"
 
 #include <stdlib.h>
@@ -83,11 +84,14 @@ static enum status show(struct call *call, struct picture *picture,
 	return status;
 }
 
-static bool is_wrong(const struct diag_list *diags,
-		     const struct io_point *point)
+/* Its line, or that of its bus. */
+static bool is_wrong(const struct iomap *map, const struct diag_list *diags, const struct io_point *point)
 {
+	const int bus = point->channel && map->net ? point->channel->bus : -1;
+	const int bus_line = bus >= 0 && bus < map->net->bus_count ? map->net->bus[bus].text_line : 0;
+
 	for (int i = 0; i < diags->count; i++)
-		if (diags->diag[i].line == point->text_line)
+		if (diags->diag[i].line == point->text_line || (bus_line && diags->diag[i].line == bus_line))
 			return true;
 	return false;
 }
@@ -107,7 +111,7 @@ static void print_points(const struct call *call, const struct iomap *map,
 		sink_printf(out, "%-10s %-6s %-28s %-6s %s", address,
 			    driver_row(point->driver)->word, line,
 			    point->output ? "output" : "input",
-			    is_wrong(diags, point) ? "wrong" : "good");
+			    is_wrong(map, diags, point) ? "wrong" : "good");
 		sink_printf(out, "%s%s\n", value && *value[i] ? "   " : "", value ? value[i] : "");
 	}
 }
@@ -135,7 +139,7 @@ static void json_points(const struct call *call, const struct iomap *map,
 			report_json_field("value", value[i], out);
 		sink_printf(out, ", \"output\": %s, \"good\": %s}",
 			    point->output ? "true" : "false",
-			    is_wrong(diags, point) ? "false" : "true");
+			    is_wrong(map, diags, point) ? "false" : "true");
 	}
 	sink_text(out, "],\n\"diagnostics\": ");
 	report_json_diags(diags, out);
@@ -152,6 +156,8 @@ static enum status check_map(struct call *call, const struct iomap *map, bool is
 
 	arena_init(&scratch);
 	good = hal_check(map, &scratch, diags) && is_read;
+	good = buses_check(map, diags) && good;
+	good = buses_check_peers(map, diags) && good;
 	arena_free(&scratch);
 	value = devices_values(map);
 	if (call_flag(call, "--json")) {

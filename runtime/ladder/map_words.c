@@ -28,6 +28,7 @@ static const struct option_said said[] = {
 #define TABLE_WORD(id, text, of_bits) { text "=0", "WINDOW MODULE", 0, 0, 0, FOR_BOTH },
 #define ACCESS_WORD(text, writable) { text, "WINDOW", 0, 0, 0, FOR_BOTH },
 #define DEVICE_OPTION(id, text, form, most, least, member) { form, "DEVICE", 0, 0, 0, FOR_BOTH },
+#define DEVICE_ORDER(id, text, form, member) { form, "DEVICE", 0, 0, 0, FOR_BOTH },
 #define DEVICE_FLAG(id, text, member) { text, "DEVICE", 0, 0, 0, FOR_BOTH },
 #include "hal/map_words.def"
 };

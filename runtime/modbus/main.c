@@ -5,7 +5,7 @@
  * It reads the map that ladderd runs, asks and writes units on its buses, and answers other masters if the
  * map says so. A scan never waits for it.
  */
-#include "modbus/check.h"
+#include "hal/buses.h"
 #include "modbus/find.h"
 #include "modbus/line.h"
 #include "modbus/session.h"
@@ -181,7 +181,7 @@ static int check_map(const char *path)
 	char *text;
 
 	if (load_map(path, &map, &arena, &text))
-		check_machine(&map, &diags);
+		buses_check(&map, &diags);
 	if (!print_diags())
 		printf("%s: good\n", path);
 	arena_free(&arena);

@@ -5,9 +5,10 @@
 #define _DEFAULT_SOURCE
 #include "modbus/serve.h"
 
+#include "hal/buses.h"
+
 #include <errno.h>
 #include <fcntl.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <stdio.h>
@@ -121,39 +122,13 @@ int serve_rtu(const uint8_t *byte, int len, uint8_t unit, bool quiet, int *take)
 
 /* ---- places ---- */
 
-int serve_listen(const struct io_bus *at)
-{
-	const struct addrinfo want = { .ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE };
-	struct addrinfo *found;
-	char service[8];
-	const int on = 1;
-	int fd, why;
-
-	snprintf(service, sizeof(service), "%u", at->tcp_port);
-	if (getaddrinfo(at->host, service, &want, &found) != 0) {
-		errno = ENXIO;
-		return -1;
-	}
-	fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-	if (fd >= 0)
-		setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
-	if (fd >= 0 && (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, 8) != 0)) {
-		why = errno;
-		close(fd);
-		fd = -1;
-		errno = why;
-	}
-	freeaddrinfo(found);
-	return fd;
-}
-
 static bool open_place(struct serve *serve, int number)
 {
 	const struct io_serve *it = &serve->net->serve[number];
 	struct serve_place *place = &serve->place[number];
 
 	if (it->at.kind == BUS_MODBUS_TCP) {
-		place->fd = serve_listen(&it->at);
+		place->fd = buses_listen(&it->at);
 		return place->fd >= 0;
 	}
 	return line_init(&place->line, &it->at) && line_open(&place->line);

@@ -51,9 +51,6 @@ void serve_close(struct serve *serve);
 int64_t serve_poll(struct serve *serve, int64_t now_ns);
 /** serve_step - takes what has come and answers. */
 void serve_step(struct serve *serve, int64_t now_ns);
-/** serve_listen - a socket that listens at an address of this machine; -1 and errno (ENXIO: no such
- * host). */
-int serve_listen(const struct io_bus *at);
 /** serve_rtu - finds a request for @unit in the bytes of a serial line
  * @quiet: no byte has come for some time
  * @take: bytes to drop afterwards, also without a request; 0: wait for more

@@ -5,7 +5,7 @@
 #define _DEFAULT_SOURCE
 #include "modbus/session.h"
 
-#include "modbus/check.h"
+#include "hal/buses.h"
 #include "modbus/status.h"
 #include "online/gateway.h"
 
@@ -37,6 +37,7 @@ static struct {
 	struct field_fresh *fresh;
 	struct masters masters;
 	struct serve serve;
+	struct status_strays strays;
 	bool runs;             /* masters and servers have begun                */
 	bool stop;
 	bool told_away;        /* it has been said that there is no ladderd      */
@@ -160,7 +161,7 @@ static bool begin_servers(void)
 		return true;
 	why = errno;
 	if (bad >= 0)
-		check_serve(&session.map, &session.map.net->serve[bad], why, &session.diags);
+		buses_server_error(&session.map, &session.map.net->serve[bad], why, &session.diags);
 	return false;
 }
 
@@ -172,6 +173,7 @@ static void end_map(void)
 		field_close(&session.field);
 	free(session.fresh);
 	session.fresh = NULL;
+	status_strays_close(&session.strays);
 	arena_free(&session.arena);
 	free(session.text);
 	session.text = NULL;
@@ -203,14 +205,16 @@ static bool begin_map(void)
 	session.text[session.text_len] = '\0';
 	good = !session.text_len || iomap_read(&session.map, &session.arena, "map of the board", session.text,
 					       session.text_len, &session.diags);
-	good = good && check_machine(&session.map, &session.diags);
+	good = good && buses_check(&session.map, &session.diags);
 	places = session.map.count + (session.map.net ? session.map.net->ask_count : 0);
 	session.fresh = good ? calloc((size_t)places + 1, sizeof(*session.fresh)) : NULL;
 	if (session.fresh && !field_open(&session.field, places)) {
 		free(session.fresh);
 		session.fresh = NULL;
 	}
-	session.runs = session.fresh && begin_servers() &&
+	session.runs = session.fresh &&
+		       status_strays_open(&session.strays, session.map.net ? session.map.net->bus_count : 0) &&
+		       begin_servers() &&
 		       masters_start(&session.masters, &session.map, &session.field);
 	return session.runs;
 }
@@ -275,7 +279,10 @@ static void report(int64_t now_ns)
 	if (now_ns < session.report_ns)
 		return;
 	session.report_ns = now_ns + REPORT_NS;
-	status_report(&session.masters, &session.serve, &session.report);
+	diag_init(&session.diags);
+	status_strays(&session.strays, &session.masters, &session.map, &session.diags);
+	print_diags();
+	status_report(&session.masters, &session.serve, &session.strays, &session.report);
 	keep_end(gateway_report(&session.gateway, &session.report));
 }
 

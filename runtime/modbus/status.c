@@ -4,6 +4,9 @@
  */
 #include "modbus/status.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 /* Each unit of each bus, until @visit has enough. */
 static void each_unit(const struct masters *masters,
 		      bool (*visit)(void *context, const char *bus, int id, const struct bus_told *told),
@@ -31,6 +34,62 @@ static uint32_t exceptions_of(const struct unit_counts *counts)
 	return all;
 }
 
+/* ---- answers of others ---- */
+
+bool status_strays_open(struct status_strays *strays, int buses)
+{
+	*strays = (struct status_strays){ .unit = calloc((size_t)buses * 256 + 1, sizeof(*strays->unit)) };
+	return strays->unit != NULL;
+}
+
+void status_strays_close(struct status_strays *strays)
+{
+	free(strays->unit);
+	strays->unit = NULL;
+}
+
+/* The first line of the map that names the unit. */
+static struct diag place_of(const struct iomap *map, int bus, int id)
+{
+	struct diag diag = { .id = DIAG_MODBUS_STRANGE, .file = map->file };
+
+	for (int i = map->count - 1; i >= 0; i--) {
+		const struct io_point *point = &map->point[i];
+
+		if (point->channel && point->channel->bus == bus && point->channel->unit_id == id) {
+			diag.line = point->text_line;
+			diag.column = point->text_column;
+		}
+	}
+	return diag;
+}
+
+void status_strays(struct status_strays *strays, const struct masters *masters, const struct iomap *map,
+		   struct diag_list *diags)
+{
+	strays->first[0] = '\0';
+	for (int i = 0; masters->of && i < masters->count; i++)
+		for (int u = 0; masters->of[i] && u < 256; u++) {
+			struct status_stray *stray = &strays->unit[256 * i + u];
+			struct bus_told told;
+			char name[24];
+			const bool was = stray->is;
+
+			if (!masters->of[i]->bus.has[u])
+				continue;
+			told = bus_tell(&masters->of[i]->bus, u);
+			stray->is = told.silent && (was || told.counts.wrong != stray->wrong);
+			stray->wrong = told.counts.wrong;
+			snprintf(name, sizeof(name), "%.18s/%d", masters->of[i]->line.at->name, u);
+			if (stray->is && !strays->first[0])
+				memcpy(strays->first, name, sizeof(name));
+			if (stray->is && !was)
+				diag_add(diags, place_of(map, i, u), "%s", name);
+		}
+}
+
+/* ---- the report ---- */
+
 struct tally {
 	struct gateway_report *report;
 	bool silent;           /* those that do not answer, or the others        */
@@ -57,7 +116,8 @@ static bool add_unit(void *context, const char *bus, int id, const struct bus_to
 	return true;
 }
 
-void status_report(const struct masters *masters, const struct serve *serve, struct gateway_report *out)
+void status_report(const struct masters *masters, const struct serve *serve, const struct status_strays *strays,
+		   struct gateway_report *out)
 {
 	struct tally tally = { .report = out, .silent = true };
 	int buses = 0, clients = 0;
@@ -70,8 +130,12 @@ void status_report(const struct masters *masters, const struct serve *serve, str
 		buses += masters->of[i] != NULL;
 	for (int i = 0; serve->net && i < serve->net->serve_count; i++)
 		clients += serve->place[i].clients;
-	snprintf(out->text, sizeof(out->text), "buses: %d, units: %d, silent: %d, masters connected: %d", buses,
-		 tally.units, tally.away, clients);
+	if (strays->first[0])
+		snprintf(out->text, sizeof(out->text), "LD876: %s; units: %d, silent: %d", strays->first, tally.units,
+			 tally.away);
+	else
+		snprintf(out->text, sizeof(out->text), "buses: %d, units: %d, silent: %d, masters connected: %d", buses,
+			 tally.units, tally.away, clients);
 }
 
 static bool print_unit(void *context, const char *bus, int id, const struct bus_told *told)

@@ -142,6 +142,13 @@ static void test_modbus(void)
 	      "%IX4.0 modbus BOOL raw=WORD bus0 unit2 holding7.14\n"
 	      "%IX4.1 modbus BOOL raw=WORD bus0 unit2 holding7.15\n"
 	      "%IX4.2 modbus BOOL raw=WORD bus0 unit2 holding8.0");
+	READS("%ID8 modbus bus=rs485 unit=2 input-register=7 as=REAL\n"
+	      "%ID12 modbus bus=rs485 unit=2 input-register=9 as=REAL word-order=big byte-order=little\n"
+	      "DEVICE rs485 unit=2 word-order=little\n"
+	      "%ID16 modbus bus=plant unit=2 input-register=7 as=REAL\n"
+	      "%ID20 modbus bus=rs485 unit=3 input-register=7 as=REAL\nDEVICE rs485 unit=3 byte-order=little word-order=big",
+	      "%ID8 modbus REAL bus0 unit2 input7 words\n%ID12 modbus REAL bus0 unit2 input9 bytes\n"
+	      "%ID16 modbus REAL bus1 unit2 input7\n%ID20 modbus REAL bus0 unit3 input7 bytes");
 	READS("%ID8..15 modbus bus=rs485 unit=2 input-register=7 as=REAL word-order=little",
 	      "%ID8 modbus REAL bus0 unit2 input7 words\n%ID12 modbus REAL bus0 unit2 input9 words");
 	READS("%QD8 modbus bus=rs485 unit=2 holding-register=7 as=REAL raw=INT range=0..100 at 0..1000 "
@@ -275,12 +282,13 @@ static void test_bad_points(void)
 	BAD(IIO "fast", "test.io:5:37: error LD528: \"fast\" is not an option of iio");
 	BAD(IIO "line=GPIO17", "LD528");
 	BAD(IIO "pull-up", "LD528");
-	BAD("%AIW0 iio device=d", "test.io:5:1: error LD529: \"%AIW0\" also needs device=, channel=");
+	BAD("%AIW0 iio device=d", "test.io:5:1: error LD529: \"%AIW0\" also needs channel=");
 	BAD("%AQW0 pwm chip=c period=20ms", "LD529");
 	BAD("%AQW0 pwm chip=c channel=0", "LD529");
-	BAD("%AIW0 w1", "LD529");
+	BAD("%AIW0 w1", "LD529: \"%AIW0\" also needs sensor=");
 	BAD("%IW0 modbus bus=a input-register=0", "LD529");
-	BAD("%IW0 modbus bus=a unit=1", "LD529");
+	BAD("%IW0 modbus bus=a unit=1", "LD529: \"%IW0\" also needs holding-register= (or coil= …)");
+	BAD("%IW0 modbus", "LD529: \"%IW0\" also needs bus=, unit=, holding-register= (or coil= …)");
 	BAD("%IW0 peer from=b", "LD529");
 	BAD("%XIB0 module bus=a unit=1", "LD529");
 	BAD("%IW0 modbus bus=b unit=1 coil=0", "test.io:5:13: error LD530: \"bus=b\": no BUS above");
@@ -465,6 +473,10 @@ static void test_bad_devices(void)
 	BAD("DEVICE a unit=1 together=1", "LD505");
 	BAD("DEVICE a unit=1 registers=4", "LD505");
 	BAD("DEVICE a unit=1 gap=0 gap=0", "LD526");
+	BAD("DEVICE a unit=1 word-order", "LD505: \"word-order\" is not understood; write it like word-order=big or word-order=little");
+	BAD("DEVICE a unit=1 byte-order=middle", "like byte-order=big or byte-order=little");
+	BAD("DEVICE a unit=1 word-order=big word-order=little", "LD526");
+	BAD("DEVICE a unit=1 word-order=big byte-order=big byte-order=big", "LD526");
 	BAD("DEVICE a unit=1 gap=0\nDEVICE a unit=1 together", "test.io:6:1: error LD539");
 	BAD("BUS q peer interface=lo\nDEVICE q unit=1", "LD530");
 	BAD("PUBLISH", "LD505");

@@ -8,6 +8,7 @@ machine. A test waits for what must come, never for a time.
 import contextlib
 import json
 import os
+import re
 import shutil
 import signal
 import socket
@@ -21,7 +22,7 @@ import traceback
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'online'))
-from board import MODBUS, Board, crc, free_port, until  # noqa: E402
+from board import BUILD, MODBUS, Board, crc, free_port, until  # noqa: E402
 from link import in_front  # noqa: E402
 if not os.access(MODBUS, os.X_OK):
     print('1..0 # SKIP ladder-modbus is not built: it needs libmodbus')
@@ -79,12 +80,13 @@ BUS rs485 modbus-rtu port={wire.ours} timeout=200ms
 %QW0 modbus bus=rs485 unit=3 holding-register=7 safe=-1
 %IX10.0 modbus bus=rs485 unit=3 discrete-input=9 poll=20ms
 %QX10.0 modbus bus=plant unit=2 coil=17 safe=0
-%ID20 modbus bus=plant unit=1 holding-register=10 as=REAL word-order=little poll=20ms
+%ID20 modbus bus=plant unit=1 holding-register=10 as=REAL poll=20ms
 %QD20 modbus bus=plant unit=2 holding-register=20 as=REAL safe=0
 %ID24 modbus bus=rs485 unit=3 input-register=30 poll=20ms
 %QD24 modbus bus=plant unit=2 holding-register=30 byte-order=little safe=0
 %IX30.0 modbus bus=plant unit=1 holding-register=40 bit=3 poll=20ms
 %QX30.0 modbus bus=plant unit=2 holding-register=40 bit=9 safe=0
+DEVICE plant unit=1 word-order=little
 '''
     plant.set(2, 'holding-register', 40, 0x0101)
     with Board(COPY, board) as it:
@@ -728,6 +730,13 @@ SERVE i modbus-tcp listen=127.0.0.1:1
     wanted = ['board.io:2:1 LD560', 'board.io:4:1 LD564', 'board.io:5:1 LD565', 'board.io:6:1 LD566', 'board.io:7:1 LD562',
               'board.io:8:1 LD563', 'board.io:9:1 LD568'] + ['board.io:10:1 LD567'] * unprivileged
     assert lines == wanted and done.returncode == 1, done.stderr
+    # `ladder io` finds the same, and the networks of boards.
+    with open(folder + '/board.io', 'a', encoding='utf-8') as out:
+        out.write('BUS j peer interface=nowhere0\n%IX0.0 gpio line=NOWHERE\n')
+    done = subprocess.run([BUILD + '/ladder', 'io', folder + '/board.io'], text=True, capture_output=True, timeout=60, check=False, **user)
+    for place in wanted + ['board.io:11:1 LD875', 'board.io:12:1 LD508']:
+        assert re.search(place.replace(' ', ': error '), done.stderr), (place, done.stderr)
+    assert done.returncode == 1 and 'nowhere0": this machine has no such network interface; it has ' in done.stderr, done.stderr
     if user:
         os.chmod(wire.ours, 0o600)
         with open(folder + '/board.io', 'w', encoding='utf-8') as out:
@@ -740,6 +749,35 @@ SERVE i modbus-tcp listen=127.0.0.1:1
     busy.close()
     wire.close()
     shutil.rmtree(folder)
+
+
+def test_a_unit_that_answers_for_another_is_told():
+    """Once, with the line of the map, until it answers itself; others go on."""
+    wire = Wire()
+    serial = Units([3, 5]).rtu(wire.theirs)
+    serial.set(5, 'input-register', 0, 55)
+    board = f'''BOARD "on a table"
+BUS rs485 modbus-rtu port={wire.ours} timeout=60ms
+%QW0 sim
+%IW0 modbus bus=rs485 unit=5 input-register=0 poll=20ms
+%IW20 modbus bus=rs485 unit=3 input-register=1 poll=20ms
+'''
+    wire.damage = lambda frame: other_unit(frame) if frame[0] == 3 else [(0, frame)]
+    with Board(COPY, board) as it:
+        told = 'ladder-modbus: map of the board:5:1: error LD876: "rs485/3": '
+        assert until(lambda: told in it.read('modbus.out')), it.read('modbus.out')
+        assert until(lambda: 'LD876: rs485/3' in it.command('status')), it.command('status')
+        assert until(lambda: 'In=55' in it.command('get', 'In')), it.command('get', 'In')
+        wire.damage = None
+        assert until(lambda: 'rs485/3: answers' in it.status())
+        assert until(lambda: 'LD876' not in it.command('status')), it.command('status')
+        wire.damage = lambda frame: other_unit(frame) if frame[0] == 3 else [(0, frame)]
+        assert until(lambda: it.read('modbus.out').count(told) == 2), it.read('modbus.out')
+        # A unit that is only silent is another matter.
+        wire.damage = lambda frame: [] if frame[0] == 3 else [(0, frame)]
+        assert 'rs485/5' not in ''.join(line for line in it.read('modbus.out').splitlines() if 'LD876' in line)
+    serial.close()
+    wire.close()
 
 
 def test_nothing_is_driven_until_all_is_right():

@@ -43,6 +43,7 @@ static const struct use_row {
 	{ text, text "=5", IO_WORD_##id, IO_KIND_WINDOW, 0, 0, FOR_BOTH },
 #define ACCESS_WORD(text, writable) { text, text, IO_WORD_ACCESS, IO_KIND_WINDOW, 0, 0, FOR_BOTH },
 #define DEVICE_OPTION(id, text, form, most, least, member) { text, form, IO_WORD_##id, IO_KIND_DEVICE, 0, 0, FOR_BOTH },
+#define DEVICE_ORDER(id, text, form, member) { text, form, IO_WORD_##id, IO_KIND_DEVICE, 0, 0, FOR_BOTH },
 #define DEVICE_FLAG(id, text, member) { text, text, IO_WORD_##id, IO_KIND_DEVICE, 0, 0, FOR_BOTH },
 #include "hal/map_words.def"
 };

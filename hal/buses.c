@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * check - opens what a map names, for a moment.
+ * buses - opens what a map names, for a moment.
  */
 #define _DEFAULT_SOURCE
-#include "modbus/check.h"
+#include "hal/buses.h"
 
-#include "modbus/line.h"
-#include "modbus/serve.h"
+#include "hal/host.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <netdb.h>
+#include <net/if.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,13 +61,11 @@ static bool check_port(const struct iomap *map, const struct io_bus *bus, struct
 
 static bool check_host(const struct iomap *map, const struct io_bus *bus, struct diag_list *diags)
 {
-	const struct addrinfo want = { .ai_socktype = SOCK_STREAM };
-	struct addrinfo *found;
+	struct sockaddr_storage address;
+	socklen_t len;
 
-	if (getaddrinfo(bus->host, NULL, &want, &found) != 0)
-		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NO_HOST), "%s", bus->host);
-	freeaddrinfo(found);
-	return true;
+	return host_find(bus->host, bus->tcp_port, false, &address, &len) != HOST_NONE ||
+	       diag_add(diags, place_of(map, bus, DIAG_MODBUS_NO_HOST), "%s", bus->host);
 }
 
 /* Two names of one device, such as /dev/ttyUSB0 and /dev/serial/by-id/…; equal names are the reader's. */
@@ -89,8 +86,8 @@ static bool check_twins(const struct iomap *map, const struct io_bus *bus, const
 				 DIAG_AND, other->name);
 }
 
-void check_serve(const struct iomap *map, const struct io_serve *serve, int why,
-		 struct diag_list *diags)
+void buses_server_error(const struct iomap *map, const struct io_serve *serve, int why,
+			struct diag_list *diags)
 {
 	const enum diag_id id = why == EADDRINUSE ? DIAG_MODBUS_ADDRESS_BUSY :
 				why == EACCES ? DIAG_MODBUS_LOW_PORT : DIAG_MODBUS_NOT_OURS;
@@ -99,6 +96,29 @@ void check_serve(const struct iomap *map, const struct io_serve *serve, int why,
 		check_port(map, &serve->at, diags);
 	else
 		diag_add(diags, place_of(map, &serve->at, id), "%s:%u", serve->at.host, serve->at.tcp_port);
+}
+
+int buses_listen(const struct io_bus *at)
+{
+	struct sockaddr_storage address;
+	socklen_t len;
+	const int on = 1;
+	int fd, why;
+
+	if (host_find(at->host, at->tcp_port, true, &address, &len) != HOST_GOOD) {
+		errno = ENXIO;
+		return -1;
+	}
+	fd = socket(address.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+	if (fd >= 0)
+		setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+	if (fd >= 0 && (bind(fd, (const struct sockaddr *)&address, len) != 0 || listen(fd, 8) != 0)) {
+		why = errno;
+		close(fd);
+		fd = -1;
+		errno = why;
+	}
+	return fd;
 }
 
 /* The servers listen all at once, so that two at one address are found, too. */
@@ -114,9 +134,9 @@ static bool check_servers(const struct iomap *map, struct diag_list *diags)
 			good = check_port(map, &net->serve[i].at, diags) && good;
 			continue;
 		}
-		fd[i] = serve_listen(&net->serve[i].at);
+		fd[i] = buses_listen(&net->serve[i].at);
 		if (fd[i] < 0) {
-			check_serve(map, &net->serve[i], errno, diags);
+			buses_server_error(map, &net->serve[i], errno, diags);
 			good = false;
 		}
 	}
@@ -127,7 +147,7 @@ static bool check_servers(const struct iomap *map, struct diag_list *diags)
 	return good;
 }
 
-bool check_machine(const struct iomap *map, struct diag_list *diags)
+bool buses_check(const struct iomap *map, struct diag_list *diags)
 {
 	const struct io_net *net = map->net;
 	bool good = true;
@@ -146,4 +166,34 @@ bool check_machine(const struct iomap *map, struct diag_list *diags)
 			good = check_twins(map, bus, &net->serve[j].at, diags) && good;
 	}
 	return (!net || check_servers(map, diags)) && good;
+}
+
+/* The names of all interfaces, for a message. */
+static void list_interfaces(char *out, size_t size)
+{
+	struct if_nameindex *all = if_nameindex();
+	size_t used = 0;
+
+	out[0] = '\0';
+	for (const struct if_nameindex *at = all; at && at->if_index; at++)
+		if (used + strlen(at->if_name) + 3 < size)
+			used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", at->if_name);
+	if_freenameindex(all);
+}
+
+bool buses_check_peers(const struct iomap *map, struct diag_list *diags)
+{
+	const struct io_net *net = map->net;
+	char known[LIMIT_ARG];
+	bool good = true;
+
+	for (int i = 0; net && i < net->bus_count; i++) {
+		const struct io_bus *bus = &net->bus[i];
+
+		if (bus->kind != BUS_PEER || if_nametoindex(bus->interface))
+			continue;
+		list_interfaces(known, sizeof(known));
+		good = diag_add(diags, place_of(map, bus, DIAG_PEER_NO_INTERFACE), "%s%s%s", bus->interface, DIAG_AND, known);
+	}
+	return good;
 }
