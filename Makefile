@@ -746,7 +746,7 @@ bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with c
 	@BUILD=$(BUILD) tests/bench/rt.sh
 bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## measure the link to desks: reading, watching, downloads
 	@BUILD=$(BUILD) tests/bench/online.py
-bench-field: $(BUILD)/ladderd $(BUILD)/ladder-modbus ## measure ladder-modbus: a serial line, 10,000 registers over TCP, reaction; it fails beyond its limits
+bench-field: $(BUILD)/ladderd $(BUILD)/ladder-modbus ## measure ladder-modbus: a serial line, 10,000 registers over TCP, reaction, faults of a wire; it fails beyond its limits
 	@BUILD=$(BUILD) tests/bench/field.py
 bench-jitter: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## two minutes: how late scans begin while eight desks watch and all processors are busy; as root it fails beyond 1 ms
 	@BUILD=$(BUILD) JITTER=60 /usr/bin/python3 tests/online/stress.py test_desks_and_busy_processors_delay_no_scan

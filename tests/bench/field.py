@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""field - figures of ladder-modbus: how much of a serial line's time it uses, what TCP costs, how fast it reacts.
+"""field - figures of ladder-modbus: how much of a serial line's time it uses, what TCP costs, how fast it reacts, and what faults of a
+wire do to inputs and scans.
 
 The devices here only answer, in as few microseconds as Python can: the figures are those of ladder-modbus and ladderd.
 With a limit that is missed it exits with 1.
@@ -167,7 +168,112 @@ def reaction():
     tell('… longest', times[-1] * 1000, 'none', 'ms', True)
 
 
-for measure in (serial_line, network, reaction):
+# ---- faults ----
+
+GUARDED = '''RUNGBOARD 1
+
+VAR
+  Level AT %IW0   : INT;
+  Other AT %IW2   : INT;
+  Good  AT %IX9.0 : BOOL;
+  Full  AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Full := Level > 5 AND Other > 5;
+END_PROGRAM
+'''
+POLL, WAIT = 100, 50     # ms; three polls and two scans until a value has its substitute
+ROUNDS = int(os.environ.get('ROUNDS', '10'))
+
+
+def faults_of(far):
+    """What begins a fault, and what ends it."""
+    def damage(change):
+        def begin(it):
+            it.wire.damage = lambda frame: change(frame) if frame[0] == 3 else [(0, frame)]
+        return begin
+
+    def whole(it):
+        it.wire.damage = None
+
+    def other(frame):
+        frame = bytes([frame[0] + 1]) + frame[1:-2]
+        return [(0, frame + crc(frame))]
+
+    def kill(it):
+        it.modbus.kill()
+        it.modbus.wait(60)
+
+    return {
+        'nothing': (lambda it: None, lambda it: None),
+        'the cable is out': (lambda it: setattr(it.wire, 'down', True), lambda it: setattr(it.wire, 'down', False)),
+        'checks of frames are wrong': (damage(lambda frame: [(0, frame[:-1] + bytes([frame[-1] ^ 1]))]), whole),
+        'half frames': (damage(lambda frame: [(0, frame[:len(frame) // 2])]), whole),
+        'another unit answers': (damage(other), whole),
+        'the register is missing': (lambda it: it.units.block[3]['input-register'].missing.add(0),
+                                    lambda it: it.units.block[3]['input-register'].missing.clear()),
+        'the gateway is killed': (kill, lambda it: it.start_modbus()),
+    }
+
+
+def fault(machine, far, rt, begin, end, is_bad):
+    """The longest times until the input has its substitute, and until it is good again; the lateness of scans in ms."""
+    wire = far.Wire()
+    units = far.Units([3, 4]).rtu(wire.theirs)
+    units.set(3, 'input-register', 0, 1111)
+    units.set(4, 'input-register', 0, 2222)
+    io = (f'BOARD "bench"\nBUS rs485 modbus-rtu port={wire.ours} parity=none timeout={WAIT}ms\n'
+          f'%IW0 modbus bus=rs485 unit=3 input-register=0 poll={POLL}ms stale={3 * POLL}ms substitute=-1\n'
+          f'%IW2 modbus bus=rs485 unit=4 input-register=0 poll={POLL}ms\n%IX9.0 quality of=%IW0\n%QX0.0 sim safe=0\n')
+    bad, back = [], []
+    with machine(GUARDED, io, '--period', '10ms', *rt, gateway=True) as it:
+        it.wire, it.units = wire, units
+        assert until(lambda: it.desk.read('Level', 'Good', 'Full') == [1111, True, True])
+        for i in range(ROUNDS):
+            time.sleep(0.2 + i % 7 * 0.013)
+            began = time.perf_counter()
+            begin(it)
+            if is_bad:
+                assert until(lambda: it.desk.read('Level', 'Good') == [-1, False])
+                bad.append((time.perf_counter() - began) * 1000)
+            time.sleep(0.2)
+            began = time.perf_counter()
+            end(it)
+            assert until(lambda: it.desk.read('Level', 'Good') == [1111, True])
+            back.append((time.perf_counter() - began) * 1000)
+        status = it.desk.status()
+    units.close()
+    wire.close()
+    return max(bad, default=0), max(back), status['late_p999'] / 1e6, status['missed']
+
+
+def faults():
+    try:
+        import far
+        from plant import Machine
+        from link import real_time
+    except ImportError as why:
+        print(f'faults are left out: {why}')
+        return
+    rt = real_time()
+    quiet = 0
+    for name, (begin, end) in faults_of(far).items():
+        is_bad = name != 'nothing'
+        # Other programs of this machine may delay a scan, too, but not each time.
+        for _ in range(5):
+            bad, back, late, missed = fault(Machine, far, rt, begin, end, is_bad)
+            if not is_bad or late <= quiet + 0.3:
+                break
+        if is_bad:
+            tell(f'{name}: the substitute is there after', bad, f'{3 * POLL + 20}', 'ms', bad <= 3 * POLL + 20)
+            tell('… and the value again after', back, '2000', 'ms', back <= 2000)
+        else:
+            quiet = late
+        tell(f"{'…' if is_bad else name + ':'} scans late, p99.9 ({missed} missed)", late, f'{quiet + 0.3:.2f}' if is_bad else 'none', 'ms', late <= quiet + 0.3)
+
+
+for measure in (serial_line, network, reaction, faults):
     if len(sys.argv) < 2 or measure.__name__ in sys.argv[1:]:
         measure()
 sys.exit(failed != 0)
