@@ -118,6 +118,20 @@ for my $sample (@samples) {
 		diag(first_difference($was, $is) . "\n$said$report");
 }
 
+# STOP is a box of that name, in a ladder and in a network; END of a program is a return.
+for (["  | NO Go | COIL Lamp |\nRUNG\n  | NO Hot | NC Cold | STOP |\n", 'LD', 'RUNG'], ["  Lamp := Go\nNETWORK\n  STOP IF AND(Hot, NOT Cold)\n", 'FBD', 'NETWORK'],
+	["  | NO Go | COIL Lamp |\nRUNG\n  | NO Hot | END |\nRUNG\n  | NC Cold | STOP |\n", 'LD', 'RUNG'], ["  Lamp := Go\nNETWORK\n  STOP\n", 'FBD', 'NETWORK']) {
+	my ($body, $language, $word) = @$_;
+	spew('stop.rung', "RUNGBOARD 1\n\nPROGRAM Main $language\nVAR\n" . join('', map { "  $_->[0] AT %$_->[1] : BOOL;\n" } ['Go', 'IX0.0'], ['Hot', 'IX0.1'], ['Cold', 'IX0.2'], ['Lamp', 'QX0.0']) .
+		"END_VAR\n$word\n${body}END_PROGRAM\n");
+	my $said = `$ladder export --as plcopen stop.rung -o stop.xml 2>&1`;
+	unlike($said, qr/lost/, "$language: STOP and END are in the XML itself");
+	is(PlcopenShape::wrong(slurp('stop.xml')), '', 'as TC6 2.01 has a box');
+	spew('bare.xml', bare(slurp('stop.xml')));
+	my $report = `$ladder import bare.xml -o bare.rung 2>&1`;
+	my ($is) = slurp('bare.rung') =~ /^END_VAR\n$word\n(.*)END_PROGRAM/ms;
+	is($is, $body =~ s/\bEND\b/RET/r, "$language: and come back from it") or diag($report);
+}
 # VAR_CONFIG is in the format itself.
 {
 	system("$ladder export --as plcopen '$tests/golden/config-located/main.rung' -o located.xml 2>trouble");

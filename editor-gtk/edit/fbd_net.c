@@ -326,7 +326,7 @@ static bool read_target(struct reading *r, struct fbd_line *line)
 	return true;
 }
 
-/* JMP Fill IF value, RETURN IF value: the lexer is behind the first word. */
+/* JMP Fill IF value, RETURN IF value, STOP IF value: the lexer is behind the first word. */
 static void read_leave(struct reading *r, struct fbd_line *line)
 {
 	if (line->kind == FBD_LINE_JUMP) {
@@ -338,13 +338,21 @@ static void read_leave(struct reading *r, struct fbd_line *line)
 		line->value = read_value(r, 1);
 }
 
+/* `STOP` alone or before IF: elsewhere it is a name. */
+static bool stops(struct lex lex)
+{
+	if (!lex_accept(&lex, "STOP"))
+		return false;
+	return lex.token.kind == TOKEN_END || lex_is(&lex, "IF");
+}
+
 static void read_line(struct fbd_net *net, struct fbd_line *line, const char *text, size_t len)
 {
 	struct reading r;
 
 	reading_init(&r, net, text, len);
-	if (lex_is(&r.lex, "JMP") || lex_is(&r.lex, "RETURN")) {
-		line->kind = lex_is(&r.lex, "JMP") ? FBD_LINE_JUMP : FBD_LINE_RETURN;
+	if (lex_is(&r.lex, "JMP") || lex_is(&r.lex, "RETURN") || stops(r.lex)) {
+		line->kind = lex_is(&r.lex, "JMP") ? FBD_LINE_JUMP : lex_is(&r.lex, "STOP") ? FBD_LINE_STOP : FBD_LINE_RETURN;
 		lex_next(&r.lex);
 		read_leave(&r, line);
 	} else if (read_target(&r, line)) {
@@ -619,8 +627,8 @@ static void write_line(const struct sink *sink, const struct fbd_line *line)
 	case FBD_LINE_JUMP:
 		sink_printf(sink, "JMP %s%s", line->target, line->value ? " IF " : "");
 		break;
-	case FBD_LINE_RETURN:
-		sink_printf(sink, "RETURN%s", line->value ? " IF " : "");
+	case FBD_LINE_RETURN: case FBD_LINE_STOP:
+		sink_printf(sink, "%s%s", line->kind == FBD_LINE_STOP ? "STOP" : "RETURN", line->value ? " IF " : "");
 		break;
 	case FBD_LINE_CALL: case FBD_LINE_NOTE: case FBD_LINE_OTHER:
 		break;

@@ -42,6 +42,7 @@ enum fbd_line_kind {
 	FBD_LINE_CALL,   /* Delay( … )                                          */
 	FBD_LINE_JUMP,   /* JMP target IF value                                 */
 	FBD_LINE_RETURN, /* RETURN IF value                                     */
+	FBD_LINE_STOP,   /* STOP IF value                                       */
 	FBD_LINE_OTHER,  /* not readable                                        */
 };
 

@@ -277,6 +277,7 @@ static void say_box(GString *text, const struct fbd_box *box)
 	case FBD_RESET: g_string_append_printf(text, _("Reset %s"), box->target); break;
 	case FBD_JUMP: g_string_append_printf(text, _("Jump to %s"), box->target); break;
 	case FBD_RETURN: g_string_append(text, _("Return")); break;
+	case FBD_STOP: g_string_append(text, _("Stop the controller")); break;
 	case FBD_VALUE: g_string_append_printf(text, _("Value %s"), box->target); break;
 	case FBD_FUNCTION: case FBD_OPERATOR: case FBD_TRIGGER: g_string_append(text, box->type); break;
 	}

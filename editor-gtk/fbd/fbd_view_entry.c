@@ -48,7 +48,7 @@ static struct entry_fit fit_of(LadderFbdView *view, struct fbd_pos at, bool writ
 	struct entry_fit any = { .type = IEC_NONE, .word = WORD_COUNT, .classes = UINT16_MAX, .write = write };
 
 	if (!box || box->kind == FBD_SET || box->kind == FBD_RESET || box->kind == FBD_JUMP ||
-	    box->kind == FBD_RETURN || box->kind == FBD_TRIGGER ||
+	    box->kind == FBD_RETURN || box->kind == FBD_STOP || box->kind == FBD_TRIGGER ||
 	    (pin && (strcmp(pin->name, "EN") == 0 || strcmp(pin->name, "ENO") == 0)))
 		return entry_fit_bool(write);
 	if (stores(box) && !write && box->target)
@@ -360,13 +360,14 @@ static struct fbd_spot output_spot(LadderFbdView *view)
 static bool add_store(LadderFbdView *view, enum fbd_line_kind kind, const char *line)
 {
 	const int network = view->cursor.network;
+	const bool leaves = kind == FBD_LINE_JUMP || kind == FBD_LINE_RETURN || kind == FBD_LINE_STOP;
 	struct entry *entry = g_new(struct entry, 1);
-	char *text = kind == FBD_LINE_JUMP ? g_strdup(line) : value_of(view, view->cursor, line, true, entry);
+	char *text = leaves ? g_strdup(line) : value_of(view, view->cursor, line, true, entry);
 	struct fbd_edit *edit = text && has_output(view) ? fbd_begin(view, network) : NULL;
 	struct fbd_spot spot;
 	bool good = false;
 
-	if (kind == FBD_LINE_JUMP)
+	if (leaves)
 		memset(entry, 0, sizeof(*entry));
 	if (edit) {
 		spot = output_spot(view);
@@ -409,10 +410,19 @@ static bool add_two(LadderFbdView *view, const char *a, const char *b)
 	return false;
 }
 
+/* In capitals, as in a ladder: a variable may have the name Stop. */
+static enum fbd_line_kind leaving_word(const char *text)
+{
+	return !strcmp(text, "RETURN") ? FBD_LINE_RETURN : !strcmp(text, "STOP") ? FBD_LINE_STOP : FBD_LINE_OTHER;
+}
+
 static bool add_one(LadderFbdView *view, const char *text)
 {
+	const enum fbd_line_kind leaving = leaving_word(text);
 	const struct word_row *row = box_word(view, text), *of = row ? NULL : instance_word(view, text);
 
+	if (leaving != FBD_LINE_OTHER)
+		return has_output(view) ? add_store(view, leaving, text) : add_line(view, text);
 	if (of)
 		return fbd_add_word(view, of->word, text);
 	if (row && row->kind == WORD_FB)
@@ -540,7 +550,7 @@ static bool take_here(const struct asked *asked, const char *line)
 		return edit && fbd_put(view, edit, asked->at.network, fbd_edit_operand(edit, &spot, line),
 				       _("Change a box"));
 	}
-	return box && box->kind != FBD_RETURN ? take_type(asked, line) : take_add(view, line);
+	return box && box->kind != FBD_RETURN && box->kind != FBD_STOP ? take_type(asked, line) : take_add(view, line);
 }
 
 static bool line_taken(void *context, const char *text)

@@ -1463,12 +1463,12 @@ static bool in_choice(const struct before *b)
 /* At the beginning of a line of a network, in its heading, behind JMP. */
 static struct expect_want fbd_want(const struct before *b)
 {
-	static const char *const begin[][5] = {
-		[POU_PROGRAM] = { "NETWORK", "JMP", "RETURN", "END_PROGRAM" },
-		[POU_FUNCTION] = { "NETWORK", "JMP", "RETURN", "END_FUNCTION" },
-		[POU_BLOCK] = { "NETWORK", "JMP", "RETURN", "END_FUNCTION_BLOCK" },
-		[POU_SUBROUTINE] = { "NETWORK", "JMP", "RETURN", "END_SUBROUTINE" },
-		[POU_ACTION] = { "NETWORK", "JMP", "RETURN", "END_ACTION" },
+	static const char *const begin[][6] = {
+		[POU_PROGRAM] = { "NETWORK", "JMP", "RETURN", "STOP", "END_PROGRAM" },
+		[POU_FUNCTION] = { "NETWORK", "JMP", "RETURN", "STOP", "END_FUNCTION" },
+		[POU_BLOCK] = { "NETWORK", "JMP", "RETURN", "STOP", "END_FUNCTION_BLOCK" },
+		[POU_SUBROUTINE] = { "NETWORK", "JMP", "RETURN", "STOP", "END_SUBROUTINE" },
+		[POU_ACTION] = { "NETWORK", "JMP", "RETURN", "STOP", "END_ACTION" },
 	};
 	static const char *const off[] = { "OFF", NULL }, *const condition[] = { "IF", NULL };
 	struct expect_want want;

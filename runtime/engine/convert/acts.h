@@ -50,6 +50,7 @@ enum act_kind {
 	ACT_TEST,      /* target or temp := is it TRUE? FALSE if it cannot be computed */
 	ACT_CALL,      /* target or temp := text(arg, …); both may be absent   */
 	ACT_JUMP, ACT_RETURN,
+	ACT_STOP,      /* of networks only                                     */
 	ACT_WORDS,     /* text, a statement                                   */
 	ACT_LINES,     /* statements of an EXECUTE box                         */
 	ACT_LOOP, ACT_LOOP_END,

@@ -1014,6 +1014,7 @@ static void latch(struct ladders *l, const struct st_item *item)
 static void leave(struct ladders *l, const struct st_item *item)
 {
 	const struct token label = st_label_name(&l->acts->project->names, item);
+	const bool stop = item->kind == ST_STOP_IF;
 	const struct path *path;
 	struct st_walk walk;
 	struct st_part part;
@@ -1028,7 +1029,7 @@ static void leave(struct ladders *l, const struct st_item *item)
 	if (item->kind == ST_JUMP_IF)
 		put_rung(l, path, cell(l, "JMP", text_of(l, acts_intern(l->acts, label.text, label.len)))->text, 0);
 	else
-		put_rung(l, path, acts_intern(l->acts, "RET", 3), 0);
+		put_rung(l, path, acts_intern(l->acts, stop ? "STOP" : "RET", stop ? 4 : 3), 0);
 }
 
 /* ---- boxes ---- */
@@ -1790,7 +1791,7 @@ static void put_item(struct ladders *l, const struct st_item *item)
 	case ST_SET: case ST_RESET:
 		latch(l, item);
 		break;
-	case ST_JUMP_IF: case ST_RETURN_IF:
+	case ST_JUMP_IF: case ST_RETURN_IF: case ST_STOP_IF:
 		leave(l, item);
 		break;
 	case ST_IF: case ST_ELSIF: case ST_ELSE: case ST_END_IF: case ST_CASE: case ST_CHOICE: case ST_END_CASE:

@@ -28,6 +28,16 @@ static void refuse(struct networks *n, const char *what)
 		 .line = pou->st->item[n->item].line, .pou = text_of(n, pou->name) }, "%s", what);
 }
 
+static void refuse_stop(struct networks *n, const struct st_item *item)
+{
+	const struct pou *pou = n->acts->pou;
+
+	n->acts->refused = true;
+	diag_add(n->acts->diags, (struct diag){ .id = DIAG_CONVERT_STOP, .file = pou->file, .line = item->line,
+						.pou = text_of(n, pou->name) },
+		 "STOP" DIAG_AND "%s", pou_language_word(LANGUAGE_ST));
+}
+
 uint32_t networks_wire(struct networks *n, const char *name, size_t len, bool before)
 {
 	struct acts *acts = n->acts;
@@ -286,6 +296,10 @@ void networks_statement(struct networks *n, const struct st_item *item, const st
 	if (item->kind == ST_COMMENT) {
 		sink_write(line, text, len);
 		sink_text(line, "\n");
+		return;
+	}
+	if (item->kind == ST_STOP_IF) {
+		refuse_stop(n, item);
 		return;
 	}
 	if (!latch && item->kind != ST_JUMP_IF && item->kind != ST_RETURN_IF) {

@@ -231,10 +231,10 @@ static void put_jump_to(const struct fbd_writer *n, uint32_t label)
 	sink_printf(n->sink, "JMP %s\n", text_of(n, label));
 }
 
-/* JMP Label IF NOT when. */
-static void put_jump(const struct fbd_writer *n, uint32_t label, const struct term *when, bool inverse)
+/* JMP Label IF NOT when, RETURN, STOP. */
+static void put_leaving(const struct fbd_writer *n, const char *word, uint32_t label, const struct term *when, bool inverse)
 {
-	put(n, label ? "JMP " : "RETURN");
+	put(n, word);
 	put(n, text_of(n, label));
 	if (when && inverse && term_plain(n->acts, when)->kind == TERM_NOT) {
 		when = term_plain(n->acts, when)->part[0];
@@ -320,7 +320,7 @@ static void put_loop(struct fbd_writer *n, int at)
 
 	*labels = (struct loop_labels){ label_new(n, act->rung, "again"), label_of(n, behind_loop(n, at)) };
 	if (act->when)
-		put_jump(n, labels->end, act->when, true);
+		put_leaving(n, "JMP ", labels->end, act->when, true);
 	sink_printf(n->sink, "%s := %s\n", text_of(n, loop->variable), text_of(n, loop->from));
 	put_network(n, labels->again);
 	sink_printf(n->sink, "JMP %s IF %s %s %s\n", text_of(n, labels->end), text_of(n, loop->variable),
@@ -604,7 +604,7 @@ static void put_statement(struct blocks *b, int at)
 		put(n, "\n");
 		break;
 	case ST_EMPTY: case ST_RETURN:
-	case ST_SET: case ST_RESET: case ST_JUMP_IF: case ST_RETURN_IF: case ST_KINDS:
+	case ST_SET: case ST_RESET: case ST_JUMP_IF: case ST_RETURN_IF: case ST_STOP_IF: case ST_KINDS:
 		break;
 	}
 }
@@ -629,7 +629,7 @@ static void put_jumped(struct fbd_writer *n, const struct act *act, bool more)
 	const uint32_t label = more ? label_new(n, act->rung, "next") : label_of(n, act->rung + 1);
 	struct act bare = *act;
 
-	put_jump(n, label, act->when, true);
+	put_leaving(n, "JMP ", label, act->when, true);
 	bare.when = NULL;
 	if (act->kind == ACT_CALL)
 		put_call(n, &bare);
@@ -664,8 +664,9 @@ static void put_one(struct fbd_writer *n, int at)
 	case ACT_TEST:
 		put_test(n, act);
 		break;
-	case ACT_JUMP: case ACT_RETURN:
-		put_jump(n, act->kind == ACT_JUMP ? act->text : 0, act->when, false);
+	case ACT_JUMP: case ACT_RETURN: case ACT_STOP:
+		put_leaving(n, act->kind == ACT_JUMP ? "JMP " : act->kind == ACT_STOP ? "STOP" : "RETURN",
+			  act->kind == ACT_JUMP ? act->text : 0, act->when, false);
 		break;
 	case ACT_LOOP:
 		put_loop(n, at);

@@ -107,7 +107,7 @@ static bool is_shown(const struct acts *acts, const struct st_item *item, const 
 	int depth = 0;
 
 	if (item->kind != ST_ASSIGN && item->kind != ST_CALL && item->kind != ST_SET && item->kind != ST_RESET &&
-	    item->kind != ST_JUMP_IF && item->kind != ST_RETURN_IF)
+	    item->kind != ST_JUMP_IF && item->kind != ST_RETURN_IF && item->kind != ST_STOP_IF)
 		return false;
 	lex_init(&lex, text, strlen(text));
 	while (lex_next(&lex) != TOKEN_END && lex.token.text < place) {

@@ -1559,12 +1559,12 @@ static void flow(struct rungs *r, int element)
 {
 	const struct word_row *row = row_of(r, element);
 	const struct term *in = power_in(r, r->network.element[element].in);
-	const bool jump = row->operand == OPND_LABEL;
+	const bool jump = row->operand == OPND_LABEL, stop = !jump && row->first == OP_STP;
 	struct act *act;
 
-	if (!jump && row->first == OP_STP)
+	if (stop && !r->acts->networks)
 		refuse_word(r, element, row->word);
-	act = acts_add(r->acts, jump ? ACT_JUMP : ACT_RETURN);
+	act = acts_add(r->acts, jump ? ACT_JUMP : stop ? ACT_STOP : ACT_RETURN);
 	act->text = jump ? cell_of(r, element)->operand : 0;
 	act->when = unless_true(in);
 }

@@ -96,7 +96,7 @@ static bool takes_edge(struct acts *acts, const struct act *act)
 {
 	const struct meaning *target = acts_meaning(acts, act->target);
 
-	if (act->kind == ACT_JUMP || act->kind == ACT_RETURN)
+	if (act->kind == ACT_JUMP || act->kind == ACT_RETURN || act->kind == ACT_STOP)
 		return true;
 	if (act->fails || (act->target && (!target || meaning_is_checked(target))))
 		return false;

@@ -312,7 +312,7 @@ static void put_act(const struct writer *w, const struct act *act)
 		put(w, text_of(w, act->text));
 		put(w, ":\n");
 		break;
-	case ACT_NOTHING: case ACT_TEST: case ACT_LOOP: case ACT_LOOP_END:
+	case ACT_NOTHING: case ACT_STOP: case ACT_TEST: case ACT_LOOP: case ACT_LOOP_END:
 		break;
 	}
 }

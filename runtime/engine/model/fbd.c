@@ -116,9 +116,9 @@ void fbd_names_begin(struct fbd_names *walk, const struct names *names, const st
 		lex_next(&walk->lex);
 		lex_next(&walk->lex);
 	}
-	if (item->kind == ST_RETURN_IF)
+	if (item->kind == ST_RETURN_IF || item->kind == ST_STOP_IF)
 		lex_next(&walk->lex);
-	if (item->kind == ST_JUMP_IF || item->kind == ST_RETURN_IF)
+	if (item->kind == ST_JUMP_IF || item->kind == ST_RETURN_IF || item->kind == ST_STOP_IF)
 		walk->stored = true;
 }
 

@@ -1073,7 +1073,7 @@ static void call_line(struct maker *m)
 /* Horn S= value, JMP Fill IF value, RETURN IF value */
 static void end_line(struct maker *m, enum fbd_box_kind kind)
 {
-	const bool names = kind != FBD_RETURN;
+	const bool names = kind != FBD_RETURN && kind != FBD_STOP;
 	struct value value = { .pin = -1, .wire = -1 };
 	struct span target = { 0, 0 };
 	struct st_walk walk;
@@ -1093,7 +1093,8 @@ static void end_line(struct maker *m, enum fbd_box_kind kind)
 		if (given)
 			value = build(m, m->expr, m->expr->root);
 	}
-	end_box(m, kind, kind == FBD_SET ? "S" : kind == FBD_RESET ? "R" : kind == FBD_RETURN ? "RETURN" : ">>",
+	end_box(m, kind, kind == FBD_SET ? "S" : kind == FBD_RESET ? "R" : kind == FBD_RETURN ? "RETURN" :
+		kind == FBD_STOP ? "STOP" : ">>",
 		names ? part_text(m, target) : NULL, target, given ? &value : NULL);
 }
 
@@ -1121,6 +1122,9 @@ static void take_item(struct maker *m)
 	case ST_RETURN:
 	case ST_RETURN_IF:
 		end_line(m, FBD_RETURN);
+		break;
+	case ST_STOP_IF:
+		end_line(m, FBD_STOP);
 		break;
 	case ST_COMMENT: {
 		int *note = arena_push(&m->out->arena, &m->out->note, &m->out->note_count, sizeof(*note));

@@ -20,6 +20,7 @@ enum fbd_box_kind {
 	FBD_SET, FBD_RESET, /* target S= value, target R= value                    */
 	FBD_JUMP,     /* JMP label [IF value]                                      */
 	FBD_RETURN,   /* RETURN [IF value]                                         */
+	FBD_STOP,     /* STOP [IF value]                                           */
 };
 
 struct fbd_pin {
@@ -41,7 +42,7 @@ struct fbd_pin {
 
 struct fbd_box {
 	enum fbd_box_kind kind;
-	const char *type;     /* as drawn in it: "TON", "AND", ">", "R_EDGE", "S", ">>", "RETURN"; "" of a store */
+	const char *type;     /* as drawn in it: "TON", "AND", ">", "R_EDGE", "S", ">>", "STOP"; "" of a store */
 	const char *instance; /* above it; NULL: none                              */
 	const char *target;   /* of a store, set, reset; the label of a jump; the value of
 			       * FBD_VALUE; NULL: none                            */

@@ -36,6 +36,7 @@ static const struct st_form forms[ST_KINDS] = {
 	[ST_RESET] = { "", "", false, false, false },
 	[ST_JUMP_IF] = { "JMP", "", false, false, false },
 	[ST_RETURN_IF] = { "RETURN", "", false, false, false },
+	[ST_STOP_IF] = { "STOP", "", false, false, false },
 };
 
 const struct st_form *st_form(enum st_kind kind)
@@ -419,7 +420,7 @@ static bool next_of_latch(struct st_walk *walk, struct st_part *part, struct exp
 	return behind(walk, part, ST_VALUE, "=", expr, diags, place);
 }
 
-/* JMP Fill IF value, RETURN IF value */
+/* JMP Fill IF value, RETURN IF value, STOP IF value */
 static bool next_of_leave(struct st_walk *walk, struct st_part *part, struct expr *expr,
 			  struct diag_list *diags, struct diag place)
 {
@@ -452,7 +453,7 @@ bool st_next(struct st_walk *walk, struct st_part *part, struct expr *expr,
 		return next_of_chain(walk, part, expr, diags, place);
 	if (walk->kind == ST_SET || walk->kind == ST_RESET)
 		return next_of_latch(walk, part, expr, diags, place);
-	if (walk->kind == ST_JUMP_IF || walk->kind == ST_RETURN_IF)
+	if (walk->kind == ST_JUMP_IF || walk->kind == ST_RETURN_IF || walk->kind == ST_STOP_IF)
 		return next_of_leave(walk, part, expr, diags, place);
 	if (walk->last != ST_NO_PART)
 		return true;

@@ -36,6 +36,7 @@ enum st_kind {
 	ST_RESET,      /* Horn R= Seen                                        */
 	ST_JUMP_IF,    /* JMP Fill IF Low, or without IF                      */
 	ST_RETURN_IF,
+	ST_STOP_IF,    /* STOP IF Broken                                      */
 	ST_KINDS
 };
 

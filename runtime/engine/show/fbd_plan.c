@@ -68,7 +68,7 @@ struct planner {
 bool fbd_is_end(const struct fbd_box *box)
 {
 	return box->kind == FBD_STORE || box->kind == FBD_SET || box->kind == FBD_RESET ||
-	       box->kind == FBD_JUMP || box->kind == FBD_RETURN;
+	       box->kind == FBD_JUMP || box->kind == FBD_RETURN || box->kind == FBD_STOP;
 }
 
 /* Rows of pin @pin below the first pin of its box. */

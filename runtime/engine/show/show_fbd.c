@@ -216,7 +216,7 @@ static void put_end(const struct canvas *canvas, const struct fbd_box *box, cons
 	const bool square = box->kind == FBD_STORE || box->kind == FBD_SET || box->kind == FBD_RESET;
 	int x = (int)place->x;
 
-	put_glyph(canvas, x++, place->first, square ? "[" : box->kind == FBD_RETURN ? "<" : " ");
+	put_glyph(canvas, x++, place->first, square ? "[" : box->kind != FBD_JUMP ? "<" : " ");
 	if (square && !*box->type)
 		put_glyph(canvas, x++, place->first, " ");
 	x += put_text(canvas, x, place->first, box->type);

@@ -155,6 +155,14 @@ static struct lex line_end(const struct lex *first, struct token *stop)
 	return last;
 }
 
+/* `STOP` alone or before IF: elsewhere it is a name. */
+static bool stops(struct lex lex)
+{
+	if (!lex_accept(&lex, "STOP"))
+		return false;
+	return lex.token.kind == TOKEN_END || lex_is(&lex, "IF");
+}
+
 /* What the line is, from its signs outside of parentheses. @lex: only this line. */
 static enum st_kind kind_of_line(struct lex lex)
 {
@@ -166,6 +174,8 @@ static enum st_kind kind_of_line(struct lex lex)
 		return ST_JUMP_IF;
 	if (lex_is(&lex, "RETURN"))
 		return ST_RETURN_IF;
+	if (stops(lex))
+		return ST_STOP_IF;
 	for (; lex.token.kind != TOKEN_END; lex_next(&lex)) {
 		const bool operand = before.kind == TOKEN_NAME || before.kind == TOKEN_ADDRESS ||
 				     (before.kind == TOKEN_SYMBOL && *before.text == ']');

@@ -231,7 +231,7 @@ static bool stores(struct lex lex)
 
 static bool begins_word(const struct lex *lex)
 {
-	for (int i = 0; i < ST_KINDS; i++)
+	for (int i = 0; i < ST_SET; i++)
 		if (*st_form((enum st_kind)i)->word && lex_is(lex, st_form((enum st_kind)i)->word))
 			return true;
 	return false;
@@ -312,7 +312,7 @@ static enum st_kind kind_at(struct st_reader *s, const struct lex *lex)
 {
 	const struct st_block *block = s->depth > 0 ? &s->block[s->depth - 1] : NULL;
 
-	for (int i = 0; i < ST_KINDS && lex->token.kind == TOKEN_NAME; i++)
+	for (int i = 0; i < ST_SET && lex->token.kind == TOKEN_NAME; i++)
 		if (*st_form((enum st_kind)i)->word && lex_is(lex, st_form((enum st_kind)i)->word))
 			return (enum st_kind)i;
 	if (lex_is(lex, ";"))
@@ -330,7 +330,7 @@ static enum st_kind kind_at(struct st_reader *s, const struct lex *lex)
 /* Does a statement or the end of the POU begin here, by its word? */
 static bool begins_statement(const struct st_reader *s)
 {
-	for (int i = 0; i < ST_KINDS; i++)
+	for (int i = 0; i < ST_SET; i++)
 		if (*st_form((enum st_kind)i)->word &&
 		    lex_is(&s->r->lex, st_form((enum st_kind)i)->word))
 			return true;
@@ -447,7 +447,7 @@ static bool is_missing(enum st_kind kind, const struct token *last, const struct
 		return true;
 	if (kind == ST_CHOICE)
 		return stop->kind == TOKEN_NAME;
-	for (int i = 0; i < ST_KINDS; i++)
+	for (int i = 0; i < ST_SET; i++)
 		if (*st_form((enum st_kind)i)->word && lex_is(&(struct lex){ .token = *stop },
 							      st_form((enum st_kind)i)->word))
 			return true;

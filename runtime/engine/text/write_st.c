@@ -58,7 +58,7 @@ static const char *word_of(const struct st_style *style, const struct lex *lex)
 		return lex_is(lex, first) ? first : NULL;
 	if (style->latch == LATCH_NOW)
 		return style->kind == ST_SET ? "S" : "R";
-	if (style->kind == ST_RETURN_IF && is_one_word(&style->last, "RETURN"))
+	if ((style->kind == ST_RETURN_IF || style->kind == ST_STOP_IF) && is_one_word(&style->last, first))
 		return word_among(lex, of_jump);
 	if (!style->operand)
 		return word_among(lex, before);

@@ -1355,7 +1355,7 @@ static void leave_if(struct st_il *s, struct st_walk *walk)
 {
 	const struct fbd *fbd = s->pou->fbd;
 	struct names *names = &s->translation->project->names;
-	uint32_t label = s->leave;
+	uint32_t label = s->ld.item->kind == ST_STOP_IF ? 0 : s->leave;
 	struct st_part part;
 
 	if (s->ld.item->kind == ST_JUMP_IF) {
@@ -1378,8 +1378,8 @@ static void leave_if(struct st_il *s, struct st_walk *walk)
 	}
 	if (label)
 		jump(s, part.role == ST_VALUE ? MOD_C : 0, label);
-	else if (s->ld.item->kind == ST_RETURN_IF)
-		ld_emit(&s->ld, OP_RET, part.role == ST_VALUE ? MOD_C : 0, 0);
+	else if (s->ld.item->kind != ST_JUMP_IF)
+		ld_emit(&s->ld, s->ld.item->kind == ST_STOP_IF ? OP_STP : OP_RET, part.role == ST_VALUE ? MOD_C : 0, 0);
 }
 
 /* `place := TRUE` or FALSE, where S and R cannot reach. */
@@ -1466,7 +1466,8 @@ static void st_item_to_il(struct st_il *s, int at)
 	case ST_SET: latch(s, &walk, true); break;
 	case ST_RESET: latch(s, &walk, false); break;
 	case ST_JUMP_IF:
-	case ST_RETURN_IF: leave_if(s, &walk); break;
+	case ST_RETURN_IF:
+	case ST_STOP_IF: leave_if(s, &walk); break;
 	case ST_EMPTY:
 	case ST_COMMENT:
 	case ST_KINDS: break;

@@ -389,5 +389,48 @@ def completed(screen):
     editor.finish()
 
 
+def left(screen):
+    """STOP, RETURN and JMP behind a box, alone, and with a condition; Stop is a variable"""
+    path = new_file(screen, FILL)
+    editor = Editor(screen, path)
+    at(editor, 'Network 1, Fill, Fill the tank while there is room')
+    for word, name in (('STOP', 'Stop the controller'), ('RETURN', 'Return'), ('JMP Fill', 'Jump to Fill')):
+        editor.click(part(editor, 'AND, executed as number 2'))
+        at(editor, 'AND, executed as number 2')
+        typed(editor, word)
+        at(editor, name)
+    editor.click(part(editor, 'Network 2, Not used yet'))
+    at(editor, 'Network 2, Not used yet')
+    typed(editor, 'STOP IF Stop AND Ready')
+    part(editor, 'AND, executed as number 2')
+    editor.click(part(editor, 'Network 2, Not used yet'))
+    at(editor, 'Network 2, Not used yet')
+    typed(editor, 'RETURN')
+    until(lambda: [node for node in editor.all('Return', 'table cell') if node.name == 'Return' and node.has(23)], 'a return without a condition')
+    editor.click(part(editor, 'TON Delay, executed as number 3'))
+    at(editor, 'TON Delay, executed as number 3')
+    typed(editor, 'Stop')
+    at(editor, 'Store in Stop')
+    editor.shot('fbd-stop')
+    text = editor.save(path)
+    for line in ('  STOP IF Wire1\n', '  RETURN IF Wire1\n', '  JMP Fill IF Wire1\n', '  STOP IF Stop AND Ready\n  RETURN\n'):
+        assert line in text, (line, text)
+    # A box that stops reads another value.
+    editor.click(part(editor, 'Network 2, Not used yet'))
+    at(editor, 'Network 2, Not used yet')
+    editor.keys('Insert')
+    at(editor, 'Network 3')
+    typed(editor, 'STOP')
+    until(lambda: [node for node in editor.all('Stop the controller', 'table cell') if node.has(23)], 'a stop without a condition')
+    editor.keys('Left')
+    at(editor, 'Stop the controller, input 1: open')
+    typed(editor, 'Ready')
+    at(editor, 'Stop the controller, input 1: Ready')
+    editor.keys('slash')
+    at(editor, 'Stop the controller, input 1, negated: Ready')
+    assert 'NETWORK\n  STOP IF NOT Ready\n' in editor.save(path)
+    editor.finish()
+
+
 if __name__ == '__main__':
-    main([by_keyboard, by_pointer, changes, shown, renamed, pasted, completed])
+    main([by_keyboard, by_pointer, changes, shown, renamed, pasted, completed, left])

@@ -117,6 +117,13 @@ static const char *code_of(struct plcopen *c, struct xml_node *block)
 	return NULL;
 }
 
+/* What an export here makes of STOP: the format has no element for it. */
+static bool is_stop(const struct plcopen *c, const struct plc_graph *graph, const struct plc_element *e)
+{
+	return plc_same(e->name, "STOP") && !e->instance && !plc_pou(c, e->name) && e->ins == 1 && e->outs == 0 &&
+	       plc_same(plc_in(graph, e, 0)->name, "EN");
+}
+
 static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_element *e)
 {
 	struct xml_node *in = xml_child(e->node, "inputVariables");
@@ -136,6 +143,11 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 	e->first_out = graph->pins;
 	e->outs = read_variables(c, graph, out, "connectionPointOut");
 	e->outs += read_variables(c, graph, both, "connectionPointOut");
+	if (is_stop(c, graph, e)) {
+		e->kind = PLC_STOP;
+		e->negated = plc_in(graph, e, 0)->negated;
+		e->edge = plc_in(graph, e, 0)->edge;
+	}
 	for (int i = 0; i < e->outs; i++) {
 		struct plc_pin *pin = plc_out(graph, e, i);
 
@@ -460,6 +472,7 @@ static int class_of(const struct plc_element *e)
 	case PLC_COIL:
 	case PLC_JUMP:
 	case PLC_RETURN:
+	case PLC_STOP:
 		return e->order > 0 ? 0 : 1;
 	default:
 		return -1;

@@ -615,8 +615,10 @@ static const char *coil_text(struct sketch *s, const struct plc_element *e)
 
 	if (e->kind == PLC_JUMP)
 		return plc_print(s->c, "JMP %s", e->name);
-	if (e->kind == PLC_RETURN)
-		return "RET";
+	if (e->kind == PLC_RETURN || e->kind == PLC_STOP) {
+		s->odd = s->odd || e->negated || e->edge != PLC_NO_EDGE;
+		return e->kind == PLC_STOP ? "STOP" : "RET";
+	}
 	if (!is_operand(e->name) || (e->negated + (e->edge != PLC_NO_EDGE) + (e->storage != PLC_NO_STORAGE)) > 1)
 		s->odd = true;
 	if (e->storage != PLC_NO_STORAGE)
@@ -717,7 +719,7 @@ static bool interferes(struct sketch *s, int first, int count)
 		const struct plc_element *e = &s->graph->element[s->graph->step[i]], *box = box_of(s, i);
 		const char *name = e->kind == PLC_BLOCK ? e->instance : e->name;
 
-		if (e->kind == PLC_JUMP || e->kind == PLC_RETURN || !name)
+		if (e->kind == PLC_JUMP || e->kind == PLC_RETURN || e->kind == PLC_STOP || !name)
 			continue;
 		/* What a box writes is written before the coils act, and after what leads to it was read. */
 		for (int k = box ? first : i + 1; k < first + count; k++)

@@ -630,7 +630,8 @@ static void store(struct plc_lines *l, struct plc_element *e, struct value value
 
 static void leave(struct plc_lines *l, struct plc_element *e, struct value value)
 {
-	const char *word = e->kind == PLC_JUMP ? plc_print(l->c, "JMP %s", e->name) : "RETURN";
+	const char *word = e->kind == PLC_JUMP ? plc_print(l->c, "JMP %s", e->name) :
+			   e->kind == PLC_STOP ? "STOP" : "RETURN";
 
 	begin_line(l, e);
 	if (is_true(value))
@@ -662,13 +663,13 @@ void plc_lines_step(struct plc_lines *l, struct plc_element *e)
 		if (e->kind != PLC_INOUT)
 			plc_report(l->c, REPORT_LOST, e->node,
 				   report_said(l->c->report, REPORTED("nothing leads to \"%s\": it does nothing and is left out")),
-				   e->kind == PLC_RETURN ? "RETURN" : e->name);
+				   e->kind == PLC_RETURN ? "RETURN" : e->kind == PLC_STOP ? "STOP" : e->name);
 		return;
 	}
 	value = modified(l, e, e->negated, e->edge, value);
 	if (e->kind == PLC_OUT || e->kind == PLC_INOUT)
 		value = guarded(l, e, value);
-	if (e->kind == PLC_JUMP || e->kind == PLC_RETURN)
+	if (e->kind == PLC_JUMP || e->kind == PLC_RETURN || e->kind == PLC_STOP)
 		leave(l, e, value);
 	else
 		store(l, e, value);

@@ -43,6 +43,7 @@ static enum drawn_kind kind_of(const struct plc_element *e)
 		return DRAWN_BOX;
 	case PLC_JUMP:
 	case PLC_RETURN:
+	case PLC_STOP:
 		return DRAWN_JUMP;
 	default:
 		return DRAWN_VALUE;

@@ -329,6 +329,26 @@ static void give_condition(struct diagram *d, int number)
 	*input = (struct input){ id, "OUT", false, NULL };
 }
 
+/* The format has no STOP: it is a box of that name. */
+static void put_stop(struct diagram *d, int number)
+{
+	const struct fbd_box *box = &d->graph->box[number];
+	const struct input input = d->input[box->first_pin];
+	struct out *out = d->out;
+
+	plco_open(out, "block localId=\"%d\" typeName=\"STOP\" height=\"%d\" width=\"%d\" executionOrderId=\"%d\"",
+		  d->id[number], PIN * 2, WIDTH, ++out->order);
+	put_position(out, x_of(d, number), y_of(d, number));
+	plco_open(out, "inputVariables");
+	plco_open(out, "variable formalParameter=\"EN\"%s", modifiers(d, input));
+	put_connection(d, input);
+	plco_close(out, "variable");
+	plco_close(out, "inputVariables");
+	plco_line(out, "inOutVariables");
+	plco_line(out, "outputVariables");
+	plco_close(out, "block");
+}
+
 static void put_element(struct diagram *d, int number)
 {
 	const struct fbd_box *box = &d->graph->box[number];
@@ -352,6 +372,10 @@ static void put_element(struct diagram *d, int number)
 		give_condition(d, number);
 		put_end(d, number, box->kind == FBD_JUMP ? "jump" : "return", box->kind == FBD_RETURN ? "" :
 			plco_print(d->out, " label=\"%s\"", box->target ? box->target : ""));
+		break;
+	case FBD_STOP:
+		give_condition(d, number);
+		put_stop(d, number);
 		break;
 	case FBD_TRIGGER:
 		break;

@@ -449,6 +449,21 @@ static void put_call(struct drawing *d, const struct network_element *e)
 	plco_close(d->out, "block");
 }
 
+/* The format has no STOP: it is a box of that name. */
+static void put_stop(struct drawing *d, const struct network_element *e)
+{
+	open_box(d, e, "STOP", NULL);
+	plco_open(d->out, "inputVariables");
+	open_pin(d, "EN", false);
+	put_sources(d, e->in);
+	close_pin(d);
+	plco_close(d->out, "inputVariables");
+	plco_line(d->out, "inOutVariables");
+	plco_line(d->out, "outputVariables");
+	plco_documentation(d->out, plco_id(d->out, cell_of(d, e)->comment));
+	plco_close(d->out, "block");
+}
+
 static void put_element(struct drawing *d, const struct network_element *e)
 {
 	switch ((int)e->word) {
@@ -484,7 +499,11 @@ static void put_element(struct drawing *d, const struct network_element *e)
 		break;
 	case ELEM_JUMP:
 	case ELEM_RETURN:
+	case ELEM_END: /* of a program: elsewhere it is missing */
 		put_jump(d, e, e->word == ELEM_JUMP);
+		break;
+	case ELEM_STOP:
+		put_stop(d, e);
 		break;
 	case ELEM_NOT:
 		put_inverter(d, e);
@@ -516,8 +535,9 @@ static const char *missing(const struct drawing *d)
 	for (int i = 0; i < d->net.element_count; i++) {
 		const enum word word = (enum word)d->net.element[i].word;
 
-		if (word == ELEM_STOP || word == ELEM_END || word == ELEM_CALL || word == ELEM_FOR ||
-		    word == ELEM_NEXT) {
+		if (word == ELEM_END || word == ELEM_CALL || word == ELEM_FOR || word == ELEM_NEXT) {
+			if (word == ELEM_END && d->out->pou && d->out->pou->kind == POU_PROGRAM)
+				continue;
 			if (word == ELEM_CALL && plco_is_action(d->out, plco_id(d->out, cell_of(d, &d->net.element[i])->operand)))
 				continue;
 			return words_row(&d->out->project->words, word)->word;
