@@ -104,6 +104,44 @@ like($said, qr/lost: Main: "Position" has no address here: %QD0\.2 is none\n(?:.
 like($rung, qr/^\s*\{\{\n  if \(x\) \{ call\(GetFbVar\(Level\)\); \}\n\}\}\n/m, 'C between two braces is kept');
 trace_is('places', "\@print Position\nStart=1\n", "1 t=10 Position=7\n");
 
+# ---- addresses ----
+sub located { my ($name, $type, $at) = @_; return variable($name, $type) =~ s/<variable /<variable address="$at" /r }
+# Beremiz and OpenPLC count words and keep widths apart; CODESYS counts words, and widths share memory; TwinCAT counts bytes.
+my $apart = join '', map { located(@$_) } ['Run', 'BOOL', '%QX0.0'], ['Slow', 'INT', '%QW0'], ['Fast', 'INT', '%QW1'], ['Sum', 'DINT', '%QD1'], ['Temp', 'INT', '%IW1'], ['Old', 'INT', '%IW3'];
+sub addresses { return join ' ', $_[0] =~ / AT (%\S+)/g }
+my $act = text_body('ST', "Run := Temp > 0;\nSlow := 257;\nFast := 1;\nSum := Slow + Fast + WORD_TO_INT(%IW3);");
+($rung, $said) = imported('apart', project('', pou('Main', 'program', "<localVars>$apart</localVars>", $act)));
+is(addresses($rung), '%QX0.0 %QW2 %QW4 %QD12 %IW1 %IW3', 'each width gets a part of the outputs; inputs that share nothing stay');
+like($said, qr/changed: the address %QW0 becomes %QW2: /, 'which is told');
+trace_is('apart', "\@print Slow Fast Sum\n%IW3=3\n", "1 t=10 Slow=257 Fast=1 Sum=261\n");
+my $codesys = '<addData><data name="http://www.3s-software.com/plcopenxml/projectinformation" handleUnknown="implementation"><ProjectInformation/></data></addData></project>';
+($rung, $said) = imported('sized', project('', pou('Main', 'program', "<localVars>$apart</localVars>", $act)) =~ s{</project>}{$codesys}r);
+is(addresses($rung), '%QX0.0 %QW0 %QW2 %QD4 %IW1 %IW3', 'CODESYS counts words of the same memory');
+($rung, $said) = imported('bytes', project('', pou('Main', 'program', "<localVars>$apart</localVars>", $act)) =~ s{</project>}{$codesys}r =~ s/productName="[^"]*"/productName="TwinCAT PLC Control"/r);
+is(addresses($rung), '%QX0.0 %QW0 %QW1 %QD1 %IW1 %IW3', 'TwinCAT counts bytes, as here');
+($rung, $said) = imported('direct', project('', pou('Main', 'program', '<localVars>' . variable('N', 'INT') . '</localVars>',
+	text_body('ST', "(* %QW9 *)\n%QW0 := 257;\n%QW1 := 1;\nN := WORD_TO_INT(%QW0);"))));
+like($rung, qr/\(\* %QW9 \*\)\s+%QW0 := 257;\s+%QW2 := 1;\s+N := WORD_TO_INT\(%QW0\);/, 'addresses in lines');
+
+# A type of another width, and an input that the program stores into, are variables without address.
+($rung, $said) = imported('narrow', project('', pou('Main', 'program', '<localVars>' . join('', map { located(@$_) } ['Level', 'REAL', '%IW4'], ['Name', 'STRING', '%QB8'], ['Go', 'BOOL', '%IX0.0'],
+	['Seen', 'BOOL', '%IX0.1'], ['Kept', 'INT', '%IW2'], ['Bit', 'BOOL', '%IX0.2']) . variable('Up', 'CTU') . '</localVars>',
+	text_body('ST', "Up(CU := Go, PV := 3);\nIF Go THEN Seen := TRUE; Kept := 4; END_IF;\nUp(CU := FALSE, R := Bit);"))));
+like($rung, qr/^  Level\s+: REAL;\n  Name\s+: STRING;\n  Go +AT %IX0\.0 : BOOL;\n  Seen\s+: BOOL;\n  Kept\s+: INT;\n  Bit +AT %IX0\.2 : BOOL;/m, 'what fits keeps its address');
+like($said, qr/"Level" has no address here: %IW4 is not as wide as REAL/, 'the width is told');
+like($said, qr/"Seen" has no address here: the program stores into the input %IX0\.1/, 'the store is told');
+trace_is('narrow', "\@print Seen Kept\n.\nGo=1\nGo=0\n", "2 t=20 Seen=1 Kept=4\n");
+# The store of another POU into a variable of its own is none.
+($rung, $said) = imported('other', project('', pou('Main', 'program', '<localVars>' . located('Go', 'BOOL', '%IX0.0') . located('Q', 'BOOL', '%QX0.0') . '</localVars>', text_body('ST', 'Q := Go;'))
+	. pou('Side', 'program', '<localVars>' . variable('Go', 'BOOL') . '</localVars>', text_body('ST', 'Go := NOT Go;'))));
+like($rung, qr/Go AT %IX0\.0 : BOOL;/, 'a variable of another POU has its own name');
+
+# Returns in a text, and the interval of older versions of Beremiz.
+($rung, $said) = imported('returns', project('', pou('Main', 'program', '<localVars>' . variable('N', 'INT') . '</localVars>', "<body><ST><xhtml:p>N := N + 1;&#13;\n(* a *)&#13;\nN := N&#13;+ 1;&#13;\n</xhtml:p></ST></body>"))
+	=~ s{<configurations/>}{<configurations><configuration name="C"><resource name="R"><task name="T" priority="0" interval="00:00:00.100000"><pouInstance name="M" typeName="Main"/></task></resource></configuration></configurations>}r);
+unlike($rung, qr/\r/, 'returns are ends of lines');
+like($rung, qr/INTERVAL := T#100ms/, 'the interval of a clock');
+
 # ---- lists, and an error in the line of the XML ----
 my $count = variable('Count', 'INT') . variable('Go', 'BOOL');
 imported('list', project('', pou('Main', 'program', "<localVars>$count</localVars>", text_body('IL', "LD Count\nADD 1\nST Count"))));

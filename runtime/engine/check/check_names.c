@@ -1035,6 +1035,9 @@ static void check_uses(struct names_check *c, int table_number)
 						   var);
 			enum diag_id lack = judge_use(var, use, block->flags);
 
+			if (lack == DIAG_COUNT && use & USE_WRITTEN && block->flags & VAR_INPUT && pou &&
+			    pou->kind != POU_PROGRAM && !c->project->words.own_first)
+				lack = DIAG_OWN_INPUT;
 			if (lack != DIAG_COUNT && !vars_is_eno(table, k) &&
 			    !(pou && pou->no_result && k == 0) &&
 			    scope_duplicate(c->scope, pou, k) < 0)

@@ -290,8 +290,7 @@ static void mean_variable(const struct scope *scope,
 	out->type = var->type;
 	out->constant = slot->flags & VAR_CONSTANT;
 	out->writable = !out->constant && may_write(var->at) &&
-			(!(slot->flags & VAR_INPUT) || (!(slot->flags & VAR_FIXED) &&
-			 (scope->project->words.own_first || (out->pou && out->pou->kind == POU_PROGRAM))));
+			!(slot->flags & VAR_INPUT && slot->flags & VAR_FIXED);
 	mean_shape(scope, var, out);
 	if (slot->flags & VAR_SFC)
 		out->writable = slot->flags & VAR_WIRE || scope_is_condition(out);
@@ -639,7 +638,7 @@ static int find_within(const struct word_row *row, const char *name, size_t len)
 	return -1;
 }
 
-/* `.Speed`. Inner variables of a block cannot be named from outside; in plain IEC text they can be read. */
+/* `.Speed`. Inner variables of a block can be read from outside. */
 static bool step_into(struct path *path)
 {
 	struct meaning *m = &path->m;
@@ -659,7 +658,7 @@ static bool step_into(struct path *path)
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
 	index = m->kind == MEANING_INSTANCE && m->action ? -1 : word_pin_find(row, name, len);
-	if (index < 0 && !m->action && (path->within || path->scope->project->words.own_first))
+	if (index < 0 && !m->action)
 		index = find_within(row, name, len);
 	if (index < 0)
 		return step_action(path, row, name, len);

@@ -319,6 +319,7 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 	if (plc_own_project(c, project))
 		return;
 	plc_find_renames(c, project);
+	plc_find_addresses(c, project);
 	put_header(c, project);
 	if (xml_child(types, "dataTypes"))
 		plc_types(c, xml_look(types, "dataTypes"));

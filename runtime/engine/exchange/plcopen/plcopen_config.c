@@ -41,14 +41,32 @@ static const char *iso_time(struct plcopen *c, const char *text)
 	return any ? out : "T#0s";
 }
 
+/* 00:00:00.100000, as older versions of Beremiz write it; NULL: it is none. */
+static const char *clock_time(struct plcopen *c, const char *text)
+{
+	double part[3];
+
+	for (int i = 0; i < 3; i++) {
+		char *end;
+
+		if (!ascii_digit(*text))
+			return NULL;
+		part[i] = strtod(text, &end);
+		if (*end != (i < 2 ? ':' : '\0') || part[i] > 1e6)
+			return NULL;
+		text = end + 1;
+	}
+	return plc_print(c, "T#%.9gms", ((part[0] * 60 + part[1]) * 60 + part[2]) * 1000);
+}
+
 /* A number alone is milliseconds, as in exports of CODESYS. */
 static const char *interval(struct plcopen *c, const char *text)
 {
-	const char *iso = iso_time(c, text);
+	const char *iso = iso_time(c, text), *clock = iso ? NULL : clock_time(c, text);
 	char *end;
 
-	if (iso)
-		return iso;
+	if (iso || clock)
+		return iso ? iso : clock;
 	strtod(text, &end);
 	return !*end && end != text ? plc_print(c, "T#%sms", text) : text;
 }

@@ -46,6 +46,8 @@ struct plcopen {
 	int pous;
 	/* Names that change; with a list, of its variable alone, where the list is said before it. */
 	struct { struct plc_rename { const char *from, *to, *list; } *one; int count; } rename;
+	struct { struct plc_store *one; int count; bool found; } stores; /* plcopen_stores.c */
+	int64_t address[3][4];  /* plcopen_address.c: where numbers begin, of I Q M and B W D L; -1: as they are */
 	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
 	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
 	struct plc_part added;  /* actions that the import adds to this POU       */
@@ -94,6 +96,16 @@ void plc_find_renames(struct plcopen *c, struct xml_node *project);
 bool plc_same(const char *a, const char *b);
 /** plc_pou - the POU of this name; NULL: none. */
 struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
+
+/* ---- plcopen_address.c ---- */
+/** plc_find_addresses - which addresses change. */
+void plc_find_addresses(struct plcopen *c, struct xml_node *project);
+/** plc_moved - the address @text as it is here; NULL: it stays, or is none. */
+const char *plc_moved(struct plcopen *c, const char *text, size_t len);
+
+/* ---- plcopen_stores.c ---- */
+/** plc_stores_input - whether a body stores into @variable, whose @address is that of an input. */
+bool plc_stores_input(struct plcopen *c, const struct xml_node *variable, const char *address);
 
 /* ---- plcopen_declare.c ---- */
 /** plc_type - the text of a type: of the first element in @node. */

@@ -292,14 +292,39 @@ static bool is_address(const char *text, const char *type)
 	       (address.bits > 1 || ascii_upper(text[2]) == 'X' || plc_same(type, "BOOL"));
 }
 
+/* Beremiz and OpenPLC take any type at any address. Is the address as wide as the type? */
+static bool is_as_wide(const char *address, const char *type)
+{
+	const size_t len = strlen(address);
+	const enum iec_type of = iec_type_find(type, strcspn(type, "[( "));
+	struct iec_addr at;
+
+	if (of == IEC_NONE || address[len - 1] == '*' || iec_addr_parse(address, len, &at) != ADDR_OK)
+		return true;
+	return of != IEC_STRING && (of == IEC_BOOL ? at.bits == 1 : at.bits == iec_type_row(of)->size * 8);
+}
+
 const char *plc_address(struct plcopen *c, struct xml_node *variable, const char *name, const char *type)
 {
 	const char *address = xml_take(variable, "address");
 
 	if (!address || !*address)
 		return NULL;
-	if (is_address(address, type))
-		return address;
+	if (is_address(address, type) && !is_as_wide(address, type)) {
+		plc_report(c, REPORT_LOST, variable, report_said(c->report,
+			   REPORTED("\"%s\" has no address here: %s is not as wide as %s")), name, address, type);
+		return NULL;
+	}
+	if (is_address(address, type) && plc_stores_input(c, variable, address)) {
+		plc_report(c, REPORT_LOST, variable, report_said(c->report,
+			   REPORTED("\"%s\" has no address here: the program stores into the input %s")), name, address);
+		return NULL;
+	}
+	if (is_address(address, type)) {
+		const char *to = plc_moved(c, address, strlen(address));
+
+		return to ? to : address;
+	}
 	plc_report(c, REPORT_LOST, variable,
 		   report_said(c->report, REPORTED("\"%s\" has no address here: %s is none")), name, address);
 	return NULL;

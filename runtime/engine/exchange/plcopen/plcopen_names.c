@@ -195,13 +195,21 @@ const char *plc_renamed(struct plcopen *c, const char *text)
 	struct plc_build all;
 	struct lex lex;
 
-	if (!c->rename.count)
+	if (!c->rename.count && !strchr(text, '%'))
 		return text;
 	plc_build(&all);
 	lex_init(&lex, text, strlen(text));
 	while (lex_next(&lex) != TOKEN_END) {
 		const char *at = lex.token.text, *end = at + lex.token.len, *before = at;
 
+		if (lex.token.kind == TOKEN_ADDRESS) {
+			const char *to = plc_moved(c, at, lex.token.len);
+
+			if (to) {
+				plc_add_text(&all, plc_print(c, "%.*s%s", (int)(at - from), from, to));
+				from = end;
+			}
+		}
 		if (lex.token.kind != TOKEN_NAME)
 			continue;
 		/* Names with dots are one token. */

@@ -88,6 +88,19 @@ static bool is_blank(const char *text, size_t len)
 	return true;
 }
 
+/* A tool may write the ends of lines as `&#13;` and a newline. A return alone is no new line in the file. */
+static void drop_returns(struct reader *reader)
+{
+	size_t len = 0;
+
+	for (size_t i = 0; i < reader->len; i++)
+		if (reader->text[i] != '\r')
+			reader->text[len++] = reader->text[i];
+		else if (i + 1 == reader->len || reader->text[i + 1] != '\n')
+			reader->text[len++] = ' ';
+	reader->len = len;
+}
+
 /* Gives the text so far to the open element. */
 static void settle_text(struct reader *reader)
 {
@@ -95,6 +108,7 @@ static void settle_text(struct reader *reader)
 	const size_t before = node && node->text ? strlen(node->text) : 0;
 	char *whole;
 
+	drop_returns(reader);
 	if (node && reader->len && !is_blank(reader->text, reader->len)) {
 		whole = arena_alloc(reader->arena, before + reader->len + 1);
 		if (whole) {
