@@ -167,7 +167,11 @@ static void exchange(LadderTextView *view, const char *now, const char *text)
 	gtk_text_buffer_delete(buffer, &at, &to);
 	gtk_text_buffer_insert(buffer, &at, text + start,
 			       (int)(strlen(text) - start - end));
-	if (!gtk_widget_has_focus(GTK_WIDGET(view->view)))
+	if (!*now) { /* it is shown the first time: a search begins at its first line */
+		gtk_text_buffer_get_start_iter(buffer, &at);
+		gtk_text_buffer_place_cursor(buffer, &at);
+	}
+	if (!*now || !gtk_widget_has_focus(GTK_WIDGET(view->view)))
 		return;
 	gtk_text_buffer_place_cursor(buffer, &at);
 	gtk_text_view_scroll_mark_onscreen(GTK_TEXT_VIEW(view->view),

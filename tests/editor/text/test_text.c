@@ -374,6 +374,47 @@ static void test_errors(void)
 	g_free(after);
 }
 
+/* The label below the text that has this class. */
+static const char *label_with(const char *class)
+{
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+
+	while (child && !gtk_widget_has_css_class(child, class))
+		child = gtk_widget_get_next_sibling(child);
+	return child ? gtk_label_get_text(GTK_LABEL(child)) : "";
+}
+
+/* What is told below the text is of the line of the cursor, wherever it goes. */
+static void test_told(void)
+{
+	put_cursor(4, 13);
+	type("x");
+	put_cursor(5, 13);
+	type("y");
+	ladder_document_check_now(document);
+	put_cursor(4, 3);
+	CHECK(strstr(label_with("error"), "\"Startx\""));
+	put_cursor(5, 3);
+	CHECK(strstr(label_with("error"), "\"Stopy\"") && !strstr(label_with("error"), "Startx"));
+	put_cursor(6, 3);
+	CHECK_TEXT(label_with("error"), "");
+	while (ladder_document_undo(document))
+		;
+	ladder_document_check_now(document);
+}
+
+/* A search begins at the cursor, and so at the first line of a text that is shown the first time. */
+static void test_cursor_begins(void)
+{
+	LadderTextView *other = g_object_ref_sink(LADDER_TEXT_VIEW(ladder_text_view_new(document, 1)));
+	GtkTextBuffer *text = GTK_TEXT_BUFFER(ladder_text_view_buffer(other));
+	int at = -1;
+
+	g_object_get(text, "cursor-position", &at, NULL);
+	CHECK(at == 0 && gtk_text_buffer_get_char_count(text) > 50);
+	g_object_unref(other);
+}
+
 static void test_typing(void)
 {
 	char *before = shown(), *after;
@@ -755,6 +796,8 @@ int main(void)
 	test_mends();
 	test_words();
 	test_errors();
+	test_told();
+	test_cursor_begins();
 	test_typing();
 	test_soon();
 	test_values();
