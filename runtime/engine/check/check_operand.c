@@ -247,8 +247,6 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 		return operand_refuse(c, fault, at, id, m);
 	/* Writes in a chart do not happen in every scan, so two of them are no conflict. */
 	always &= c->pou->language != LANGUAGE_SFC;
-	if (m->through)
-		uses_add(c->uses, m, USE_READ); /* the pointer is */
 	if (always) {
 		const struct diag place = operand_place(c, DIAG_COIL_TWICE, at);
 
@@ -597,7 +595,7 @@ static void use_element(struct operand_check *c, struct operand_spot at, uint32_
 	else if (write && !m->writable)
 		operand_refuse(c, DIAG_WRITE_INPUT, at, id, m);
 	else
-		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) | (!write || m->through ? USE_READ : 0u));
+		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
 }
 
 /* A value, or if @whole an array, too, and if @instance an instance. */

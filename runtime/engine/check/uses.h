@@ -56,7 +56,7 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 
 /**
  * uses_add - notes one use
- * @use: USE_READ, USE_WRITTEN, USE_CALLED
+ * @use: USE_READ, USE_WRITTEN, USE_CALLED. A write through a pointer only reads the pointer.
  *
  * True when this is the second call of the same instance; later ones are not reported.
  */

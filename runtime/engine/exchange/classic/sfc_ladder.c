@@ -103,6 +103,7 @@ char *lad_words(struct lad *e, const char *text)
 {
 	struct sink_memory memory;
 	struct sink sink;
+	bool reference = false;
 	char *out;
 
 	sink_memory_init(&memory);
@@ -115,6 +116,10 @@ char *lad_words(struct lad *e, const char *text)
 			while (lad_letter(text[len]))
 				len++;
 			word = word_of(e, text, &len);
+			e->refers |= word && reference;
+			reference = ascii_is("ADR", text, len) || ascii_is("REF", text, len);
+		} else if (*text != '(' && *text != ' ') {
+			reference = false;
 		}
 		len += !len;
 		if (word)
@@ -193,7 +198,10 @@ static void declare_all(struct lad *e, const struct sink *out)
 	for (int i = 0; i < e->sfc->step_count; i++) {
 		const uint32_t bit = e->at.byte * 8u + e->at.bit + (uint32_t)i;
 
-		snprintf(at, sizeof(at), " AT %%MX%u.%u", bit / 8, bit % 8);
+		/* ADR takes no variable with an address. */
+		at[0] = 0;
+		if (!e->refers)
+			snprintf(at, sizeof(at), " AT %%MX%u.%u", bit / 8, bit % 8);
 		e->step[i][LAD_X].used = true;
 		declare(e, out, &e->step[i][LAD_X], at);
 	}
@@ -296,6 +304,7 @@ static bool begin(struct lad *e)
 	const size_t lines = (size_t)e->sfc->use_count + 1;
 	const size_t actions = (size_t)e->sfc->action_count;
 
+	e->refers = false;
 	check_table(e);
 	check_place(e);
 	e->step = arena_alloc(e->arena, steps * sizeof(*e->step));

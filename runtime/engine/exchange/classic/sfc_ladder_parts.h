@@ -74,6 +74,7 @@ struct lad {
 	const char *condition; /* name in place of TRANSITION; NULL: none      */
 	struct iec_addr at, last; /* of the first step and the last one        */
 	int sfcs;            /* charts that have addresses                     */
+	bool refers;         /* ADR or REF leads to a step, so steps have none */
 	struct sink out;     /* the program in work                            */
 	struct sink subs;    /* its subroutines                                */
 	bool good;
