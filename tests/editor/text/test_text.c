@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/text/st_typing.h"
 #include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/text/file_view.h"
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/sim/st_why.h"
 #include "editor-gtk/text/text_mend.h"
@@ -769,6 +770,45 @@ static void test_first_place(GtkWidget *window)
 	g_object_unref(shown);
 }
 
+/* Where the underline of line @line begins, in bytes; -1: the line has none. */
+static int underline_at(GtkTextBuffer *text, int line)
+{
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_line(text, &at, line);
+	for (;; gtk_text_iter_forward_char(&at)) {
+		GSList *tags = gtk_text_iter_get_tags(&at);
+		const bool any = tags != NULL;
+
+		g_slist_free(tags);
+		if (any)
+			return gtk_text_iter_get_line_index(&at);
+		if (gtk_text_iter_ends_line(&at))
+			return -1;
+	}
+}
+
+/* A flaw of a file is underlined from its column on. */
+static void test_flaws_of_a_file(void)
+{
+	LadderSideFile *file = ladder_side_file_make("/tmp/x/list.scn", document);
+	LadderFileView *shown = LADDER_FILE_VIEW(g_object_ref_sink(ladder_file_view_new(file, NULL)));
+	GtkTextBuffer *text = ladder_side_file_buffer(file);
+
+	gtk_text_buffer_set_text(text, "  one two\n  Gr\xc3\xb6\xc3\x9f" "e three four\n  five\n  six", -1);
+	ladder_file_view_add_flaw(shown, 1, 7, "two");
+	ladder_file_view_add_flaw(shown, 2, 11, "three");
+	ladder_file_view_add_flaw(shown, 3, 0, "the whole line");
+	CHECK(underline_at(text, 0) == 6);
+	CHECK_AS(underline_at(text, 1) == 10, "columns are bytes");
+	CHECK_AS(underline_at(text, 2) == 2, "without a column: behind the blanks");
+	CHECK(underline_at(text, 3) == -1);
+	ladder_file_view_clear_flaws(shown);
+	CHECK(underline_at(text, 0) == -1 && underline_at(text, 1) == -1);
+	g_object_unref(shown);
+	g_object_unref(file);
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -805,6 +845,7 @@ int main(void)
 	test_chart_results();
 	test_statement_values();
 	test_first_place(window);
+	test_flaws_of_a_file();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
