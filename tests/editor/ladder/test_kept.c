@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-#define RUNGS 300
+#define RUNGS 4000 /* more than are laid out while the window opens */
 
 /* Rungs whose comment has three lines, which a guess does not know. */
 static char *sample(void)
@@ -63,8 +63,8 @@ int main(void)
 	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_box_append(GTK_BOX(gtk_window_get_child(GTK_WINDOW(window))), scroller);
 	down = gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller));
-	WAIT(gtk_adjustment_get_page_size(down) > 300 && gtk_adjustment_get_upper(down) > 5000);
-	gtk_adjustment_set_value(down, 12000);
+	WAIT(gtk_adjustment_get_page_size(down) > 300 && gtk_adjustment_get_upper(down) > 250000);
+	gtk_adjustment_set_value(down, 240000);
 	strips_lay_out(LADDER_CANVAS(view), gtk_adjustment_get_page_size(down));
 	rung = strips_at(view, (float)top_of(view));
 	above = begins_above(view, rung);
