@@ -10,6 +10,7 @@
 #define MARGIN     24  /* px beside the text, at least                          */
 #define DEEPER     24  /* px for each level of lists                            */
 #define HANG       20  /* px from the mark of an item to its text               */
+#define PRE_HANGS  24  /* px of the second line of code that is too long          */
 #define LINK "link"    /* data of a tag                                         */
 
 static GtkTextBuffer *buffer_of(const struct manual_text *text)
@@ -36,7 +37,7 @@ static void make_tags(GtkTextBuffer *buffer)
 	gtk_text_buffer_create_tag(buffer, "emphasis", "style", PANGO_STYLE_ITALIC, NULL);
 	gtk_text_buffer_create_tag(buffer, "code", "family", "monospace", NULL);
 	gtk_text_buffer_create_tag(buffer, "pre", "family", "monospace", "wrap-mode",
-				   GTK_WRAP_NONE, NULL);
+				   GTK_WRAP_WORD_CHAR, "indent", -PRE_HANGS, NULL);
 }
 
 /* As the theme has them now. */

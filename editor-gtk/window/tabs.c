@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/gtk48/tab_seen.h"
+#include "editor-gtk/kit/gtk48/tab_title.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/compare_view.h"
@@ -920,6 +921,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
 	tab_home_make(core->front->tab_bar);
 	tab_seen_keep(core->front->tab_bar);
+	tab_titles_mend(core->front->tab_bar);
 	core_on_press(GTK_WIDGET(core->front->tab_bar), G_CALLBACK(tab_pressed), tabs);
 	ladder_document_set_cursor(core->document, cursor_now, tabs);
 	core_connect(core, core->document, "file-opened", G_CALLBACK(file_opened), tabs, 0);
