@@ -581,7 +581,7 @@ TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_different
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
-$(addprefix $(BUILD)/,unit/trial/tests unit/scan/tests tests/editor/live/tests tests/editor/sim/tests): $(RANDOM_O)
+$(addprefix $(BUILD)/,unit/trial/tests unit/scan/tests tests/editor/draw/tests tests/editor/live/tests tests/editor/sim/tests): $(RANDOM_O)
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)

@@ -521,26 +521,22 @@ static void draw_heading(const struct pen *pen)
 	g_free(heading.comment);
 }
 
-static void draw_ground(const struct pen *pen)
+static void draw_ground(const struct pen *pen, float width, float height)
 {
-	const struct rung_layout *layout = pen->layout;
 	unsigned int state = pen->scene->state;
-	float width = rung_layout_width(layout);
 
 	if (!(state & (RUNG_NO_GUTTER | RUNG_ON_GUTTER)))
-		picture_fill(pen->nib.picture, TOKEN_GUTTER, 1, 0, 0, RUNG_GUTTER,
-			     layout->height);
+		picture_fill(pen->nib.picture, TOKEN_GUTTER, 1, 0, 0, RUNG_GUTTER, height);
 	if (state & RUNG_SELECTED)
-		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash, 0, 0, width,
-			     layout->height);
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash, 0, 0, width, height);
 	if (state & RUNG_ADDED)
-		picture_fill(pen->nib.picture, TOKEN_POWER, 0.10f, 0, 0, width, layout->height);
+		picture_fill(pen->nib.picture, TOKEN_POWER, 0.10f, 0, 0, width, height);
 	if (state & RUNG_REMOVED)
-		picture_fill(pen->nib.picture, TOKEN_ERROR, 0.10f, 0, 0, width, layout->height);
+		picture_fill(pen->nib.picture, TOKEN_ERROR, 0.10f, 0, 0, width, height);
 	if (state & RUNG_CURRENT)
-		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, 0, 2, 3, layout->height - 4);
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, 0, 2, 3, height - 4);
 	if (!(state & RUNG_NO_GUTTER))
-		picture_fill(pen->nib.picture, TOKEN_LINE, 1, 0, layout->height - 1, width, 1);
+		picture_fill(pen->nib.picture, TOKEN_LINE, 1, 0, height - 1, width, 1);
 }
 
 #define MISSING_ROOM 31 /* from the right end to the note, left of the rail       */
@@ -870,42 +866,200 @@ static void draw_marks(const struct pen *pen)
 
 /* ---- all of a rung ---- */
 
-void grid_draw(const struct grid_scene *scene, struct picture *picture)
+static struct pen pen_of(const struct grid_scene *scene, struct picture *picture)
 {
-	struct grid_scene still = *scene;
-	struct pen pen = { .scene = &still, .drafting = scene->drafting,
+	struct pen pen = { .scene = scene, .drafting = scene->drafting,
 			   .layout = scene->layout, .rung = scene->layout->rung,
 			   .nib = { picture, scene->theme, scene->drafting->lettering,
 				    scene->layout->rung->off ? TOKEN_COMMENT : TOKEN_INK } };
 
-	if (pen.rung->off) /* it is not scanned */
-		still.live = NULL;
 	find_power(&pen);
-	draw_ground(&pen);
-	draw_grounds(&pen);
-	draw_found(&pen, false);
-	draw_found(&pen, true);
-	draw_links(&pen);
-	draw_trails(&pen);
-	for (int row = 0; row < pen.rung->rows; row++)
-		for (int col = 0; col < pen.rung->cols; col++)
-			draw_element(&pen, row, col);
-	draw_rails(&pen);
-	draw_heading(&pen);
-	draw_number(&pen);
-	draw_marks(&pen);
+	return pen;
+}
+
+/* All but the ground. */
+static void draw_rung(const struct pen *pen)
+{
+	draw_grounds(pen);
+	draw_found(pen, false);
+	draw_found(pen, true);
+	draw_links(pen);
+	draw_trails(pen);
+	for (int row = 0; row < pen->rung->rows; row++)
+		for (int col = 0; col < pen->rung->cols; col++)
+			draw_element(pen, row, col);
+	draw_rails(pen);
+	draw_heading(pen);
+	draw_number(pen);
+	draw_marks(pen);
+}
+
+/* A rung that is off is not scanned. */
+static struct grid_scene scene_to_draw(const struct grid_scene *scene)
+{
+	struct grid_scene still = *scene;
+
+	if (still.layout->rung->off)
+		still.live = NULL;
+	return still;
+}
+
+void grid_draw(const struct grid_scene *scene, struct picture *picture)
+{
+	const struct grid_scene still = scene_to_draw(scene);
+	struct pen pen = pen_of(&still, picture);
+
+	draw_ground(&pen, rung_layout_width(pen.layout), pen.layout->height);
+	draw_rung(&pen);
 	g_free(pen.net_live);
+}
+
+/* ---- a folded rung: the pieces of its drawing, and what stands between them ---- */
+
+#define ARROW     12  /* px of the end of a cut wire                            */
+#define HEAD      5   /* px of its tip                                          */
+#define PART_LINE 14  /* baseline of "2/3" at a later line                      */
+
+/* The wire of a row at the end of a line. */
+static struct wire cut_wire(const struct pen *pen, int line, int row)
+{
+	const int behind = pen->scene->fold->line[line].last;
+	const int col = rung_layout_col(pen->layout, row, behind);
+
+	if (col >= 0)
+		return wire_of(pen, net_of(pen, row, col));
+	if (pen->layout->row[row].output >= 0)
+		return wire_of(pen, net_of(pen, row, pen->layout->row[row].output));
+	return wire_of(pen, pen->layout->row[row].trail < 0 ? 0 : live_of(pen, row, pen->layout->row[row].trail));
+}
+
+/* An arrow from @x to the right; @number is at its end without a wire. */
+static void draw_arrow(const struct pen *pen, struct wire wire, int number, float x, float y, bool ends)
+{
+	const float to = x + ARROW, tip = to - HEAD;
+	char text[16];
+
+	g_snprintf(text, sizeof(text), "%d", number);
+	const struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1, 0);
+	put_line(pen, wire, x, y, to, y);
+	picture_line(pen->nib.picture, wire.token, STROKE_SOLID, pen->nib.theme->idle_width, tip, y - HEAD, to, y);
+	picture_line(pen->nib.picture, wire.token, STROKE_SOLID, pen->nib.theme->idle_width, tip, y + HEAD, to, y);
+	picture_text(pen->nib.picture, pen->nib.ink, LETTER_PIN, fits, ends ? to + 4 : x - 4 - fits.width, y + 4);
+}
+
+/* Each wire that is cut between two lines has the same number at both ends. */
+static int draw_arrows(const struct pen *pen, int line, int number)
+{
+	const struct rung_fold *fold = pen->scene->fold;
+	const struct rung_fold_line *above = &fold->line[line], *below = above + 1;
+
+	for (int row = 0; row < pen->rung->rows; row++) {
+		const float down = pen->layout->row[row].wire - fold->top;
+		struct wire wire;
+
+		if (!rung_fold_goes_on(fold, pen->layout, line, row))
+			continue;
+		wire = cut_wire(pen, line, row);
+		draw_arrow(pen, wire, ++number, above->to - above->from + above->x, above->y + down, true);
+		draw_arrow(pen, wire, number, below->x - ARROW, below->y + down, false);
+	}
+	return number;
+}
+
+static void draw_part(const struct pen *pen, int line)
+{
+	const struct rung_fold *fold = pen->scene->fold;
+	char text[32];
+
+	g_snprintf(text, sizeof(text), "%d/%d", line + 1, fold->lines);
+	put_text(pen, TOKEN_COMMENT, LETTER_PIN,
+		 lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1, 0), RUNG_GUTTER / 2.0f,
+		 fold->line[line].y + PART_LINE);
+}
+
+static void append(GtkSnapshot *snapshot, GskRenderNode *node)
+{
+	if (node)
+		gtk_snapshot_append_node(snapshot, node);
+}
+
+/* What a line shows of the drawing of the whole rung. */
+static void append_line(GtkSnapshot *snapshot, const struct pen *pen, GskRenderNode *whole, int number)
+{
+	const struct rung_fold *fold = pen->scene->fold;
+	const struct rung_fold_line *line = &fold->line[number];
+	const bool shows_end = number + 1 == fold->lines && line->rows == pen->layout->rows;
+	const float bottom = shows_end ? pen->layout->height : rung_fold_bottom(fold, pen->layout, number);
+
+	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(line->x, line->y, line->to - line->from,
+							     bottom - fold->top));
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(line->x - line->from, line->y - fold->top));
+	append(snapshot, whole);
+	gtk_snapshot_restore(snapshot);
+	gtk_snapshot_pop(snapshot);
+}
+
+static GskRenderNode *node_of(const struct pen *pen)
+{
+	return picture_node(pen->nib.picture, pen->scene->theme, pen->drafting->lettering);
+}
+
+/* The ground, and the ends of the wires that are cut. */
+static GskRenderNode *node_between(struct pen pen, const struct grid_scene *scene)
+{
+	const struct rung_fold *fold = scene->fold;
+	struct picture picture;
+	GskRenderNode *node;
+	int number = 0;
+
+	picture_init(&picture);
+	picture.scale = scene->scale;
+	pen.nib.picture = &picture;
+	draw_ground(&pen, RUNG_LEFT + fold->width + RUNG_AFTER, fold->height);
+	for (int line = 0; line < fold->lines; line++) {
+		if (line > 0)
+			draw_part(&pen, line);
+		if (line + 1 < fold->lines)
+			number = draw_arrows(&pen, line, number);
+	}
+	node = node_of(&pen);
+	picture_clear(&picture);
+	return node;
+}
+
+static GskRenderNode *folded_node(const struct pen *pen, const struct grid_scene *scene)
+{
+	GskRenderNode *whole = node_of(pen), *between = node_between(*pen, scene);
+	const float width = RUNG_LEFT + scene->fold->width + RUNG_AFTER;
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+
+	append(snapshot, between);
+	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(0, 0, width, scene->fold->top));
+	append(snapshot, whole);
+	gtk_snapshot_pop(snapshot);
+	for (int line = 0; line < scene->fold->lines; line++)
+		append_line(snapshot, pen, whole, line);
+	g_clear_pointer(&whole, gsk_render_node_unref);
+	g_clear_pointer(&between, gsk_render_node_unref);
+	return gtk_snapshot_free_to_node(snapshot);
 }
 
 GskRenderNode *grid_draw_node(const struct grid_scene *scene)
 {
+	const struct grid_scene still = scene_to_draw(scene);
 	struct picture picture;
+	struct pen pen;
+	GskRenderNode *node;
 
 	picture_init(&picture);
 	picture.scale = scene->scale;
-	grid_draw(scene, &picture);
-	GskRenderNode *node = picture_node(&picture, scene->theme,
-					   scene->drafting->lettering);
+	pen = pen_of(&still, &picture);
+	if (!scene->fold)
+		draw_ground(&pen, rung_layout_width(pen.layout), pen.layout->height);
+	draw_rung(&pen);
+	node = scene->fold ? folded_node(&pen, &still) : node_of(&pen);
+	g_free(pen.net_live);
 	picture_clear(&picture);
 	return node;
 }

@@ -11,7 +11,7 @@
 #define EDITOR_GRID_DRAW_H
 
 #include "editor-gtk/kit/picture.h"
-#include "editor-gtk/draw/rung_layout.h"
+#include "editor-gtk/draw/rung_fold.h"
 
 #include "engine/base/diag.h"
 
@@ -72,6 +72,7 @@ enum rung_state {
 struct grid_scene {
 	const struct drafting *drafting;
 	const struct rung_layout *layout;
+	const struct rung_fold *fold;  /* of the layout; NULL: it is not folded    */
 	const struct theme *theme;     /* weights now, colours when it is painted */
 	const struct grid_live *live;  /* NULL: not running                       */
 	const struct grid_mark *mark;
@@ -91,7 +92,7 @@ struct grid_scene {
 
 /** grid_draw - the strokes of a rung, added to @picture at its place. */
 void grid_draw(const struct grid_scene *scene, struct picture *picture);
-/** grid_draw_node - the rung as one render node. Owns: the caller,
+/** grid_draw_node - the rung as one render node, folded if the scene has a fold. Owns: the caller,
  * gsk_render_node_unref. */
 GskRenderNode *grid_draw_node(const struct grid_scene *scene);
 

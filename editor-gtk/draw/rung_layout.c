@@ -126,7 +126,7 @@ static void measure_columns(const struct drafting *drafting, struct rung_layout 
 	const struct rung *rung = layout->rung;
 
 	for (int d = 0; d < layout->columns; d++)
-		layout->column_need[d] = RUNG_TIGHT_WIDTH;
+		layout->column_need[d] = drafting->folds ? RUNG_BLANK_WIDTH : RUNG_TIGHT_WIDTH;
 	for (int row = 0; row < rung->rows; row++)
 		for (int col = 0; col < rung->cols; col++) {
 			int d = rung_layout_column(layout, row, col);
@@ -136,8 +136,9 @@ static void measure_columns(const struct drafting *drafting, struct rung_layout 
 			    d >= layout->columns)
 				continue;
 			need = element_width(drafting, rung, row, col);
-			if (need > layout->column_need[d])
-				layout->column_need[d] = need;
+			if (need > 0)
+				layout->column_need[d] = MAX(layout->column_need[d],
+							     MAX(need, RUNG_TIGHT_WIDTH));
 		}
 	layout->natural = layout->tight = 0;
 	for (int d = 0; d < layout->columns; d++) {
@@ -262,18 +263,44 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 	g_free(heading.comment);
 }
 
-/* The right rail is @width from the left one. @spread: factor of the width of all columns. */
-static void place_columns(struct rung_layout *layout, float width, float spread)
+/* Is there nothing but wire in a column? */
+static bool is_blank(const struct rung_layout *layout, int column)
 {
-	const float spare = layout->natural - layout->tight;
-	const float part = spare > 0 ? MIN((width - layout->tight) / spare, 1) : 1;
+	return layout->column_need[column] <= RUNG_BLANK_WIDTH;
+}
+
+/* What a column has more if it is as wide as usual. */
+static float spare_of(const struct rung_layout *layout, int column)
+{
+	return MAX(RUNG_CELL_WIDTH - layout->column_need[column], 0);
+}
+
+/* Columns become narrower where there is no room: first those where there is nothing. */
+struct shrink { float blank, used; /* 0 … 1 of what they have more              */ };
+
+static struct shrink shrink_to(const struct rung_layout *layout, float width)
+{
+	const float lacks = MAX(layout->natural - width, 0);
+	float blank = 0, used = 0;
+
+	for (int d = 0; d < layout->columns; d++)
+		*(is_blank(layout, d) ? &blank : &used) += spare_of(layout, d);
+	return (struct shrink){
+		.blank = lacks < blank ? 1 - lacks / blank : lacks == 0,
+		.used = lacks <= blank || used <= 0 ? 1 : MAX(1 - (lacks - blank) / used, 0),
+	};
+}
+
+/* The right rail is @width from the left one. @spread: factor of the width of all columns. */
+static void place_columns(struct rung_layout *layout, float width, struct shrink shrink, float spread)
+{
 	int last = layout->columns - 1;
 	float x = RUNG_LEFT;
 
 	layout->right = RUNG_LEFT + width;
 	for (int d = 0; d <= last; d++)
-		layout->column_width[d] = spread * (layout->column_need[d] + part *
-			(MAX(layout->column_need[d], RUNG_CELL_WIDTH) - layout->column_need[d]));
+		layout->column_width[d] = spread * (layout->column_need[d] + spare_of(layout, d) *
+			(is_blank(layout, d) ? shrink.blank : shrink.used));
 	for (int d = 0; d < last; d++) {
 		layout->column_x[d] = x;
 		x += layout->column_width[d];
@@ -319,14 +346,24 @@ void rung_layout_free(struct rung_layout *layout)
 
 void rung_layout_stretch(struct rung_layout *layout, float width)
 {
-	place_columns(layout, MAX(width, layout->natural), 1);
+	place_columns(layout, MAX(width, layout->natural), (struct shrink){ 1, 1 }, 1);
 }
 
 void rung_layout_fit(struct rung_layout *layout, float width)
 {
 	const float usual = MAX(layout->natural, RUNG_WIDE / RUNG_SPREAD);
 
-	place_columns(layout, MAX(width, layout->tight), MAX(width / usual, 1));
+	width = MAX(width, layout->tight);
+	place_columns(layout, width, shrink_to(layout, width), MAX(width / usual, 1));
+}
+
+void rung_layout_pack(struct rung_layout *layout, float width)
+{
+	float packed = 0;
+
+	for (int d = 0; d < layout->columns; d++)
+		packed += layout->column_need[d] + (is_blank(layout, d) ? 0 : spare_of(layout, d));
+	place_columns(layout, MAX(width, packed), (struct shrink){ 0, 1 }, 1);
 }
 
 float rung_layout_width(const struct rung_layout *layout)
@@ -466,8 +503,7 @@ static bool hits_pin(const struct drafting *drafting, const struct rung_layout *
 	return false;
 }
 
-/* Does the cell have an element or a wire? */
-static bool goes_on(const struct rung_layout *layout, int row, int column)
+bool rung_layout_goes_on(const struct rung_layout *layout, int row, int column)
 {
 	const int col = rung_layout_col(layout, row, column);
 
@@ -492,7 +528,7 @@ static bool hits_link(const struct rung_layout *layout, struct rung_hit *hit, fl
 		    fabsf(rung_layout_bar(layout, below, col + 1) - x) <= REACH) {
 			const int column = rung_layout_column(layout, below, col);
 
-			if (meets && goes_on(layout, hit->row, column + 1))
+			if (meets && rung_layout_goes_on(layout, hit->row, column + 1))
 				hit->column = column + 1;
 			if (meets)
 				return false;

@@ -23,6 +23,7 @@
 #define RUNG_AFTER       24     /* behind the right rail                        */
 #define RUNG_CELL_WIDTH  98
 #define RUNG_TIGHT_WIDTH 66     /* of a cell where there is no room             */
+#define RUNG_BLANK_WIDTH 12     /* the same where nothing stands, on a sheet that folds */
 #define RUNG_CELL_HEIGHT 84
 #define RUNG_WIRE        46     /* of a row: from its top to its wire           */
 #define RUNG_HALF        12     /* half the height of a contact                 */
@@ -44,6 +45,7 @@ struct drafting {
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
 	float width;       /* px, least distance of the rails; 0: natural       */
 	float most;        /* px of a line above a rung; 0: from rail to rail    */
+	bool folds;        /* rungs that are too wide are folded (rung_fold.h)    */
 };
 
 struct rung_row {
@@ -90,6 +92,9 @@ void rung_layout_stretch(struct rung_layout *layout, float width);
 /** rung_layout_fit - the same, but where there is less room than the natural distance, columns become
  * narrower, down to what their names need; on a page wider than RUNG_WIDE / RUNG_SPREAD they become wider. */
 void rung_layout_fit(struct rung_layout *layout, float width);
+/** rung_layout_pack - columns have their usual width, or the least one where nothing stands; the right rail is
+ * @width from the left one, or behind them if that is more. */
+void rung_layout_pack(struct rung_layout *layout, float width);
 /** rung_layout_width - of the whole strip, with gutter and margin. */
 float rung_layout_width(const struct rung_layout *layout);
 
@@ -100,6 +105,8 @@ int rung_layout_column(const struct rung_layout *layout, int row, int col);
 int rung_layout_col(const struct rung_layout *layout, int row, int column);
 /** rung_layout_wired - is (row, column) on a wire that leads on to an output or the rail? */
 bool rung_layout_wired(const struct rung_layout *layout, int row, int column);
+/** rung_layout_goes_on - does (row, column) have an element or a wire? */
+bool rung_layout_goes_on(const struct rung_layout *layout, int row, int column);
 /** rung_layout_bar - x of bar @bar (0 … cols) of the rung. */
 float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
 

@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
+#include "editor-gtk/kit/settings.h"
+
 #include <string.h>
 
 G_DEFINE_FINAL_TYPE(LadderGridView, ladder_grid_view, LADDER_TYPE_CANVAS)
@@ -142,7 +144,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct grid_mark));
 	struct live_place place = { view, rung };
 	struct grid_scene scene = {
-		.drafting = &view->drafting, .layout = strip->layout,
+		.drafting = &view->drafting, .layout = strip->layout, .fold = strip->fold,
 		.theme = canvas_theme(LADDER_CANVAS(view)), .note = live_note, .context = &place,
 		.state = marks_state(view, rung),
 		.scale = (float)(view->canvas->zoom * gtk_widget_get_scale_factor(GTK_WIDGET(view))),
@@ -678,7 +680,8 @@ static void press_on(LadderGridView *view, int rung, const struct rung_hit *hit,
 		  GdkModifierType state)
 {
 	/* Found before the sheet scrolls to the cursor. */
-	const graphene_point_t at = sheet_where(view, view->press.x, view->press.y);
+	int here;
+	const graphene_point_t at = sheet_where(view, view->press.x, view->press.y, &here);
 
 	if (hit_is_cell(hit)) {
 		cursor_set(view, (struct grid_cursor){ rung, hit->row, hit->column },
@@ -1031,6 +1034,28 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->state_changed = state_changed;
 }
 
+/* ---- folding ---- */
+
+bool ladder_grid_view_folds(LadderGridView *view)
+{
+	return view->drafting.folds;
+}
+
+void ladder_grid_view_set_folds(LadderGridView *view, bool folds)
+{
+	if (folds == view->drafting.folds)
+		return;
+	view->drafting.folds = folds;
+	wire_forget(view);
+	strips_reset(view);
+	cursor_reveal_head(view);
+}
+
+static void folds_chosen(LadderGridView *view)
+{
+	ladder_grid_view_set_folds(view, settings_flag("fold-rungs", FALSE));
+}
+
 static void ladder_grid_view_init(LadderGridView *view)
 {
 	view->canvas = canvas_state(LADDER_CANVAS(view));
@@ -1043,6 +1068,9 @@ static void ladder_grid_view_init(LadderGridView *view)
 	act_init(view);
 	drag_init(view);
 	wire_init(view);
+	if (settings_get())
+		g_signal_connect_object(settings_get(), "changed::fold-rungs", G_CALLBACK(folds_chosen), view,
+					G_CONNECT_SWAPPED);
 }
 
 GtkWidget *ladder_grid_view_new(LadderDocument *document, int pou)

@@ -55,6 +55,9 @@ void ladder_grid_view_put(LadderGridView *view, enum word word);
 
 void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show);
 enum drafting_show ladder_grid_view_show(LadderGridView *view);
+/** ladder_grid_view_set_folds - are rungs that are wider than the sheet shown in lines below each other? */
+void ladder_grid_view_set_folds(LadderGridView *view, bool folds);
+bool ladder_grid_view_folds(LadderGridView *view);
 /** ladder_grid_view_set_found - marks the hits of a search in these rungs. */
 void ladder_grid_view_set_found(LadderGridView *view, const struct find_seen *seen);
 

@@ -353,7 +353,6 @@ bool act_is_click(LadderGridView *view, float x, float y)
 		return false;
 	strip = strips_get(view, view->cursor.at.rung);
 	layout = strip->layout;
-	y -= strip->y;
 	middle = layout->column_x[view->cursor.at.col] +
 		 layout->column_width[view->cursor.at.col] / 2;
 	wire = layout->row[view->cursor.at.row].wire;

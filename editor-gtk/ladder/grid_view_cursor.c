@@ -80,6 +80,9 @@ void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
 		canvas_close_entry(LADDER_CANVAS(view)); /* it belongs to the old rung */
 	view->cursor.at = to;
 	cursor_fit(view);
+	if (from != view->cursor.at.rung)
+		strip_follow(view, from);
+	strip_follow(view, view->cursor.at.rung);
 	view->cursor.selecting = extend;
 	redraw_moved(view, from, several);
 	cursor_remember(view);
@@ -208,30 +211,23 @@ void cursor_reveal_head(LadderGridView *view)
 	canvas_reveal(LADDER_CANVAS(view), box, aside(view), MARGIN);
 }
 
-graphene_point_t sheet_where(LadderGridView *view, double x, double y)
+graphene_point_t sheet_where(LadderGridView *view, double x, double y, int *rung)
 {
-	graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
-	const int rung = strips_at(view, at.y);
-	const struct strip *strip = rung >= 0 ? strips_get(view, rung) : NULL;
-	const float by = strip ? strips_pinned(view, strip) / (float)view->canvas->zoom : 0;
+	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
 
-	if (by > 0 && at.x + by >= strip->layout->column_x[strip->layout->columns - 1])
-		at.x += by;
-	return at;
+	*rung = strips_at(view, at.y);
+	return *rung < 0 ? at : strip_laid(view, strips_get(view, *rung), at);
 }
 
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)
 {
-	const graphene_point_t at = sheet_where(view, x, y);
-	const int rung = strips_at(view, at.y);
-	struct strip *strip;
+	int rung;
+	const graphene_point_t at = sheet_where(view, x, y, &rung);
 
-	if (rung < 0)
+	if (rung < 0 || canvas_point(LADDER_CANVAS(view), x, y).y >
+			strip_of(view, rung)->y + strip_of(view, rung)->height)
 		return -1;
-	strip = strips_get(view, rung);
-	if (at.y > strip->y + strip->height)
-		return -1;
-	*hit = rung_layout_hit(&view->drafting, strip->layout, at.x, at.y - strip->y);
+	*hit = rung_layout_hit(&view->drafting, strip_of(view, rung)->layout, at.x, at.y);
 	return rung;
 }
 
@@ -243,25 +239,86 @@ bool hit_is_cell(const struct rung_hit *hit)
 
 /* ---- keys ---- */
 
+/* The lines of a folded rung; NULL: it has one. */
+static const struct rung_fold *fold_of(LadderGridView *view, int rung)
+{
+	return rung >= 0 && rung < (int)view->strips->len ? strips_get(view, rung)->fold : NULL;
+}
+
+static float middle_of(LadderGridView *view, struct grid_cursor at)
+{
+	const graphene_rect_t box = strip_box(view, strips_get(view, at.rung), at.row, at.col);
+
+	return box.origin.x + box.size.width / 2;
+}
+
+static int line_of(LadderGridView *view, struct grid_cursor at)
+{
+	const struct rung_fold *fold = fold_of(view, at.rung);
+	const struct rung_layout *layout = strips_get(view, at.rung)->layout;
+
+	return fold ? rung_fold_line_at(fold, layout->column_x[at.col] + layout->column_width[at.col] / 2) : 0;
+}
+
+/* The cell of a line that is nearest to @x: in its first row, or in its last one. */
+static struct grid_cursor in_line(LadderGridView *view, int rung, int line, float x, bool in_last)
+{
+	const struct rung_fold_line *shown = &fold_of(view, rung)->line[line];
+	struct grid_cursor best = { rung, in_last ? shown->rows - 1 : 0, shown->first }, at = best;
+
+	for (at.col = shown->first; at.col < shown->last; at.col++)
+		if (ABS(middle_of(view, at) - x) < ABS(middle_of(view, best) - x))
+			best = at;
+	return best;
+}
+
+/* The cell of a rung that is not folded, below or above one that is. */
+static struct grid_cursor in_rung(LadderGridView *view, int rung, int row, float x)
+{
+	struct grid_cursor best = { rung, row, 0 }, at = best;
+
+	for (at.col = 0; at.col < view->columns; at.col++)
+		if (ABS(middle_of(view, at) - x) < ABS(middle_of(view, best) - x))
+			best = at;
+	return best;
+}
+
+/* From @from to another rung: the same column, or the nearest one if one of the rungs is folded. */
+static struct grid_cursor to_rung(LadderGridView *view, struct grid_cursor from, int rung, bool in_last)
+{
+	const int row = in_last ? rows_of(view, rung) - 1 : 0;
+	const struct rung_fold *fold = fold_of(view, rung);
+
+	if (fold)
+		return in_line(view, rung, in_last ? fold->lines - 1 : 0, middle_of(view, from), in_last);
+	return fold_of(view, from.rung) ? in_rung(view, rung, row, middle_of(view, from)) :
+					  (struct grid_cursor){ rung, row, from.col };
+}
+
 static struct grid_cursor up(LadderGridView *view, struct grid_cursor to)
 {
-	if (to.row > 0) {
+	const int line = line_of(view, to);
+
+	if (to.row > 0)
 		to.row--;
-	} else if (to.rung > 0) {
-		to.rung--;
-		to.row = rows_of(view, to.rung) - 1;
-	}
+	else if (line > 0)
+		to = in_line(view, to.rung, line - 1, middle_of(view, to), true);
+	else if (to.rung > 0)
+		to = to_rung(view, to, to.rung - 1, true);
 	return to;
 }
 
 static struct grid_cursor down(LadderGridView *view, struct grid_cursor to)
 {
-	if (to.row + 1 < rows_of(view, to.rung)) {
+	const struct rung_fold *fold = fold_of(view, to.rung);
+	const int line = line_of(view, to);
+
+	if (to.row + 1 < (fold ? fold->line[line].rows : rows_of(view, to.rung)))
 		to.row++;
-	} else if (to.rung + 1 < sheet_rungs(view)) {
-		to.rung++;
-		to.row = 0;
-	}
+	else if (fold && line + 1 < fold->lines)
+		to = in_line(view, to.rung, line + 1, middle_of(view, to), false);
+	else if (to.rung + 1 < sheet_rungs(view))
+		to = to_rung(view, to, to.rung + 1, false);
 	return to;
 }
 

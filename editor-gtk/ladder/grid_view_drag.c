@@ -381,13 +381,11 @@ static const struct ladder_drag *dragged(GtkDropTarget *target)
 }
 
 /* The lower part of the cell of an element means the row below. */
-static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit, double y)
+static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit, double x, double y)
 {
-	const struct strip *strip = strips_get(view, rung);
-	const struct rung_row *row = &strip->layout->row[hit->row];
-	const float at = canvas_point(LADDER_CANVAS(view), 0, y).y;
+	int here;
 
-	return at > strip->y + row->wire + DROP_BELOW;
+	return sheet_where(view, x, y, &here).y > strips_get(view, rung)->layout->row[hit->row].wire + DROP_BELOW;
 }
 
 /* The target cell: below an element the free cell of a new branch; below the last row a new
@@ -400,7 +398,7 @@ static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hi
 	const bool inside = rung >= 0 && hit_is_cell(hit);
 	enum grid_drop how;
 
-	if (inside && !is_below(view, rung, hit, y))
+	if (inside && !is_below(view, rung, hit, x, y))
 		return rung;
 	if (!inside) {
 		const int above = sheet_point(view, x, y - shift, hit);

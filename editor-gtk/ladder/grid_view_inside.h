@@ -15,6 +15,7 @@
 /* A rung of the sheet. Its height is a guess until it is laid out. */
 struct strip {
 	struct rung_layout *layout; /* NULL: not yet                           */
+	struct rung_fold *fold;     /* NULL: it has one line                   */
 	GskRenderNode *node;        /* NULL: to be drawn                       */
 	float y, height;            /* px at 100 %                             */
 	bool measured;              /* FALSE: the height is a guess            */
@@ -148,8 +149,14 @@ float strips_pinned(LadderGridView *view, const struct strip *strip);
 /** strips_pin_edge - px at 100 %, up to where elements of a rung with pinned outputs are shown: none is
  * cut. */
 float strips_pin_edge(LadderGridView *view, const struct strip *strip);
-/** strip_box - a cell as shown, px at 100 %: an output where it is pinned. */
+/** strip_shown - where a point of the layout is shown, px at 100 %: where it is folded or pinned. */
+graphene_point_t strip_shown(LadderGridView *view, const struct strip *strip, float x, float y);
+/** strip_laid - the opposite: what of the layout is shown at a point. */
+graphene_point_t strip_laid(LadderGridView *view, const struct strip *strip, graphene_point_t shown);
+/** strip_box - a cell as shown, px at 100 %: where it is folded or pinned. */
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column);
+/** strip_follow - after the cursor, a drag or a wire came or went: a folded rung shows the rows that they need. */
+void strip_follow(LadderGridView *view, int rung);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
 /** strip_forget_live - after the places of its values changed. */
@@ -191,8 +198,9 @@ bool cursor_selects(LadderGridView *view, int rung, int row, int col);
  * needed. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
 bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state);
-/** sheet_where - px at 100 % of a point, px of the widget, as shown: outputs may be pinned. */
-graphene_point_t sheet_where(LadderGridView *view, double x, double y);
+/** sheet_where - the point of the layout that is shown at a point, px of the widget. @rung: gets its rung; -1:
+ * none. y is from the top of the rung's strip. */
+graphene_point_t sheet_where(LadderGridView *view, double x, double y, int *rung);
 /** sheet_point - the rung at a point, px of the widget; -1: none. @hit: the part of it. */
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit);
 /** hit_is_cell - is it a cell or a part of one? */
@@ -224,7 +232,7 @@ const char *live_note(void *place, int row, int column);
 
 /* ---- grid_view_act.c: values of the running program are changed ---- */
 void act_init(LadderGridView *view);
-/** act_is_click - would a click at a point, px of the sheet at 100 %, toggle the contact or
+/** act_is_click - would a click at a point of the layout of its rung toggle the contact or
  * coil at the cursor? It must be on its shape or name. */
 bool act_is_click(LadderGridView *view, float x, float y);
 /** act_click - toggles it. */

@@ -8,6 +8,7 @@
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
+#include "editor-gtk/draw/rung_fold.h"
 #include "editor-gtk/kit/settings.h"
 
 #include <math.h>
@@ -102,6 +103,7 @@ static void forget(struct strip *strip)
 {
 	forget_drawing(strip);
 	strip_forget_live(strip);
+	g_clear_pointer(&strip->fold, g_free);
 	g_clear_pointer(&strip->layout, rung_layout_free);
 }
 
@@ -114,6 +116,20 @@ static void guess(LadderGridView *view, int rung)
 	strip->measured = false;
 	if (shown)
 		strip->height = TITLE_GUESS + (float)shown->rows * RUNG_CELL_HEIGHT;
+}
+
+/* A folded rung keeps its height until it is laid out again, because a guess would be far off: a pointer that is
+ * over it must not meet another rung. */
+static void renew(LadderGridView *view, int rung)
+{
+	struct strip *strip = strip_of(view, rung);
+
+	if (!strip->fold) {
+		guess(view, rung);
+		return;
+	}
+	forget(strip);
+	strip->measured = false;
 }
 
 static void stack(LadderGridView *view, int from)
@@ -309,7 +325,7 @@ void strips_renamed(LadderGridView *view, const char *name, const char *address)
 	share_names(view);
 	for (int i = 0; i < (int)view->strips->len; i++)
 		if (names_one(view, i, of, at))
-			guess(view, i);
+			renew(view, i);
 	stack(view, 0);
 	lay_out_later(view);
 }
@@ -322,7 +338,7 @@ void strips_dirty(LadderGridView *view, int rung)
 		strips_reset(view);
 		return;
 	}
-	guess(view, rung);
+	renew(view, rung);
 	stack(view, rung);
 	lay_out_later(view);
 }
@@ -337,6 +353,18 @@ void strips_redraw(LadderGridView *view, int rung)
 
 /* ---- laying out ---- */
 
+/* A rung that is folded, or must be now, is laid out again: its title has another width, too. */
+static void fit_strip(LadderGridView *view, struct strip *strip)
+{
+	if (strip->fold || (view->drafting.folds && strip->layout->tight > view->rail)) {
+		forget(strip);
+		strip->measured = false;
+		return;
+	}
+	rung_layout_fit(strip->layout, view->rail);
+	forget_drawing(strip);
+}
+
 /* All rungs have the same right rail: at the edge of the page, or that of the widest rung. */
 static void widen(LadderGridView *view)
 {
@@ -347,15 +375,63 @@ static void widen(LadderGridView *view)
 	if (rail == view->rail)
 		return;
 	view->rail = rail;
-	for (guint i = 0; i < view->strips->len; i++) {
-		struct strip *strip = strip_of(view, (int)i);
-
-		if (strip->layout) {
-			rung_layout_fit(strip->layout, rail);
-			forget_drawing(strip);
-		}
-	}
+	for (guint i = 0; i < view->strips->len; i++)
+		if (strip_of(view, (int)i)->layout)
+			fit_strip(view, strip_of(view, (int)i));
+	if (view->drafting.folds && !view->idle)
+		view->idle = g_idle_add_full(G_PRIORITY_LOW, lay_out_more, view, NULL);
 	strips_resize_later(view);
+}
+
+/* ---- folding ---- */
+
+/* Shows the rows where the cursor is, where a drag would drop, where a wire may end. */
+static bool place_fold(LadderGridView *view, struct strip *strip, int rung)
+{
+	struct rung_fold_wish wish[3];
+	int wishes = 0;
+
+	if (rung == view->cursor.at.rung)
+		wish[wishes++] = (struct rung_fold_wish){ view->cursor.at.row, view->cursor.at.col };
+	if (rung == view->drop.at.rung)
+		wish[wishes++] = (struct rung_fold_wish){ view->drop.at.row, view->drop.at.col };
+	if (rung == view->wire.rung && view->wire.drawing)
+		wish[wishes++] = (struct rung_fold_wish){ view->wire.rows - 1, -1 };
+	return rung_fold_place(strip->fold, strip->layout, wish, wishes);
+}
+
+void strip_follow(LadderGridView *view, int rung)
+{
+	struct strip *strip = rung >= 0 && rung < (int)view->strips->len ? strip_of(view, rung) : NULL;
+
+	if (!strip || !strip->fold || !place_fold(view, strip, rung))
+		return;
+	strip->height = strip->fold->height;
+	forget_drawing(strip);
+	stack(view, rung);
+	strips_resize_later(view);
+}
+
+/* Lays a rung out. One that is too wide is folded; its title has no more room than the page. */
+static void lay_out(LadderGridView *view, struct strip *strip, int rung, int rows)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+	const int number = view->first + rung + 1;
+	struct drafting narrow = view->drafting;
+	const struct rung_layout *layout = strip->layout = rung_layout_new(&view->drafting, shown, number, rows);
+	const float least = view->drafting.folds ? MIN(layout->tight, rung_fold_room(layout)) : layout->tight;
+
+	view->natural = MAX(view->natural, least);
+	widen(view);
+	if (strip->layout && !(view->drafting.folds && strip->layout->tight > view->rail)) {
+		rung_layout_fit(strip->layout, view->rail);
+		return;
+	}
+	narrow.most = view->rail;
+	rung_layout_free(strip->layout);
+	strip->layout = rung_layout_new(&narrow, shown, number, rows);
+	strip->fold = rung_fold_new(strip->layout, view->rail);
+	place_fold(view, strip, rung);
 }
 
 /* If a rung above the screen grows, the screen keeps showing the same rungs. */
@@ -386,14 +462,10 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		rows = MAX(rows, view->drop.at.row + 1);
 	if (rung == view->wire.rung && view->wire.drawing)
 		rows = MAX(rows, view->wire.rows); /* the wire may end in a new row */
-	strip->layout = rung_layout_new(&view->drafting, shown,
-					view->first + rung + 1, rows);
-	view->natural = MAX(view->natural, strip->layout->tight);
-	widen(view);
-	rung_layout_fit(strip->layout, view->rail);
+	lay_out(view, strip, rung, rows);
 	strip->measured = true;
-	grown = strip->layout->height - strip->height;
-	strip->height = strip->layout->height;
+	grown = (strip->fold ? strip->fold->height : strip->layout->height) - strip->height;
+	strip->height += grown;
 	if (grown != 0) {
 		stack(view, rung);
 		keep_view(view, strip, grown);
@@ -448,7 +520,7 @@ float strips_pinned(LadderGridView *view, const struct strip *strip)
 	const float by = strips_width(view) * (float)view->canvas->zoom - x - page;
 	const struct rung_layout *layout = strip->layout;
 
-	return by > 0 && layout &&
+	return by > 0 && layout && !strip->fold &&
 	       (strips_width(view) - layout->column_x[layout->columns - 1]) *
 	       (float)view->canvas->zoom < page / 2 &&
 	       pin_edge(view, layout, by) * (float)view->canvas->zoom - x > page / 4 ? by : 0;
@@ -459,13 +531,40 @@ float strips_pin_edge(LadderGridView *view, const struct strip *strip)
 	return pin_edge(view, strip->layout, strips_pinned(view, strip));
 }
 
+graphene_point_t strip_shown(LadderGridView *view, const struct strip *strip, float x, float y)
+{
+	graphene_point_t at = { x, y };
+
+	if (strip->fold)
+		at = rung_fold_shown(strip->fold, x, y);
+	else if (x >= strip->layout->column_x[strip->layout->columns - 1])
+		at.x -= strips_pinned(view, strip) / (float)view->canvas->zoom;
+	at.y += strip->y;
+	return at;
+}
+
+graphene_point_t strip_laid(LadderGridView *view, const struct strip *strip, graphene_point_t shown)
+{
+	graphene_point_t at = { shown.x, shown.y - strip->y };
+	float by;
+
+	if (!strip->layout)
+		return at;
+	if (strip->fold)
+		return rung_fold_laid(strip->fold, strip->layout, at.x, at.y);
+	by = strips_pinned(view, strip) / (float)view->canvas->zoom;
+	if (by > 0 && at.x + by >= strip->layout->column_x[strip->layout->columns - 1])
+		at.x += by;
+	return at;
+}
+
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column)
 {
 	graphene_rect_t box = rung_layout_cell(strip->layout, row, column);
+	const float middle = box.size.width / 2;
+	const graphene_point_t at = strip_shown(view, strip, box.origin.x + middle, box.origin.y);
 
-	box.origin.y += strip->y;
-	if (column == strip->layout->columns - 1)
-		box.origin.x -= strips_pinned(view, strip) / (float)view->canvas->zoom;
+	box.origin = GRAPHENE_POINT_INIT(at.x - middle, at.y);
 	return box;
 }
 
@@ -500,6 +599,7 @@ void strips_init(LadderGridView *view)
 {
 	view->strips = g_array_new(FALSE, TRUE, sizeof(struct strip));
 	view->drafting.show = (enum drafting_show)settings_enum("show", SHOW_BOTH);
+	view->drafting.folds = settings_flag("fold-rungs", FALSE);
 	if (settings_get())
 		g_signal_connect_object(settings_get(), "changed::show",
 					G_CALLBACK(show_chosen), view, G_CONNECT_SWAPPED);

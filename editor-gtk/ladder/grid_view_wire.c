@@ -27,18 +27,15 @@ static graphene_point_t place_of(LadderGridView *view, struct grid_end end)
 	const int row = MIN(end.row, layout->rows - 1);
 	const float below = end.row > row ? RUNG_CELL_HEIGHT : 0;
 
-	return canvas_rect(LADDER_CANVAS(view), GRAPHENE_RECT_INIT(
-		rung_layout_end_x(layout, end.bar), strip->y + layout->row[row].wire + below,
-		0, 0)).origin;
+	return canvas_rect(LADDER_CANVAS(view), (graphene_rect_t){
+		.origin = strip_shown(view, strip, rung_layout_end_x(layout, end.bar),
+				      layout->row[row].wire + below) }).origin;
 }
 
-/* A point of the widget as one of the strip of @rung, at 100 %. */
+/* A point of the widget as one of the layout of @rung. */
 static graphene_point_t in_strip(LadderGridView *view, int rung, double x, double y)
 {
-	graphene_point_t at = sheet_where(view, x, y);
-
-	at.y -= strips_get(view, rung)->y;
-	return at;
+	return strip_laid(view, strips_get(view, rung), canvas_point(LADDER_CANVAS(view), x, y));
 }
 
 /* Rung and cell end where a wire can begin; -1: none near. */
@@ -268,6 +265,16 @@ static void draw_legal(LadderGridView *view, const struct brush *brush)
 				       DOT);
 }
 
+/* Are both ends in the same line of a folded rung? */
+static bool is_in_one_line(LadderGridView *view)
+{
+	const struct strip *strip = strips_get(view, view->wire.rung);
+
+	return !strip->fold ||
+	       rung_fold_line_at(strip->fold, rung_layout_end_x(strip->layout, view->wire.from.bar)) ==
+	       rung_fold_line_at(strip->fold, rung_layout_end_x(strip->layout, view->wire.to.bar));
+}
+
 /* Over one corner, or around the elements between its ends. */
 static void draw_way(LadderGridView *view, const struct brush *brush)
 {
@@ -284,10 +291,14 @@ static void draw_way(LadderGridView *view, const struct brush *brush)
 		first = (graphene_point_t){ a.x, a.y + aside };
 		second = (graphene_point_t){ b.x, b.y + aside };
 	}
+	square(brush, b, RING);
+	if (!is_in_one_line(view)) {
+		square(brush, a, RING);
+		return;
+	}
 	stroke(brush, a, first);
 	stroke(brush, first, second);
 	stroke(brush, second, b);
-	square(brush, b, RING);
 }
 
 void wire_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)

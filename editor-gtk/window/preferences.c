@@ -63,6 +63,23 @@ static void add_choice(AdwPreferencesGroup *group, const char *key, const char *
 	g_object_unref(list);
 }
 
+static void add_switch(AdwPreferencesGroup *group, const char *key, gboolean otherwise, const char *title,
+		       const char *subtitle)
+{
+	GtkWidget *row = adw_action_row_new(), *is = gtk_switch_new();
+
+	adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), title);
+	adw_action_row_set_subtitle(ADW_ACTION_ROW(row), subtitle);
+	gtk_widget_set_valign(is, GTK_ALIGN_CENTER);
+	gtk_switch_set_active(GTK_SWITCH(is), settings_flag(key, otherwise));
+	gtk_widget_set_sensitive(row, settings_get() != NULL);
+	if (settings_get())
+		g_settings_bind(settings_get(), key, is, "active", G_SETTINGS_BIND_DEFAULT);
+	adw_action_row_add_suffix(ADW_ACTION_ROW(row), is);
+	adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), is);
+	adw_preferences_group_add(group, row);
+}
+
 static AdwPreferencesGroup *add_group(AdwPreferencesPage *page, const char *title)
 {
 	GtkWidget *group = adw_preferences_group_new();
@@ -90,6 +107,8 @@ static void add_looks(AdwPreferencesPage *page)
 	add_choice(group, "show", _("Above an element"), NULL, show);
 	add_choice(group, "spelling", _("Addresses"),
 		   _("Both forms can be typed; files have the first"), spelling);
+	add_switch(group, "fold-rungs", FALSE, _("Fold long rungs"),
+		   _("A rung that is wider than the sheet goes on below, as on paper"));
 }
 
 static void add_keys(AdwPreferencesPage *page)
@@ -104,20 +123,8 @@ static void add_keys(AdwPreferencesPage *page)
 
 static void add_simulation(AdwPreferencesPage *page)
 {
-	GtkWidget *row = adw_action_row_new(), *runs = gtk_switch_new();
-
-	adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), _("Run at once"));
-	adw_action_row_set_subtitle(ADW_ACTION_ROW(row),
-		_("“Simulate” also runs the program; if off, it stops before the first scan"));
-	gtk_widget_set_valign(runs, GTK_ALIGN_CENTER);
-	gtk_switch_set_active(GTK_SWITCH(runs), settings_flag("simulate-runs", TRUE));
-	gtk_widget_set_sensitive(row, settings_get() != NULL);
-	if (settings_get())
-		g_settings_bind(settings_get(), "simulate-runs", runs, "active",
-				G_SETTINGS_BIND_DEFAULT);
-	adw_action_row_add_suffix(ADW_ACTION_ROW(row), runs);
-	adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), runs);
-	adw_preferences_group_add(add_group(page, _("Simulation")), row);
+	add_switch(add_group(page, _("Simulation")), "simulate-runs", TRUE, _("Run at once"),
+		   _("“Simulate” also runs the program; if off, it stops before the first scan"));
 }
 
 void preferences_show(GtkWindow *window)

@@ -261,6 +261,22 @@ static void do_show_as(LadderWindow *window)
 				    (int)ladder_grid_view_show(sheet));
 }
 
+/* All sheets follow the setting; without settings the one in front does. */
+static void do_fold_rungs(LadderWindow *window)
+{
+	LadderGridView *sheet = front_seen_sheet(&window->front);
+	bool folds;
+
+	if (!sheet)
+		return;
+	folds = !ladder_grid_view_folds(sheet);
+	ladder_grid_view_set_folds(sheet, folds);
+	if (settings_get())
+		g_settings_set_boolean(settings_get(), "fold-rungs", folds);
+	messages_tell(&window->messages, folds ? _("Rungs that are wider than the sheet are folded") :
+		      _("Rungs have one line, however wide they are"));
+}
+
 /* A refusal is shown in place of the text that cannot be made. */
 static void convert(LadderWindow *window, int pou, enum pou_language to)
 {
@@ -528,6 +544,7 @@ static void do_view(LadderWindow *window, enum verb verb)
 	case VERB_address_map: show_addresses(window); break;
 	case VERB_online_device: tabs_show_widget(&window->tabs, "device"); break;
 	case VERB_show_as: do_show_as(window); break;
+	case VERB_fold_rungs: do_fold_rungs(window); break;
 	case VERB_zoom_in: zoom(window, 1.25); break;
 	case VERB_zoom_out: zoom(window, 0.8); break;
 	case VERB_zoom_reset: zoom(window, 0); break;

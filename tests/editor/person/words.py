@@ -193,9 +193,11 @@ def other_keys(screen):
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
     editor.focus_on('Light or dark')
-    for row in 'Contrast', 'Colour of power', 'Above an element', 'Addresses', 'Key scheme':
+    for row in 'Contrast', 'Colour of power', 'Above an element', 'Addresses', 'Fold long rungs':
         editor.keys('Tab')
         editor.focus_on(row)
+    editor.keys('Tab', 'Tab')  # by the switch of that row
+    editor.focus_on('Key scheme')
     editor.keys('Return')
     editor.choose('LDmicro')
     editor.shot('preferences')

@@ -62,7 +62,7 @@ static const struct { enum verb verb; const char *states; } works[] = {
 	{ VERB_convert_fbd, "licsor" }, { VERB_convert_ld, "licsor" }, { VERB_convert_il, "licsor" },
 	{ VERB_convert_st, "licsor" }, { VERB_show_fbd, "licsor" }, { VERB_show_ld, "licsor" },
 	{ VERB_show_il, "licsor" }, { VERB_show_st, "licsor" },
-	{ VERB_address_map, READ }, { VERB_show_as, "lsfor" }, { VERB_zoom_in, "lcsfor" },
+	{ VERB_address_map, READ }, { VERB_show_as, "lsfor" }, { VERB_fold_rungs, "lsfor" }, { VERB_zoom_in, "lcsfor" },
 	{ VERB_zoom_out, "lcsfor" }, { VERB_zoom_reset, "lcsfor" }, { VERB_right, "sfor" },
 };
 

@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""folded - a rung that is wider than the sheet goes on below: keys, pointer, drag, values, search, width and zoom."""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+from screen import urge  # noqa: E402
+
+NAMES = ['Gate%d' % i for i in range(14)]
+PROJECT = '''RUNGBOARD 1
+
+VAR
+%s  Motor AT %%QX0.0 : BOOL;
+  Lamp AT %%QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "All gates are closed"
+  | %s | COIL Motor |
+  | NO Motor ^ |
+RUNG
+  | NO Motor | COIL Lamp |
+END_PROGRAM
+''' % (''.join('  %s AT %%IX%d.%d : BOOL;\n' % (name, i // 8, i % 8) for i, name in enumerate(NAMES)),
+       ' | '.join('NO ' + name for name in NAMES))
+COLUMNS = 'ABCDEFGHIJKLMN'
+
+
+def opened(screen, **env):
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path, **env)
+    editor.to_sheet()
+    editor.keys('alt+z')
+    editor.says('Rungs that are wider than the sheet are folded')
+    inside(editor)
+    return editor, path
+
+
+def gate(editor, name):
+    """The contact of a gate; Gate1 is not Gate10."""
+    def look():
+        return [node for node in editor.elements() if re.match('Rung 1, N[OC], .*\\b%s\\b' % name, node.name)]
+    return until(look, name)[0]
+
+
+def places(editor):
+    """Where the gates and the coil behind them are."""
+    return [editor.place(gate(editor, name)) for name in NAMES] + [editor.place(editor.element('COIL', 'Motor'))]
+
+
+def tops(editor):
+    """The lines, as the upper edges of their cells."""
+    return sorted({y for _, y, _, _ in places(editor)})
+
+
+def inside(editor):
+    """Waits until each element is between the edges of the sheet, in lines from left to right."""
+    def look():
+        left, _, width, _ = editor.place(editor.sheet())
+        boxes = places(editor)
+        return all(left <= x and x + wide <= left + width for x, _, wide, _ in boxes) and \
+            all(y1 > y0 or (y1 == y0 and x1 >= x0 + wide - 1) for (x0, y0, wide, _), (x1, y1, _, _) in zip(boxes, boxes[1:]))
+    until(look, 'all elements on the sheet, in lines')
+
+
+def moves(screen):
+    """the cursor goes across a fold by Left and Right, and to the line below by Down; a click meets what is shown"""
+    editor, _ = opened(screen)
+    assert len(tops(editor)) >= 2, tops(editor)
+    editor.keys('ctrl+Home')
+    for column in COLUMNS:
+        editor.says('Rung 1 · column ' + column)
+        editor.keys('Right')
+    editor.says('Rung 1 · column O')
+    editor.keys('Left', 'Left')
+    import time; time.sleep(1); editor.shot("x4")
+    editor.says('Rung 1 · column M')
+    boxes = places(editor)
+    second = next(i for i, box in enumerate(boxes) if box[1] > boxes[0][1])
+    editor.keys('Home')
+    editor.says('Rung 1 · column A')
+    editor.keys('Down')
+    editor.says('Rung 1 · row 2 · column A')  # the branch
+    editor.keys('Down')
+    editor.says('Rung 1 · column ' + COLUMNS[second])
+    editor.keys('Up')
+    editor.says('Rung 1 · row 2 · column A')
+    editor.keys('End')
+    editor.keys('ctrl+Home', 'Right', 'Right', 'Down', 'Down')
+    nearest = min(range(second, len(NAMES)), key=lambda i: (boxes[i][1] > boxes[second][1], abs(boxes[i][0] - boxes[2][0])))
+    editor.says('Rung 1 · column ' + COLUMNS[nearest])
+    editor.shot('folded')
+    for number, name in reversed(list(enumerate(NAMES))):
+        until(lambda: gate(editor, name), name)
+        x, y, width, height = editor.place(gate(editor, name))
+        _, top, _, high = editor.place(editor.sheet())
+        if top <= y and y + height <= top + high:
+            editor.click(editor.beside(gate(editor, name)))
+            editor.says('Rung 1 · column ' + COLUMNS[number])
+
+
+def edits(screen):
+    """an element is typed at a fold, one is dropped on a later line, one is dragged from line to line; Undo"""
+    editor, path = opened(screen)
+    boxes = places(editor)
+    second = next(i for i, box in enumerate(boxes) if box[1] > boxes[0][1])
+    editor.click(editor.beside(editor.element('Rung 1, NO', NAMES[second])))
+    editor.says('Rung 1 · column ' + COLUMNS[second])
+    editor.keys('slash')
+    editor.element('Rung 1, NC', NAMES[second])
+    x, y = editor.middle(editor.element('Rung 1, NO', NAMES[second + 1]))
+    editor.drag(editor.tile('closed while FALSE'), (x + boxes[0][2] // 2, y))  # on the wire behind it
+    editor.entry('Lamp')
+    editor.element('Rung 1, NC', 'Lamp')
+    inside(editor)
+    saved = ' '.join(editor.save(path).split())
+    assert 'NC %s | NO %s | NC Lamp | NO %s' % tuple(NAMES[second:second + 3]) in saved, saved
+    editor.keys('ctrl+z')
+    until(lambda: not [node for node in editor.elements() if 'NC, Lamp' in node.name], 'the rung without it')
+    # From the second line to the wire behind the first element.
+    x, y = editor.middle(editor.element('Rung 1, NO', NAMES[0]))
+    editor.drag(editor.middle(editor.element('Rung 1, NO', NAMES[second + 1])), (x + boxes[0][2] // 2 + 8, y))
+    until(lambda: editor.place(gate(editor, NAMES[second + 1]))[1] == editor.place(gate(editor, NAMES[0]))[1], 'the moved element')
+    editor.shot('folded-moved')
+    saved = ' '.join(editor.save(path).split())
+    assert 'NO %s | NO %s | NO %s' % (NAMES[0], NAMES[second + 1], NAMES[1]) in saved, saved
+    check(path)
+
+
+def runs(screen):
+    """while simulating, a click in a later line toggles its contact, power goes on there, hits of a search are shown"""
+    editor, _ = opened(screen)
+    editor.keys('ctrl+m')
+    editor.find('Input Gate0, %IX0.0', 'check box')
+    inside(editor)
+    editor.keys('ctrl+Home')
+    for name in NAMES:  # all lines are in sight
+        editor.click(editor.middle(gate(editor, name)))
+        editor.element('Rung 1, NO', name, ', closed')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.shot('folded-runs')
+    editor.keys('ctrl+f')
+    editor.type('Gate12')
+    urge(lambda: editor.all('Rung 1 · column M'), lambda: editor.keys('Return'), 'the hit in the last line', wait=5)
+    left, top, width, height = editor.place(editor.sheet())
+    x, y, wide, high = editor.place(gate(editor, 'Gate12'))
+    assert left <= x and x + wide <= left + width and top <= y and y + high <= top + height, (x, y)
+    editor.shot('folded-found')
+
+
+def follows(screen):
+    """the lines follow the width of the sheet and the zoom; another key shows one line again; the choice is kept"""
+    folder = os.path.join(screen.home, '.config')
+    os.makedirs(folder, exist_ok=True)
+    kept = dict(GSETTINGS_BACKEND='keyfile', XDG_CONFIG_HOME=folder)
+    editor, path = opened(screen, **kept)
+    usual = len(tops(editor))
+    editor.keys('ctrl+minus', 'ctrl+minus', 'ctrl+minus', 'ctrl+minus')
+    until(lambda: len(tops(editor)) < usual, 'fewer lines in smaller letters')
+    inside(editor)
+    editor.keys('ctrl+0', 'ctrl+plus', 'ctrl+plus')
+    until(lambda: len(tops(editor)) > usual, 'more lines in larger letters')
+    inside(editor)
+    editor.keys('ctrl+0')
+    until(lambda: len(tops(editor)) == usual, 'the lines as before')
+    editor.keys('F4')  # without the left panel
+    until(lambda: not editor.all('Find an element'), 'the left panel to be gone')
+    inside(editor)
+    wide = places(editor)
+    assert sum(y == wide[0][1] for _, y, _, _ in wide) > 6, wide
+    editor.shot('folded-wide')
+    editor.finish()
+    editor = Editor(screen, path, **kept)
+    editor.to_sheet()
+    inside(editor)
+    editor.keys('alt+z')
+    editor.says('Rungs have one line, however wide they are')
+    until(lambda: len(tops(editor)) == 1, 'one line')
+
+
+moves.size = edits.size = runs.size = follows.size = '1024x700x24'
+moves.quick = 'editor-gtk/ladder'
+main([moves, edits, runs, follows])
