@@ -171,12 +171,14 @@ static const char *line_end(const char *at, const char *end)
 	return newline != at && newline[-1] == '\r' ? newline - 1 : newline;
 }
 
-/* The end of a quoted constant. An open one reaches to the end of the line and is
- * invalid. */
+/* The end of a quoted constant. Its quote twice is one of its letters. An open one reaches to the
+ * end of the line and is invalid. */
 static const char *skip_quoted(const char *at, const char *end)
 {
 	const char *close = skip_string(at, end);
 
+	while (close && close != end && *close == *at)
+		close = skip_string(close, end);
 	return close ? close : line_end(at, end);
 }
 

@@ -193,14 +193,14 @@ static size_t escaped(const char *at, size_t left, bool wide, size_t *used, char
 /* Counts the bytes of the text between two quotes; @out may be NULL. */
 static enum literal_result unescape(const struct literal *literal, char *out, size_t *count)
 {
-	const char *text = literal->text;
+	const char *text = literal->text, quote = literal->wide ? '"' : '\'';
 
 	*count = 0;
 	for (size_t i = 0; i < literal->len; i++) {
 		char byte[4] = { text[i] };
 		size_t used, bytes = 1;
 
-		if (text[i] == (literal->wide ? '"' : '\''))
+		if (text[i] == quote && (++i == literal->len || text[i] != quote))
 			return LITERAL_BAD;
 		if (text[i] == '$') {
 			bytes = escaped(text + i + 1, literal->len - i - 1, literal->wide, &used, byte);

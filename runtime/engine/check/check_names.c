@@ -537,7 +537,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		check_address(c, var, place);
 	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
-		report_var(c, DIAG_CONSTANT_NO_VALUE, pou, var, name);
+		report_var(c, c->project->words.own_first ? DIAG_CONSTANT_BY_TYPE :
+			   DIAG_CONSTANT_NO_VALUE, pou, var, name);
 	if (var->points)
 		check_points(c, pou, var);
 	if (var->target && !leads_well(var->target->like))

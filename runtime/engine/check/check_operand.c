@@ -155,15 +155,16 @@ static void said_special(struct operand_check *c, struct operand_spot at, const 
 }
 
 /* The meaning of @id, or NULL after a diagnostic. */
-static const struct meaning *operand_find(struct operand_check *c, struct operand_spot at,
-				  uint32_t id)
+static const struct meaning *operand_find_for(struct operand_check *c, struct operand_spot at,
+				      uint32_t id, bool write)
 {
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
 
 	if (!m)
 		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
-	else if (m->within && operand_report(c, DIAG_WITHIN_BLOCK, at, scope_said(c->scope, id)))
+	else if (m->within && operand_report(c, write ? DIAG_WRITE_WITHIN : DIAG_WITHIN_BLOCK, at,
+					     scope_said(c->scope, id)))
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
 	else if (scope_is_condition(m) && !c->condition)
 		operand_report(c, DIAG_SFC_TRANSITION, at, project_text(c->project, id));
@@ -172,6 +173,11 @@ static const struct meaning *operand_find(struct operand_check *c, struct operan
 	if (m)
 		said_special(c, at, project_text(c->project, id), m);
 	return m;
+}
+
+static const struct meaning *operand_find(struct operand_check *c, struct operand_spot at, uint32_t id)
+{
+	return operand_find_for(c, at, id, false);
 }
 
 static uint32_t operand_intern(struct operand_check *c, const char *text, size_t len)
@@ -225,8 +231,6 @@ static enum diag_id write_fault(const struct meaning *m)
 		return m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE;
 	if (m->writable)
 		return DIAG_COUNT;
-	if (m->within)
-		return DIAG_NO_PIN;
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 
@@ -239,7 +243,7 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 
 	if (m && m->within && write_fault(m) != DIAG_COUNT) /* it can only be read, and no more is said of it */
 		return operand_refuse(c, write_fault(m), at, id, m);
-	m = operand_find(c, at, id);
+	m = operand_find_for(c, at, id, true);
 	if (!m)
 		return NULL;
 	fault = write_fault(m);

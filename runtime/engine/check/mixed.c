@@ -44,6 +44,12 @@ bool mixed_converts(enum iec_type from, enum iec_type to)
 	       (is_whole(to) && iec_type_row(from)->size <= iec_type_row(to)->size);
 }
 
+bool mixed_narrows(enum iec_type from, enum iec_type to)
+{
+	return from != to && class_of(from) & (ANY_NUM | CLASS_BITS) &&
+	       class_of(to) & (ANY_NUM | CLASS_BITS);
+}
+
 /* The type of @class with the width of @type. */
 static enum iec_type twin(enum iec_type type, uint16_t class)
 {

@@ -22,6 +22,9 @@ enum iec_type mixed_join(enum iec_type a, enum iec_type b);
 /** mixed_converts - is a value of type @from also one of type @to, though only one of them is a
  * bit string? A BOOL is 0 or 1. Scan-safe: yes. */
 bool mixed_converts(enum iec_type from, enum iec_type to);
+/** mixed_narrows - are both numbers or bit strings, neither a BOOL, of different types? A value of
+ * @from can become one of @to, perhaps another one. Scan-safe: yes. */
+bool mixed_narrows(enum iec_type from, enum iec_type to);
 /** mixed_pin - the type that a value of @type gets at a pin that takes @classes; @type itself, if
  * the pin takes it, or no conversion helps. Scan-safe: yes. */
 enum iec_type mixed_pin(uint16_t classes, enum iec_type type);

@@ -36,7 +36,15 @@ const char *reserved_word(int i)
 
 bool reserved_of_rungs(const char *name)
 {
-	return ascii_is("OFF", name, strlen(name));
+	static const char *const words[] = {
+		"OFF", "RUNG", "RUNGBOARD", "PROJECT", "INCLUDE", "USES", "VIEW", "END_VIEW",
+		"SUBROUTINE", "END_SUBROUTINE",
+	};
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (ascii_is(words[i], name, strlen(name)))
+			return true;
+	return false;
 }
 
 bool reserved_generated(const char *name)

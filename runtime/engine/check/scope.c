@@ -665,7 +665,7 @@ static bool step_into(struct path *path)
 	if (path->pin < 0)
 		path->pin = index;
 	if (row->kind == WORD_FB)
-		m->writable = row->pin[index].dir == PIN_IN || path->within;
+		m->writable = row->pin[index].dir == PIN_IN || row->pin[index].dir == PIN_VAR || path->within;
 	m->within |= row->kind == WORD_FB && row->pin[index].dir == PIN_VAR;
 	if (row->overlaps && !step_overlapped(path))
 		return false;
@@ -1329,6 +1329,17 @@ struct var_array meaning_reach(const struct meaning *meaning)
 	return meaning->opens ? meaning->open[0].array : meaning->array;
 }
 
+/* Does a variable come first in `Pump.Start`? Then it is not the action of a block or program Pump. */
+static bool begins_with_variable(struct scope *scope, const struct pou *pou, uint32_t text)
+{
+	struct names *names = &scope->project->names;
+	const char *begin = names_text(names, text);
+	const size_t len = strcspn(begin, ".");
+
+	return len < names_len(names, text) &&
+	       find_declared(scope, table_number(scope, pou), names_fold(names, names_intern(names, begin, len)));
+}
+
 const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text)
 {
 	struct names *names = &scope->project->names;
@@ -1341,6 +1352,8 @@ const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t
 	const struct declared *declared;
 
 	if (!fold || find_declared(scope, table_number(scope, pou), fold))
+		return NULL;
+	if (scope->actions && begins_with_variable(scope, pou, text))
 		return NULL;
 	declared = find_in(scope, POUS, fold);
 	if (pou && scope->actions) {

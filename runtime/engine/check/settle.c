@@ -28,6 +28,7 @@ struct settle {
 	struct il_line line;             /* place of diagnostics              */
 	struct var_written *top;         /* being computed; below it what needs it */
 	int values;                      /* enumeration of the value + 1; 0: none */
+	bool begins;                     /* what a variable begins with is computed, in plain IEC text */
 	bool shapes;                     /* a size has changed                */
 	bool reported;                   /* the walk's error has its diagnostic */
 	struct init_walk walk;
@@ -106,9 +107,21 @@ static const struct meaning *mean(struct settle *s, const struct expr_node *node
 			  names_intern(&s->project->names, node->text, node->len), why);
 }
 
-static bool is_constant(const struct meaning *m)
+/* Where a variable begins, one of the same POU or a global may be named in plain IEC text: with
+ * the value that it begins with. */
+static bool begins_so(const struct settle *s, const struct meaning *m)
 {
-	return m->kind == MEANING_VARIABLE && m->constant && m->var->has_init;
+	const uint16_t others = VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_EXTERNAL;
+
+	return s->begins && m->var && m->type != IEC_NONE && m->type != IEC_STRING && !m->through &&
+	       !m->var->target && m->addr.area == AREA_NONE && (!m->pou || m->pou == s->pou) &&
+	       !(vars_flags(m->pou ? &m->pou->vars : &s->project->globals, m->index) & others);
+}
+
+static bool is_constant(const struct settle *s, const struct meaning *m)
+{
+	return m->kind == MEANING_VARIABLE &&
+	       ((m->constant && m->var->has_init) || begins_so(s, m));
 }
 
 /* A value of the enumeration that is wanted, which another one may have, too; NULL: none. */
@@ -155,7 +168,7 @@ static struct var_written *find_open(struct settle *s)
 		value = value_named(s, node, m);
 		if (value && is_open(value->written))
 			return value->written;
-		if (m && is_constant(m) && is_open(m->var->written))
+		if (m && is_constant(s, m) && is_open(m->var->written))
 			return m->var->written;
 	}
 	return NULL;
@@ -220,7 +233,7 @@ static struct il_result take_name(struct settle *s, int i)
 		*literal = m->literal;
 		return take_parsed(literal);
 	}
-	if (!is_constant(m)) {
+	if (!is_constant(s, m)) {
 		refuse(s, DIAG_NOT_CONSTANT, node->text, node->len);
 		return out;
 	}
@@ -815,11 +828,20 @@ static enum outcome settle_range(struct settle *s, struct var_written *w, struct
 	return FAILED;
 }
 
+/* In plain IEC text, not a constant. */
+static bool may_begin(struct settle *s, const struct var_written *w)
+{
+	return s->project->words.own_first &&
+	       !(vars_flags(table_of(s->project, w->table), w->index) & VAR_CONSTANT);
+}
+
 static enum outcome settle_plain(struct settle *s, struct var_written *w, struct var *var)
 {
 	struct init_value value = { .type = var->type, .capacity = var->capacity };
-	enum outcome outcome = open_text(s, w, WRITTEN_INITIAL, var->init_text);
+	enum outcome outcome;
 
+	s->begins = may_begin(s, w);
+	outcome = open_text(s, w, WRITTEN_INITIAL, var->init_text);
 	if (outcome != GOOD)
 		return outcome;
 	if (!compute_value(s, &value))
@@ -875,6 +897,7 @@ static enum outcome settle_one(struct settle *s, struct var_written *w)
 	struct var *var = value_of(s, w) ? NULL : var_of(s, w);
 	enum outcome outcome = GOOD;
 
+	s->begins = false;
 	if (!var)
 		return settle_number(s, w, value_of(s, w));
 
@@ -1022,6 +1045,7 @@ static bool settle_parts(struct settle *s, struct var_written *w, struct var *va
 	s->line.line = (uint32_t)w->at[WRITTEN_INITIAL].line;
 	s->line.col = (uint16_t)w->at[WRITTEN_INITIAL].column;
 	s->reported = false;
+	s->begins = may_begin(s, w);
 	w->value = 0;
 	init_begin(&s->walk, s->project, var, s->scratch);
 	s->walk.fold = (struct init_fold){ fold_value, s, &s->project->words };

@@ -240,7 +240,7 @@ static enum diag_id find_pins(const struct expr *expr, const struct word_row *ro
 
 		out->number = i + 1;
 
-		if ((arg->len > 0) != (expr->node[out->arg[0].at].len > 0))
+		if (i > 0 && !arg->len && expr->node[out->arg[i - 1].at].len)
 			return fail(out, DIAG_MIXED_NAMES, -1, arg);
 		pin = arg->len ? named_pin(row, arg) : next_pin(row, pin);
 		if (pin < 0 || (pin < row->pin_count && !takes(row, pin)))

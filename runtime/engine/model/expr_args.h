@@ -52,7 +52,7 @@ bool expr_bound(struct expr *expr, const struct expr_node *call, struct expr_bou
  *
  * Owns: nothing. Scan-safe: yes.
  * Fails: a diagnostic about out->wrong or out->text; DIAG_COUNT on success.
- * DIAG_MIXED_NAMES: some by name and others not. DIAG_NO_PIN, DIAG_DUPLICATE_ARG,
+ * DIAG_MIXED_NAMES: one without a name behind one with a name. DIAG_NO_PIN, DIAG_DUPLICATE_ARG,
  * DIAG_MISSING_INPUT.
  */
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,

@@ -2,6 +2,8 @@
  *
  * fn_text_to - the value that a text spells: literals of one type, read in a scan.
  *
+ * Of a number, the text may go on behind it, as in other tools: '12 kg' is 12, '3.14' as INT is 3.
+ *
  * base/literal.h reads sources and may use libc; this file reads texts while a program
  * runs. It allocates nothing and rounds only REAL and LREAL.
  */
@@ -62,9 +64,11 @@ static bool take_digits(struct rest *rest, unsigned base, uint64_t *out)
 			return false;
 		rest->at++;
 		if (peek(rest) == '_') {
+			const struct rest next = { rest->at + 1, rest->end };
+
+			if (digit_at(&next) >= base)
+				return true;
 			rest->at++;
-			if (digit_at(rest) >= base)
-				return false;
 		}
 	}
 }
@@ -117,7 +121,7 @@ static bool to_whole(enum iec_type type, struct rest rest, int64_t *out)
 
 	if (!minus)
 		accept(&rest, '+');
-	if (!take_digits(&rest, take_base(&rest), &value) || !at_end(&rest))
+	if (!take_digits(&rest, take_base(&rest), &value))
 		return false;
 	if (minus ? value > 0 - (uint64_t)row->low :
 		    !wide && value > (uint64_t)row->high)
@@ -129,23 +133,37 @@ static bool to_whole(enum iec_type type, struct rest rest, int64_t *out)
 /* ---- REAL ---- */
 
 /* E-3; the value is limited, so that a huge exponent stays out of range. */
-static bool take_exponent(struct rest *rest, int64_t *exponent)
+static void take_exponent(struct rest rest, int64_t *exponent)
 {
 	int64_t power = 0;
 	bool minus;
 
-	if (!accept(rest, 'E'))
-		return true;
-	minus = accept(rest, '-');
+	if (!accept(&rest, 'E'))
+		return;
+	minus = accept(&rest, '-');
 	if (!minus)
-		accept(rest, '+');
-	if (!ascii_digit(peek(rest)))
-		return false;
-	for (; ascii_digit(peek(rest)); rest->at++)
+		accept(&rest, '+');
+	for (; ascii_digit(peek(&rest)); rest.at++)
 		if (power < 100000)
-			power = power * 10 + (*rest->at - '0');
+			power = power * 10 + (*rest.at - '0');
 	*exponent += minus ? -power : power;
-	return true;
+}
+
+/* The end of digits with single underscores between them and at most one point before a digit. */
+static const char *digits_end(struct rest rest)
+{
+	bool point = false;
+
+	for (; !at_end(&rest); rest.at++) {
+		const struct rest next = { rest.at + 1, rest.end };
+
+		if (ascii_digit(peek(&rest)))
+			continue;
+		if (!ascii_digit(peek(&next)) || (peek(&rest) != '_' && (point || peek(&rest) != '.')))
+			break;
+		point |= peek(&rest) == '.';
+	}
+	return rest.at;
 }
 
 static bool to_real(enum iec_type type, struct rest rest, double *out)
@@ -156,9 +174,10 @@ static bool to_real(enum iec_type type, struct rest rest, double *out)
 
 	if (!minus)
 		accept(&rest, '+');
-	rest.at = decimal_take(rest.at, rest.end, &text);
-	if (!rest.at || !take_exponent(&rest, &text.exponent) || !at_end(&rest))
+	rest.at = decimal_take(rest.at, digits_end(rest), &text);
+	if (!rest.at)
 		return false;
+	take_exponent(rest, &text.exponent);
 	if (text.count > 0)
 		value = decimal_value(text.digit, text.count, text.exponent,
 				      type == IEC_REAL);

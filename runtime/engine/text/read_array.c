@@ -30,8 +30,9 @@ static bool read_bound(struct reader *r, struct var *var, enum written_place whe
 		buffer_add(r, &r->text, "-", 1);
 	if (token->kind != TOKEN_NUMBER ||
 	    literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
-	    literal.real || literal.high || literal.type != IEC_NONE ||
-	    literal.value.i > INT32_MAX)
+	    literal.real || literal.high ||
+	    (literal.type != IEC_NONE && !(iec_type_row(literal.type)->class & ANY_INT)) ||
+	    literal.value.i > INT32_MAX || literal.value.i < INT32_MIN)
 		return reader_fail_token(r, DIAG_BAD_BOUNDS);
 	*out = negative ? -literal.value.i : literal.value.i;
 	buffer_add(r, &r->text, token->text, token->len);

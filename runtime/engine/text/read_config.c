@@ -126,7 +126,7 @@ static bool read_setting(struct reader *r, struct config_entry *entry,
 	switch ((enum setting)which) {
 	case SET_INTERVAL:
 		return read_time(r, &entry->interval_ns, &entry->interval,
-				 has_single(r, *given));
+				 r->plain || has_single(r, *given));
 	case SET_SINGLE:
 		return read_single(r, &entry->single);
 	case SET_PRIORITY:
@@ -158,6 +158,11 @@ static bool read_task(struct reader *r, struct config_entry *entry)
 	} while (more);
 	if (!entry->interval)
 		given &= ~(1u << SET_INTERVAL);
+	if (r->plain && !(given & (1u << SET_INTERVAL | 1u << SET_SINGLE))) { /* as a program without a task */
+		entry->interval_ns = INT64_C(10000000);
+		entry->interval = reader_intern(r, "T#10ms", 6);
+		given |= 1u << SET_INTERVAL;
+	}
 	if (!(given & 1u << SET_INTERVAL) == !(given & 1u << SET_SINGLE))
 		return reader_fail_word(r, DIAG_EXPECTED,
 					"either INTERVAL or SINGLE");

@@ -251,6 +251,17 @@ static void skip_vars(struct lex *lex)
 	}
 }
 
+/* Does the POU at the cursor have a step? A body may also begin with its actions, in ST. */
+static bool has_step(struct lex lex)
+{
+	while (lex.token.kind != TOKEN_END && !lex_is(&lex, "END_PROGRAM") && !lex_is(&lex, "END_FUNCTION_BLOCK")) {
+		if (lex_is(&lex, "INITIAL_STEP"))
+			return true;
+		lex_next(&lex);
+	}
+	return false;
+}
+
 /* Does a part of a chart begin here: `STEP Name`, `TRANSITION (`? */
 static bool begins_chart(struct lex lex)
 {
@@ -260,15 +271,17 @@ static bool begins_chart(struct lex lex)
 		if (!lex_is(&lex, words[i]))
 			continue;
 		lex_next(&lex);
+		if (i == 4 && !has_step(lex))
+			return false;
 		return lex.token.kind == TOKEN_NAME || (i == 3 && lex_is(&lex, "("));
 	}
 	return false;
 }
 
-/* NETWORK: not a variable with this name. */
-static bool begins_network(struct lex lex)
+/* RUNG, NETWORK: not a variable with this name. */
+static bool begins_with(struct lex lex, const char *word)
 {
-	if (!lex_is(&lex, "NETWORK"))
+	if (!lex_is(&lex, word))
 		return false;
 	lex_next(&lex);
 	return !lex_is(&lex, ":=") && !lex_is(&lex, "(") && !lex_is(&lex, "[") && !lex_is(&lex, ".");
@@ -283,12 +296,14 @@ static enum pou_language language_of_body(const struct reader *r)
 	if (lex.token.kind == TOKEN_NEWLINE)
 		lex_next(&lex);
 	skip_vars(&lex);
-	if (lex_is(&lex, "RUNG"))
+	if (begins_with(lex, "RUNG"))
 		return LANGUAGE_LD;
 	if (begins_chart(lex))
 		return LANGUAGE_SFC;
-	if (begins_network(lex))
+	if (begins_with(lex, "NETWORK"))
 		return LANGUAGE_FBD;
+	if (lex_is(&lex, "ACTION"))
+		return LANGUAGE_IL; /* as any body without a line */
 	return st_begins(lex) ? LANGUAGE_ST : LANGUAGE_IL;
 }
 

@@ -364,6 +364,8 @@ static bool add_named(struct reader *r, const struct structure *head, const stru
 	good = reader_type_of(r, like, head->name) && reader_init(r, like);
 	if (good && reader_is(r, ';'))
 		reader_next(r);
+	else if (good && r->plain && lex_is(&r->lex, "END_TYPE"))
+		reader_fail_token(r, DIAG_LAST_MARK);
 	else if (good)
 		good = reader_fail_word(r, DIAG_EXPECTED, ";");
 	*comment = &project->named[own].like.var->comment;

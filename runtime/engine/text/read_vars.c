@@ -103,8 +103,14 @@ static bool read_at(struct reader *r, struct var *var)
 	why = iec_addr_fault(token->text, token->len, &var->at);
 	if (why == DIAG_NOT_ADDRESS && token->kind != TOKEN_ADDRESS)
 		return reader_fail_word(r, DIAG_EXPECTED, "address");
-	if (why == DIAG_NOT_ADDRESS && is_hierarchical(token))
-		why = DIAG_HIERARCHICAL;
+	if (why == DIAG_NOT_ADDRESS && is_hierarchical(token)) {
+		if (!r->plain || !strchr("IQM", ascii_upper(token->text[1])))
+			return reader_fail_token(r, DIAG_HIERARCHICAL);
+		reader_fail_token(r, DIAG_OPEN_HIERARCHICAL);
+		var->at_text = reader_intern(r, token->text, token->len);
+		reader_step(r);
+		return true;
+	}
 	if (why != DIAG_COUNT)
 		return reader_fail_token(r, why);
 	int len = iec_addr_print(var->at, text, sizeof(text));
@@ -267,16 +273,17 @@ static bool read_pointer(struct reader *r, struct var *var)
 	struct var *to = arena_alloc(&r->project->arena, sizeof(*to));
 	struct var_target *target = arena_alloc(&r->project->arena, sizeof(*target));
 	const struct token at = r->lex.token;
+	const bool joined = lex_is(&r->lex, "REFERENCE_TO");
 	const enum var_pointer word = lex_is(&r->lex, "REF_TO") ? REF_TO :
-				      lex_is(&r->lex, "REFERENCE") ? REFERENCE_TO : POINTER_TO;
+				      joined || lex_is(&r->lex, "REFERENCE") ? REFERENCE_TO : POINTER_TO;
 	bool list;
 
 	if (var->at.area != AREA_NONE)
 		return reader_fail_token(r, DIAG_MISPLACED);
 	reader_step(r);
-	if (word != REF_TO && !lex_is(&r->lex, "TO"))
+	if (word != REF_TO && !joined && !lex_is(&r->lex, "TO"))
 		return reader_fail_word(r, DIAG_EXPECTED, "TO");
-	if (word != REF_TO)
+	if (word != REF_TO && !joined)
 		reader_step(r);
 	list = lex_is(&r->lex, "ARRAY");
 	if (!to || !target)
@@ -315,6 +322,13 @@ static bool read_letter(struct reader *r, struct var *var)
 	return true;
 }
 
+/* The integers of other tools that are as wide as an address. */
+static enum iec_type type_of_address(const struct reader *r)
+{
+	return !r->plain ? IEC_NONE : lex_is(&r->lex, "__XWORD") ? IEC_LWORD :
+	       lex_is(&r->lex, "__UXINT") ? IEC_ULINT : lex_is(&r->lex, "__XINT") ? IEC_LINT : IEC_NONE;
+}
+
 bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 {
 	const struct token *token = &r->lex.token;
@@ -322,7 +336,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 
 	if (!read_array(r, var))
 		return false;
-	if (lex_is(&r->lex, "POINTER") || lex_is(&r->lex, "REF_TO") || lex_is(&r->lex, "REFERENCE"))
+	if (lex_is(&r->lex, "POINTER") || lex_is(&r->lex, "REF_TO") || lex_is(&r->lex, "REFERENCE") ||
+	    (r->plain && lex_is(&r->lex, "REFERENCE_TO")))
 		return read_pointer(r, var);
 	if (reader_is(r, '('))
 		return reader_own_type(r, var, name);
@@ -331,6 +346,8 @@ bool reader_type_of(struct reader *r, struct var *var, uint32_t name)
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
+	if (var->type == IEC_NONE)
+		var->type = type_of_address(r);
 	if (r->plain && read_letter(r, var))
 		return true;
 	if (r->plain && is_wide_text(r)) {
@@ -376,6 +393,16 @@ static bool is_kind(const struct literal *literal, enum iec_type type)
 	       !literal->real;
 }
 
+/* A number that fits, though that of its type may not: DINT#5 in an INT, LREAL#0.5 in a REAL. */
+static bool fits_untyped(struct literal literal, enum iec_type type, union iec_value *out)
+{
+	if (!(iec_type_row(literal.type)->class & ANY_NUM) || !(iec_type_row(type)->class & ANY_NUM))
+		return false;
+	literal.real |= iec_type_row(literal.type)->class == CLASS_REAL;
+	literal.type = IEC_NONE;
+	return literal_fit(&literal, type, out);
+}
+
 static bool check_constant(struct reader *r, enum iec_type type,
 			   const char *text, size_t len, union iec_value *out)
 {
@@ -384,7 +411,7 @@ static bool check_constant(struct reader *r, enum iec_type type,
 
 	switch (literal_parse(text, len, &literal)) {
 	case LITERAL_OK:
-		if (literal_fit(&literal, type, out))
+		if (literal_fit(&literal, type, out) || (r->plain && fits_untyped(literal, type, out)))
 			return true;
 		kind = is_kind(&literal, type);
 		break;
@@ -565,8 +592,11 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		return false;
 	const bool closed = reader_is(r, ';');
 	const bool next = !closed && r->lex.token.line > r->begun;
+	const bool last = r->plain && (lex_is(&r->lex, "END_VAR") || (r->members && reader_ends_struct(r)));
 
-	if (!closed && !reader_fail_word(r, DIAG_EXPECTED, ";") && !next)
+	if (!closed && last)
+		reader_fail_token(r, DIAG_LAST_MARK);
+	else if (!closed && !reader_fail_word(r, DIAG_EXPECTED, ";") && !next)
 		return false;
 	for (int i = first; i < table->count; i++) {
 		like.name = table->var[i].name;

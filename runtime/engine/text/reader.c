@@ -889,6 +889,9 @@ bool read_ends_block(const struct reader *r)
 	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
 		found = lex_is(&r->lex, words[i]);
 	found |= begins_member(r);
+	if (r->plain && !ascii_same(r->lex.token.text, "END_", 4) &&
+	    (reader_peek(r, "(") || reader_peek(r, "[") || reader_peek(r, ".")))
+		return false;
 	return found && !reader_peek(r, ":") && !reader_peek(r, ":=") && !reader_peek(r, ",") &&
 	       !reader_peek(r, "AT");
 }

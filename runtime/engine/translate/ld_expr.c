@@ -214,13 +214,56 @@ static struct value chain_convert(struct chain *c, struct value value, enum iec_
 	return operate(c, FN_CONVERT, value, none, type, target);
 }
 
-/* The same, if that needs no conversion in the text. */
-static struct value chain_fit(struct chain *c, struct value value, enum iec_type type)
+/* In plain IEC text, what is computed goes into any number or bit string, as in other tools. */
+static bool chain_narrows(const struct chain *c, enum iec_type from, enum iec_type to)
+{
+	return c->ld->statement && c->ld->translation->project->words.own_first &&
+	       mixed_narrows(from, to);
+}
+
+/* A pointer, which is of no use in less than its bytes. */
+static bool chain_points(struct chain *c, struct value value)
+{
+	const struct meaning *m = meaning(c, value.operand);
+
+	return m && (m->address_of || (m->kind != MEANING_LITERAL && m->like && m->like->target));
+}
+
+/* A warning, unless a whole number becomes a REAL. */
+static void say_narrowed(struct chain *c, enum iec_type from, enum iec_type to)
+{
+	const struct unit *unit = c->ld->unit;
+	const struct translation *translation = c->ld->translation;
+	const char *at = c->expr->target ? c->expr->target : c->expr->node[c->expr->root].text;
+	struct diag place = { .id = DIAG_NARROWED, .file = unit->pou->file, .line = c->ld->line,
+			      .pou = project_text(translation->project, unit->pou->name) };
+
+	if (iec_type_row(to)->class == CLASS_REAL && iec_type_row(from)->class != CLASS_REAL)
+		return;
+	if (at)
+		st_where(&translation->project->names, c->ld->item, at, &place.line, &place.column);
+	diag_add(translation->diags, place, "%s" DIAG_AND "%s", iec_type_row(from)->word,
+		 iec_type_row(to)->word);
+}
+
+/* The same into @target (0: a temporary), if that needs no conversion in the text. */
+static struct value chain_fit_into(struct chain *c, struct value value, enum iec_type type,
+				   uint32_t target)
 {
 	if (!c->ld->statement || value.type == type || !value.operand || !type || !value.type ||
-	    iec_can_widen(value.type, type) || !mixed_converts(value.type, type))
+	    iec_can_widen(value.type, type))
 		return value;
-	return chain_convert(c, value, type, 0);
+	if (mixed_converts(value.type, type))
+		return chain_convert(c, value, type, 0);
+	if (!chain_narrows(c, value.type, type) || chain_points(c, value))
+		return value;
+	say_narrowed(c, value.type, type);
+	return chain_convert(c, value, type, target);
+}
+
+static struct value chain_fit(struct chain *c, struct value value, enum iec_type type)
+{
+	return chain_fit_into(c, value, type, 0);
 }
 
 /* Cuts the result of bit strings to the width of its place. */
@@ -863,7 +906,7 @@ static struct value argument(struct chain *c, int index, const struct word_pin *
 	if (pin->own || mixed_converts(value.type, type) ||
 	    mixed_pin(iec_type_row(type)->class, value.type) == type)
 		return chain_convert(c, value, type, 0);
-	return value;
+	return iec_type_row(type)->class & pin->classes ? chain_fit(c, value, type) : value;
 }
 
 /* A comparison of several: each with the next. */
@@ -1514,13 +1557,13 @@ void ld_store(struct ld *ld)
 	}
 	if (store_cut(&c, target))
 		return;
-	const bool other = !ld->expr->target_bit.len &&
-			   mixed_converts(infer_type(&c.in, ld->expr->root), type) &&
-			   !iec_can_widen(infer_type(&c.in, ld->expr->root), type);
+	const enum iec_type from = infer_type(&c.in, ld->expr->root);
+	const bool other = !ld->expr->target_bit.len && !iec_can_widen(from, type) &&
+			   (mixed_converts(from, type) || chain_narrows(&c, from, type));
 	struct value value = chain_assigned(&c, target, other ? 0 : target);
 
 	chain_at(&c, ld->expr->target);
-	value = chain_fit(&c, value, type);
+	value = chain_fit_into(&c, value, type, ld->expr->target_bit.len ? 0 : target);
 	if (value.operand == target && !is_place(ld->expr))
 		return;
 	if (c.can_fail || !is_loadable(&c, value.operand, target)) {

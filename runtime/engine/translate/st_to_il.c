@@ -892,10 +892,25 @@ static void store_text(struct st_il *s, uint32_t id)
 		s->ld.failed = true;
 }
 
-/* An output that goes to Word.3: into a temporary, which is put there behind the call. */
+/* Does the place of an output have a number of another type, which takes only a converted one? */
+static bool narrows(struct st_il *s, const struct word_pin *pin)
+{
+	const struct expr_node *root = &s->ld.expr->node[s->ld.expr->root];
+	enum iec_type type;
+
+	if (!pin || pin->elements || root->op != EXPR_NAME || !s->translation->project->words.own_first)
+		return false;
+	type = st_type_of(s, st_intern(s, root->text, root->len));
+	return mixed_narrows((enum iec_type)pin->type, type) &&
+	       !iec_can_widen((enum iec_type)pin->type, type);
+}
+
+/* An output that goes to Word.3, or is converted: into a temporary, which is put there behind the call. */
 static uint32_t begin_part(struct st_il *s, const struct st_part *part, const struct word_pin *pin)
 {
-	const struct expr_tail tail = s->ld.expr->node[s->ld.expr->root].tail;
+	const struct expr_node *root = &s->ld.expr->node[s->ld.expr->root];
+	const struct expr_tail tail = root->op == EXPR_NAME ?
+		(struct expr_tail){ root->text, root->len } : root->tail;
 	const enum iec_type type = pin ? (enum iec_type)pin->type : IEC_BOOL;
 	char value[LIMIT_NAME + 8];
 	uint32_t temp;
@@ -997,7 +1012,8 @@ static void add_argument(struct st_il *s, const struct st_part *part, const stru
 	if (!pin && !part->pin.len)
 		line.mark = IL_IN_ORDER; /* one too many: check_il tells */
 	call->part[call->count] = 0;
-	if (part->role == ST_OUTPUT && s->ld.expr->node[s->ld.expr->root].op == EXPR_BIT)
+	if (part->role == ST_OUTPUT &&
+	    (s->ld.expr->node[s->ld.expr->root].op == EXPR_BIT || narrows(s, pin)))
 		line.operand = begin_part(s, part, pin);
 	else
 		line.operand = part->role == ST_OUTPUT ? ld_target(&s->ld, &good) : argument(s, pin);
