@@ -12,16 +12,18 @@
 #include <string.h>
 
 static const char *const keywords[] = {
-	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
+	"RUNG", "RUNGBOARD", "PROJECT", "INCLUDE", "USES", "OFF", "VIEW", "END_VIEW",
+	"SUBROUTINE", "END_SUBROUTINE", /* only rung files have these */
+	"VAR", "VAR_GLOBAL", "RETAIN",
 	"CONSTANT", "AT", "END_VAR", "PROGRAM", "END_PROGRAM",
 	"CONFIGURATION", "END_CONFIGURATION", "ARRAY", "OF",
-	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
+	"TRUE", "FALSE", "EN", "ENO",
 	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
 	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
-	"SUBROUTINE", "END_SUBROUTINE",
-	"END_TYPE", "STRUCT", "END_STRUCT", "USES", "AND", "OR", "XOR", "NOT", "MOD",
+	"END_TYPE", "STRUCT", "END_STRUCT", "AND", "OR", "XOR", "NOT", "MOD",
 	"AND_THEN", "OR_ELSE",
 };
+#define OF_RUNGS 10
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
 
 /* Words of cells and of lists may be variables: a cell and an instruction begin with their
@@ -36,15 +38,11 @@ const char *reserved_word(int i)
 
 bool reserved_of_rungs(const char *name)
 {
-	static const char *const words[] = {
-		"OFF", "RUNG", "RUNGBOARD", "PROJECT", "INCLUDE", "USES", "VIEW", "END_VIEW",
-		"SUBROUTINE", "END_SUBROUTINE",
-	};
+	int i = 0;
 
-	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (ascii_is(words[i], name, strlen(name)))
-			return true;
-	return false;
+	while (i < OF_RUNGS && !ascii_is(keywords[i], name, strlen(name)))
+		i++;
+	return i < OF_RUNGS;
 }
 
 bool reserved_generated(const char *name)
