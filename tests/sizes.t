@@ -55,12 +55,14 @@ measure() {
 # 4 KB for all dimensions of arrays, NOT before outputs, places that overlap, types with names of instructions, and words of a map.
 # 12 KB for values of several enumerations by their place, several resources, parts of numbers behind =>, blocks with a task
 # of their own, and addresses of variables within blocks.
-measure 'ladderd' 557056 '' CFLAGS=-O2
+# 2 KB for numbers that plain IEC text converts by itself, values to begin with by other variables, and ENO of blocks.
+measure 'ladderd' 559104 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
-# 128 bytes more than the limit before, for lines of a map that are checked further after an error.
-measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 87168 /small-serial SMALL=1 LINK=serial WORDS=core
+# 256 bytes more than the limit before, for lines of a map that are checked further after an error, and for quotes that stand
+# twice in a text and lines that OpenPLC adds.
+measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 87296 /small-serial SMALL=1 LINK=serial WORDS=core
 
 # ladder-guard: its code and all its tables. `make sizes` has the whole file with a C library: 40 KB at most.
 n=$((n + 1)) not=

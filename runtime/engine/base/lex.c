@@ -175,10 +175,11 @@ static const char *line_end(const char *at, const char *end)
  * end of the line and is invalid. */
 static const char *skip_quoted(const char *at, const char *end)
 {
-	const char *close = skip_string(at, end);
+	const char *close = at;
 
-	while (close && close != end && *close == *at)
+	do
 		close = skip_string(close, end);
+	while (close && close != end && *close == *at);
 	return close ? close : line_end(at, end);
 }
 
@@ -265,7 +266,8 @@ static enum token_kind scan_symbol(struct lex *lex)
 	size_t left = (size_t)(end - at);
 
 	if (left >= 2 && (at[0] == '(' || at[0] == '/') && at[1] == '*') {
-		close = skip_comment(lex, at);
+		/* OpenPLC Editor 4 adds lines of C to a program, each one comment, whatever it contains. */
+		close = left > 6 && memcmp(at + 2, "DBG:", 4) == 0 ? line_end(at, end) : skip_comment(lex, at);
 		lex->at = close ? close : end;
 		return close ? TOKEN_COMMENT : TOKEN_BAD;
 	}

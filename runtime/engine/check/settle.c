@@ -990,6 +990,20 @@ static bool replace(struct settle *s, const char *from, const char *behind, cons
 	return true;
 }
 
+/* The enumeration of the present value of the walk, that of its member or of the variable, + 1; 0: none. */
+static int values_wanted(const struct settle *s)
+{
+	for (int i = s->walk.depth; i-- > 0;) {
+		const struct init_level *level = &s->walk.level[i];
+		const struct var_table *table = level->row ? shape_vars(s->project, level->word) : NULL;
+
+		if (level->row)
+			return table && level->pin >= 0 && level->pin < table->count ?
+			       table->var[level->pin].enumeration : 0;
+	}
+	return s->walk.var->enumeration;
+}
+
 /* Called by the walk for each expression in a list, and for the n of n( … ). */
 static enum diag_id fold_value(void *context, const char *text, size_t len,
 			       struct init_value *out)
@@ -999,6 +1013,7 @@ static enum diag_id fold_value(void *context, const char *text, size_t len,
 	char number[24];
 	int digits;
 
+	s->values = values_wanted(s);
 	/* Behind a count there is a (, which would make a call of it. */
 	s->reported = !parse(s, text, len, count ? "" : text + len) || !compute_value(s, out);
 	if (s->reported || !count)

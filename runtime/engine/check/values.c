@@ -197,12 +197,14 @@ static const struct var *pin_variable(const struct walk *w, const struct word_ro
 	return index >= 0 && index < table->count ? &table->var[index] : NULL;
 }
 
-/* Has the pin a type of its own, which is not the one of the other inputs? */
+/* Has the pin a type of its own, which is not the one of the other inputs, as EN has? */
 static bool is_own_pin(const struct walk *w, const struct word_row *row, uint32_t pin)
 {
 	const char *name = project_text(scope_project(w->scope), pin);
 	const int index = word_pin_find(row, name, strlen(name));
 
+	if (index < 0 && (ascii_is("EN", name, strlen(name)) || ascii_is("ENO", name, strlen(name))))
+		return true;
 	return index >= 0 && index < row->pin_count && row->pin[index].own;
 }
 

@@ -6,6 +6,7 @@
  * keep what they compute once in temporaries until their end.
  */
 #include "engine/check/letters.h"
+#include "engine/base/ascii.h"
 #include "engine/base/name.h"
 #include "engine/check/mixed.h"
 #include "engine/check/split.h"
@@ -1040,6 +1041,43 @@ static bool is_enable(const struct word_row *row, const struct st_part *part)
 	       (part->pin.text[0] | 32) == 'e' && (part->pin.text[1] | 32) == 'n';
 }
 
+/* ENO => place of a block that has no such output. */
+static bool is_enabled(const struct st_il *s, const struct word_row *row, const struct st_part *part)
+{
+	const struct expr_node *root = &s->ld.expr->node[s->ld.expr->root];
+
+	return row && part->role == ST_OUTPUT && ascii_is("ENO", part->pin.text, part->pin.len) &&
+	       word_pin_find(row, part->pin.text, part->pin.len) < 0 &&
+	       (root->op == EXPR_NAME || root->op == EXPR_BIT);
+}
+
+/* Two statements that store whether the call was made. */
+static void keep_enabled(struct st_il *s, const struct st_part *part, uint32_t stores[2])
+{
+	const struct expr_node *root = &s->ld.expr->node[s->ld.expr->root];
+	const char *end = root->op == EXPR_NAME ? root->text + root->len : root->tail.text + root->tail.len;
+
+	for (int made = 0; made < 2; made++)
+		stores[made] = assignment(s, part->text, (size_t)(end - part->text),
+					  made != part->inverted ? "TRUE" : "FALSE");
+}
+
+/* Behind a call: it was made, or left out. */
+static void end_call(struct st_il *s, const uint32_t stores[2])
+{
+	const uint32_t end = stores[0] && s->call.skip ? new_label(s) : 0;
+
+	store_text(s, stores[1]);
+	if (end)
+		jump(s, 0, end);
+	if (s->call.skip)
+		here(s, s->call.skip);
+	if (end) {
+		store_text(s, stores[0]);
+		here(s, end);
+	}
+}
+
 /* @good: tells whether its indices could be computed; 0: they can. */
 static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instance, uint32_t good)
 {
@@ -1047,6 +1085,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 	const struct word_row *row = m && m->kind == MEANING_INSTANCE ?
 		scope_row(s->translation->scope, (enum word)m->word) : NULL;
 	struct st_call *call = &s->call;
+	uint32_t enabled[2] = { 0, 0 };
 	struct st_part part;
 	int last = -1;
 
@@ -1061,6 +1100,8 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 				call->skip = new_label(s);
 			want_bool(s, ld_test(&s->ld));
 			jump(s, MOD_C | MOD_N, call->skip);
+		} else if (is_enabled(s, row, &part)) {
+			keep_enabled(s, &part, enabled);
 		} else {
 			const struct word_pin *pin = pin_at(row, &part, &last);
 
@@ -1079,8 +1120,7 @@ static void call_instance(struct st_il *s, struct st_walk *walk, uint32_t instan
 	}
 	end_inverses(s);
 	end_parts(s);
-	if (call->skip)
-		here(s, call->skip);
+	end_call(s, enabled);
 }
 
 /* `Other.Level` of a program and one of its variables. */

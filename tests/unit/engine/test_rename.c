@@ -306,6 +306,68 @@ static void test_types(void)
 	ladder_free(ladder);
 }
 
+/* Red and Green are values of two enumerations, with other numbers: the place decides which is meant. They
+ * keep their names, as the cross reference names a use of each. */
+static const char shared[] =
+	"RUNGBOARD 1\n\nTYPE\n  Color : (Red, Green := 5, Blue);\n"
+	"  Phase : (Idle, Green, Red := 7);\n"
+	"  Lamp  : STRUCT\n    C : Color := Green;\n    P : Phase := Green;\n  END_STRUCT;\nEND_TYPE\n\n"
+	"FUNCTION_BLOCK Show ST\nVAR_INPUT\n  Of1 : Phase;\nEND_VAR\n"
+	"VAR_OUTPUT\n  Now : Color;\nEND_VAR\n"
+	"  IF Of1 = Red THEN\n    Now := Red;\n  END_IF;\nEND_FUNCTION_BLOCK\n\n"
+	"FUNCTION After : Phase ST\nVAR_INPUT\n  Of1 : Color;\nEND_VAR\n"
+	"  CASE Of1 OF\n    Red:\n      After := Green;\n    Green, Blue:\n      After := Red;\n"
+	"  END_CASE;\nEND_FUNCTION\n\n"
+	"PROGRAM Main LD\nVAR\n  C : Color := Green;\n  P : Phase := Green;\n  S : Show;\nEND_VAR\n"
+	"RUNG\n  | [ C = Green ] | MOVE IN:=Red OUT=>P | [ C := Red ] | [ P := After(Green) ] | COIL %QX0.0 |\n"
+	"RUNG\n  | Show S Of1:=Green Now=>C |\nEND_PROGRAM\n\n"
+	"PROGRAM Text ST\nVAR\n  C : Color;\n  P : Phase;\n  A : ARRAY[1..2] OF Phase := [Green, Red];\n  L : Lamp := (P := Red);\nEND_VAR\n"
+	"  C := SEL(P = Green, Red, Green);\n  P := After(Of1 := Green);\n  L.C := Red;\n"
+	"  A[1] := MAX(P, Green);\n  IF A[2] <> Red OR L.C = Green THEN\n    P := Phase#Green;\n  END_IF;\nEND_PROGRAM\n\n"
+	"PROGRAM List IL\nVAR\n  P : Phase;\nEND_VAR\n"
+	"  LD    P\n  EQ    Green\n  ST    %QX0.1\n  LD    Red\n  ST    P\nEND_PROGRAM\n";
+
+/* Renamed as a value of the other enumeration, it means the same where it stands, or is refused. */
+static void test_shared_name(struct ladder *ladder, const char *text, const uint8_t identity[32])
+{
+	const struct xref_target target = target_of(ladder, "Color#Blue");
+	struct ladder_rename how;
+	uint8_t got[32];
+	size_t len;
+	char *renamed = ladder_rename(ladder, &target, "Idle", &len, &how);
+
+	CHECK(target.what != XREF_UNKNOWN);
+	CHECK_AS(renamed ? strcmp(renamed, text) != 0 && identity_of("shared", renamed, got) &&
+			   memcmp(got, identity, 32) == 0 : how.why == RENAME_MEANING || how.why == RENAME_TAKEN,
+		 "a value gets the name of a value of another enumeration");
+	free(renamed);
+}
+
+static void test_shared_values(void)
+{
+	struct ladder *ladder = loaded(shared);
+	size_t len;
+	char *text = ladder_write(ladder, &len);
+	uint8_t identity[32];
+	static const char *const values[] = { "Color#Red", "Color#Green", "Phase#Red", "Phase#Green" };
+	int bad = 0, count;
+
+	CHECK(text && identity_of("shared", text, identity));
+	count = rename_all(ladder, "shared", text, identity, &bad);
+	CHECK_AS(bad == 4, "all others are renamed and renamed back");
+	CHECK(count == 27);
+	for (size_t i = 0; i < sizeof(values) / sizeof(*values); i++) {
+		const struct xref_target target = target_of(ladder, values[i]);
+		struct ladder_rename how;
+
+		CHECK(target.what != XREF_UNKNOWN && !ladder_rename(ladder, &target, "Zq_fresh", &len, &how) &&
+		      how.why == RENAME_MEANING);
+	}
+	test_shared_name(ladder, text, identity);
+	free(text);
+	ladder_free(ladder);
+}
+
 /* ---- refusals ---- */
 
 static void refused(struct ladder *ladder, const char *old, const char *name,
@@ -476,6 +538,7 @@ int main(void)
 	test_rich();
 	test_computed();
 	test_types();
+	test_shared_values();
 	test_refused_types();
 	test_refusals();
 	test_good();
