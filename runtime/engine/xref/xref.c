@@ -27,6 +27,11 @@ struct xref_label {
 	int body, at;
 };
 
+/* A ( in a text: the enumeration before it, as xref_walk.beside, and the arguments in it so far. */
+struct open_paren {
+	int beside, arg;
+};
+
 /* The state of a walk through a project. */
 struct xref_walk {
 	struct xref *out;
@@ -41,6 +46,10 @@ struct xref_walk {
 	int body;                /* for labels: each POU has one, a chart many */
 	enum word call;          /* of the call in a list whose pins follow   */
 	int values;              /* of an initial value: enumeration of its variable + 1; 0: none */
+	int beside;              /* of a part of a statement: that of the pin or the selector which it meets */
+	struct open_paren *open; /* of the text that is scanned, SCAN_DEPTH   */
+	uint16_t selector[LIMIT_ST_DEPTH]; /* of each CASE that is open, likewise */
+	int cases;
 };
 
 /* ---- targets ---- */
@@ -170,6 +179,8 @@ struct scan {
 	uint16_t function;    /* in front of the ( that comes next; WORD_COUNT: none */
 	uint16_t call[SCAN_DEPTH]; /* of each ( that is open, likewise        */
 	int parens;
+	int beside;           /* enumeration + 1 of what a value is compared with, or goes to; 0: not known */
+	int pin;              /* likewise, of the pin whose name was read last */
 };
 
 static uint16_t word_of(const struct var *var)
@@ -280,20 +291,64 @@ static void add_address(struct scan *scan, const struct token *token,
 	add(scan, (struct xref_target){ XREF_ADDRESS, 0, 0, addr }, token->text, len);
 }
 
-/* A value of several enumerations, without its type: a use of each. False: it is none. */
+/* ---- values of enumerations ---- */
+
+static bool is_comparison(const struct lex *lex)
+{
+	return lex_is(lex, "=") || lex_is(lex, "<>") || lex_is(lex, "<") || lex_is(lex, ">") ||
+	       lex_is(lex, "<=") || lex_is(lex, ">=");
+}
+
+/* Enumeration + 1 of the path that ends here; 0: it has none. */
+static int enumeration_before(const struct scan *scan)
+{
+	const struct level *level = &scan->level[scan->depth];
+	const struct var *var = level->used ?
+		xref_var(scan->walk->project, &scan->walk->out->use[level->use].target) : NULL;
+
+	return var ? var->enumeration : 0;
+}
+
+/* Of the name behind a comparison that follows. */
+static int enumeration_behind(const struct scan *scan)
+{
+	struct lex ahead = scan->lex;
+	const struct meaning *m;
+
+	lex_next(&ahead);
+	if (!is_comparison(&ahead) || lex_next(&ahead) != TOKEN_NAME)
+		return 0;
+	m = mean(scan, ahead.token.text, ahead.token.len);
+	return m && m->kind != MEANING_LITERAL && m->like ? m->like->enumeration : 0;
+}
+
+/* The one of several enumerations with this value that is meant; NULL: only one has it, or it is not known. */
+static const struct enum_value *meant(const struct scan *scan, uint32_t fold)
+{
+	const struct project *project = scan->walk->project;
+	int lists = 0, of = scan->walk->values;
+
+	for (int i = 0; i < project->enum_value_count; i++)
+		lists += project->enum_value[i].fold == fold;
+	if (lists > 1 && !of)
+		of = scan->beside ? scan->beside : enumeration_behind(scan);
+	return of ? named_value(project, of - 1, fold) : NULL;
+}
+
+/* A value of several enumerations, without its type: a use of each. False: it is none, or of one. */
 static bool scan_several(struct scan *scan, const char *text, size_t len)
 {
 	struct project *project = scan->walk->project;
 	const uint32_t fold = names_fold(&project->names, names_intern(&project->names, text, len));
-	bool found = false;
+	int found = 0;
 
-	for (int i = 0; i < project->enum_value_count; i++) {
-		if (project->enum_value[i].fold != fold)
-			continue;
-		add(scan, (struct xref_target){ .what = XREF_VALUE, .index = i }, text, len);
-		found = true;
-	}
-	return found;
+	for (int i = 0; i < project->enum_value_count; i++)
+		found += project->enum_value[i].fold == fold;
+	for (int i = 0; found > 1 && i < project->enum_value_count; i++)
+		if (project->enum_value[i].fold == fold)
+			add(scan, (struct xref_target){ .what = XREF_VALUE, .index = i }, text, len);
+	scan->level[scan->depth].used = false;
+	return found > 1;
 }
 
 /* A value of an enumeration, with its type or without. False: it is none. */
@@ -301,10 +356,14 @@ static bool scan_value(struct scan *scan, const char *text, size_t len)
 {
 	struct project *project = scan->walk->project;
 	struct names *names = &project->names;
-	const struct enum_value *wanted = scan->walk->values && !memchr(text, '#', len) ?
-		named_value(project, scan->walk->values - 1,
-			    names_fold(names, names_intern(names, text, len))) : NULL;
+	const bool plain = !memchr(text, '#', len) && !memchr(text, '.', len);
+	const struct enum_value *wanted = plain ?
+		meant(scan, names_fold(names, names_intern(names, text, len))) : NULL;
 	size_t head = 0;
+
+	if (plain && !wanted && scan_several(scan, text, len))
+		return true;
+
 	const int value = wanted ? (int)(wanted - project->enum_value) :
 			  scope_value(scan->walk->scope, text, len, &head);
 	const int type = value < 0 || !head ? -1 : named_find(project, names_fold(names,
@@ -316,7 +375,7 @@ static bool scan_value(struct scan *scan, const char *text, size_t len)
 		add(scan, (struct xref_target){ .what = XREF_VALUE, .index = value }, text + head,
 		    len - head);
 	scan->level[scan->depth].used = false;
-	return value >= 0 || (!head && scan_several(scan, text, len));
+	return value >= 0;
 }
 
 /* A name without declaration: a constant, a system name, an address, or unknown. */
@@ -426,7 +485,9 @@ static void scan_argument(struct scan *scan, const struct token *token)
 	enum pin_dir dir;
 	struct xref_target target = xref_pin(scan->walk, (enum word)scan->call[scan->parens - 1],
 					     token->text, token->len, &dir);
+	const struct var *var = xref_var(scan->walk->project, &target);
 
+	scan->pin = var ? var->enumeration : 0;
 	if (target.what != XREF_UNKNOWN)
 		xref_add(scan->walk, target, XREF_WRITTEN, (uint32_t)(token->text - scan->text),
 			 (uint32_t)token->len);
@@ -445,6 +506,8 @@ static void scan_name(struct scan *scan, const struct token *token)
 		scan_members(scan, token->text, token->text + token->len);
 	else if (!is_operator(token))
 		scan_head(scan, token);
+	else if (op_find(token->text, token->len) != OP_COUNT)
+		scan->beside = 0; /* AND, OR, XOR, NOT: a condition begins */
 }
 
 static void scan_address(struct scan *scan, const struct token *token)
@@ -456,11 +519,49 @@ static void scan_address(struct scan *scan, const struct token *token)
 		add_address(scan, token, addr);
 }
 
+/* Enumeration + 1 of input @number of a function of the project. */
+static int enumeration_of_input(const struct project *project, enum word word, int number)
+{
+	const struct word_row *row = words_row(&project->words, word);
+	const struct var_table *vars = row->owner >= 0 ? &project->pou[row->owner].vars : NULL;
+
+	for (int i = 0; vars && i < vars->count; i++)
+		if (vars_flags(vars, i) & (VAR_INPUT | VAR_IN_OUT) && number-- == 0)
+			return vars->var[i].enumeration;
+	return 0;
+}
+
+/* What an argument meets: an input of a function of the project, else what the result of the function meets. */
+static int beside_argument(const struct scan *scan)
+{
+	const int at = scan->parens - 1;
+	const enum word word = at >= 0 ? (enum word)scan->call[at] : WORD_COUNT;
+
+	if (at < 0)
+		return scan->beside;
+	return word != WORD_COUNT && word_is_own(word) ?
+	       enumeration_of_input(scan->walk->project, word, scan->walk->open[at].arg) : scan->walk->open[at].beside;
+}
+
+/* What a value behind this symbol meets. */
+static void meet(struct scan *scan)
+{
+	if (is_comparison(&scan->lex))
+		scan->beside = enumeration_before(scan);
+	else if (lex_is(&scan->lex, ":=") || lex_is(&scan->lex, "?="))
+		scan->beside = scan->parens ? scan->pin : enumeration_before(scan);
+	else if (lex_is(&scan->lex, "&"))
+		scan->beside = 0;
+	else if (lex_is(&scan->lex, ")") && scan->parens)
+		scan->beside = scan->walk->open[scan->parens - 1].beside;
+}
+
 /* False: deeper than any text that a reader accepts. */
 static bool scan_symbol(struct scan *scan)
 {
 	struct level *level = &scan->level[scan->depth];
 
+	meet(scan);
 	if (lex_is(&scan->lex, "[")) {
 		if (level->used)
 			scan->walk->out->use[level->use].open = true;
@@ -472,10 +573,17 @@ static bool scan_symbol(struct scan *scan)
 	} else if (lex_is(&scan->lex, "(")) {
 		if (scan->parens == SCAN_DEPTH)
 			return false;
+		scan->walk->open[scan->parens].beside = scan->beside;
+		scan->walk->open[scan->parens].arg = 0;
 		scan->call[scan->parens++] = scan->function;
+		scan->beside = beside_argument(scan);
 		level->used = false;
 	} else if (lex_is(&scan->lex, ")") || lex_is(&scan->lex, ",")) {
+		if (lex_is(&scan->lex, ",") && scan->parens > 0)
+			scan->walk->open[scan->parens - 1].arg++;
 		scan->parens -= scan->parens > 0 && lex_is(&scan->lex, ")");
+		if (lex_is(&scan->lex, ","))
+			scan->beside = beside_argument(scan);
 		level->used = false;
 		level->kind = level->output ? XREF_READ : level->kind;
 		level->output = false;
@@ -495,7 +603,7 @@ static bool scan_symbol(struct scan *scan)
  * @kind: use of the first one, or of the target before `:=` */
 static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_kind kind)
 {
-	struct scan scan = { .walk = walk, .function = WORD_COUNT };
+	struct scan scan = { .walk = walk, .function = WORD_COUNT, .beside = walk->beside };
 	bool good = true;
 
 	scan.text = project_text(walk->project, *walk->slot);
@@ -1261,12 +1369,16 @@ static void walk_argument(struct xref_walk *walk, const struct st_part *part,
 		const struct xref_target target = xref_pin(walk, word, part->pin.text, part->pin.len,
 							   &dir);
 
+		const struct var *var = xref_var(walk->project, &target);
+
+		walk->beside = var ? var->enumeration : 0;
 		if (target.what != XREF_UNKNOWN)
 			xref_add(walk, target, kind_of_pin(dir, part->role == ST_OUTPUT),
 				 (uint32_t)(part->pin.text - text), part->pin.len);
 	}
 	if (part->role != ST_OPEN)
 		walk_part(walk, part, parts, kind_of_value(dir, part->role == ST_OUTPUT));
+	walk->beside = 0;
 }
 
 /* `a := b := 1`: what stands before each := gets a value, but the first of them. The last one begins the rest. */
@@ -1306,6 +1418,23 @@ static void walk_split(struct xref_walk *walk, const struct split *split, struct
 			walk_part(walk, &part, parts, last > 0 || part.role == ST_OUTPUT ? XREF_WRITTEN : XREF_READ);
 }
 
+/* The enumeration of the selector, which is the last path that was read, for the choices of its CASE. */
+static void note_case(struct xref_walk *walk, int first)
+{
+	const struct st_item *item = walk->item;
+	const struct xref *out = walk->out;
+	const struct var *var = NULL;
+
+	if (item->kind == ST_CASE && walk->cases < LIMIT_ST_DEPTH) {
+		for (int i = first; i < out->count; i++)
+			if (out->use[i].target.what == XREF_VARIABLE && out->use[i].kind == XREF_READ)
+				var = xref_var(walk->project, &out->use[i].target);
+		walk->selector[walk->cases++] = (uint16_t)(var ? var->enumeration : 0);
+	} else if (item->kind == ST_END_CASE && walk->cases > 0) {
+		walk->cases--;
+	}
+}
+
 static void walk_statement(struct xref_walk *walk, struct expr *expr, struct diag_list *ignored)
 {
 	enum word word = WORD_COUNT;
@@ -1341,6 +1470,8 @@ static bool xref_st(struct xref_walk *walk, struct pou *pou, int first, int coun
 	struct expr *expr = arena_alloc(&walk->out->arena, sizeof(*expr));
 	struct diag_list *ignored = arena_alloc(&walk->out->arena, sizeof(*ignored));
 
+	int uses;
+
 	if (!expr || !ignored)
 		return false;
 	for (int i = first; i < first + count; i++) {
@@ -1363,8 +1494,13 @@ static bool xref_st(struct xref_walk *walk, struct pou *pou, int first, int coun
 			scope_network(walk->scope, pou, network);
 			walk->place.off = network >= 0 && pou->fbd->network[network].off;
 		}
+		uses = walk->out->count;
+		walk->beside = item->kind == ST_CHOICE && walk->cases ? walk->selector[walk->cases - 1] : 0;
 		walk_statement(walk, expr, ignored);
+		walk->beside = 0;
+		note_case(walk, uses);
 	}
+	walk->cases = 0;
 	scope_network(walk->scope, pou, -1);
 	walk->item = NULL;
 	return true;
@@ -1522,7 +1658,8 @@ bool xref_make(struct xref *out, struct project *project)
 	*out = (struct xref){ .project = project };
 	arena_init(&out->arena);
 	walk.scope = scope_new(project, &out->arena);
-	if (!walk.scope || !make_labels(&walk))
+	walk.open = arena_alloc(&out->arena, SCAN_DEPTH * sizeof(*walk.open));
+	if (!walk.scope || !walk.open || !make_labels(&walk))
 		return false;
 	walk_declarations(&walk);
 	walk_config(&walk);
