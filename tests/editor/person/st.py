@@ -213,6 +213,78 @@ def names(screen):
     check(path)
 
 
+SHARED = '''RUNGBOARD 1
+
+TYPE
+  Phase : (Idle, Run);
+  Mode  : (Idle, Auto);
+  Axis  : STRUCT
+    Pos  : INT;
+    Goal : INT;
+  END_STRUCT;
+END_TYPE
+
+VAR
+  Now   : Phase;
+  How   : Mode;
+  Table : ARRAY[1..3] OF Axis;
+  Sum   : INT;
+END_VAR
+
+FUNCTION Limited : INT ST
+VAR_INPUT
+  X, Top : INT;
+END_VAR
+  Limited := MIN(X, Top);
+END_FUNCTION
+
+PROGRAM Main ST
+VAR
+  i, k : INT;
+END_VAR
+  Now := Idle; How := Idle;
+  IF Now = Idle AND Idle = How THEN
+    Table[i].Pos := Limited(X := Table[k].Goal, Top := 100);
+  END_IF;
+END_PROGRAM
+'''
+
+
+def shared(screen):
+    """a value that two enumerations have, a member in an array, an input in a call: uses, definition and new name are those of the one that is meant; lines are those of the sheet, though the file has others"""
+    path = new_file(screen, SHARED)
+    editor = Editor(screen, path)
+    for before, word, place, target, new in (
+            ('How := Idle', 'Idle', 'Main, line 7', 'Mode#Idle', 'Still'),
+            ('Now := Idle', 'Idle', 'Main, line 6', 'Phase#Idle', 'Rest'),
+            ('.Pos :=', 'Pos', 'Main, line 9', 'Axis.Pos', 'Place'),
+            ('Top := 100', 'Top', 'Main, line 9', 'Limited.Top', 'Most')):
+        view = to_program(editor)
+        go(editor, view, before, word)
+        editor.keys('shift+F12')
+        editor.find(target, 'label')
+        editor.find(place, 'label')
+        editor.shot('st-shared-' + new)
+        view = to_program(editor)
+        go(editor, view, before, word)
+        editor.keys('F12')
+        until(lambda: [n for n in editor.walk() if n.has(12) and n.text() == word] or
+              [n for n in editor.all('Text of the program') if n.has(12) and 'FUNCTION Limited' in n.text()],
+              'the definition of ' + target)
+        view = to_program(editor)
+        go(editor, view, before, word)
+        editor.brought('F2')
+        editor.keys('ctrl+a')
+        editor.type(new)
+        editor.keys('Return')
+        until(lambda: before.replace(word, new) in view.text(), 'the new name of ' + target)
+    text = editor.save(path)
+    for line in ('Phase : (Rest, Run)', 'Mode  : (Still, Auto)', 'Now := Rest;', 'How := Still;', 'IF Now = Rest AND Still = How THEN',
+                 'Table[i].Place := Limited(X := Table[k].Goal, Most := 100);', 'Limited := MIN(X, Most);', 'Place : INT;'):
+        assert line in text, line + ' is not in\n' + text
+    check(path)
+
+
 def formatted(screen):
     """Ctrl+Alt+F formats the text, Ctrl+Alt+M mends a line; both say what hinders them; undo brings the text back"""
     editor, path, view = in_the_text(screen)
@@ -297,4 +369,4 @@ def plain(screen):
 
 
 completed.quick = 'editor-gtk/text'
-main([completed, wrong, names, formatted, simulated, plain])
+main([completed, wrong, names, shared, formatted, simulated, plain])
