@@ -14,6 +14,8 @@ struct live_map {
 	const struct program *program;
 	int unit;                    /* of CODE_PROGRAMS; -1: none              */
 	char *pou;
+	char *owner;                 /* the POU whose action it is: Fill of Fill.Drain; NULL: it is none */
+	const char *within;          /* of the owner: its instance; NULL: none  */
 	const struct code_watched *watched; /* the instance that is shown        */
 	char *instance;              /* its name: a sheet may be asked for it after the
 				      * program has gone; NULL: none */
@@ -102,6 +104,10 @@ static struct location find(const struct live_map *map, const char *name, size_t
 		return at;
 	if (name[0] != '%') {
 		at = look_up(map, key_of(instance ? instance : map->pou, name, len));
+		if (at.type == IEC_NONE && map->within)
+			at = look_up(map, key_of(map->within, name, len));
+		if (at.type == IEC_NONE && map->owner)
+			at = look_up(map, key_of(map->owner, name, len));
 		if (at.type == IEC_NONE && instance)
 			at = look_up(map, key_of(map->pou, name, len));
 	}
@@ -123,7 +129,7 @@ struct location live_map_find(const struct live_map *map, const char *name, size
 struct live_named live_map_named(const struct live_map *map, const char *name, size_t len)
 {
 	char *own = g_strndup(name, len);
-	const struct live_named named = live_named_find(map->sim, false, map->pou, own);
+	const struct live_named named = live_named_find(map->sim, false, map->owner ? map->owner : map->pou, own);
 
 	g_free(own);
 	return named;
@@ -262,14 +268,15 @@ const char *live_map_instance(const struct live_map *map)
 	return map->instance;
 }
 
-static const struct code_watched *choose(const struct live_map *map, const char *instance)
+/* @unit: of the block. */
+static const struct code_watched *choose(const struct live_map *map, int unit, const char *instance)
 {
 	const struct code_watched *first = NULL;
 
 	for (uint32_t i = 0; i < map->program->watched_count; i++) {
 		const struct code_watched *watched = &map->program->watched[i];
 
-		if ((int)watched->pou != map->unit)
+		if ((int)watched->pou != unit)
 			continue;
 		if (!first)
 			first = watched;
@@ -290,6 +297,22 @@ static int find_unit(const struct program *program, const char *pou)
 	return -1;
 }
 
+static void find_owner(struct live_map *map, const char *instance)
+{
+	const char *dot = strrchr(map->pou, '.');
+	const struct code_watched *watched;
+	char *owner = dot ? g_strndup(map->pou, (gsize)(dot - map->pou)) : NULL;
+	const int unit = owner ? find_unit(map->program, owner) : -1;
+
+	if (unit < 0) {
+		g_free(owner);
+		return;
+	}
+	watched = choose(map, unit, instance);
+	map->owner = owner;
+	map->within = watched ? map->program->string + watched->name : NULL;
+}
+
 struct live_map *live_map_new(const struct resource *resource, const char *pou,
 			      const char *instance)
 {
@@ -298,7 +321,8 @@ struct live_map *live_map_new(const struct resource *resource, const char *pou,
 	map->image.program = map->program = resource->image.program;
 	map->pou = g_strdup(pou);
 	map->unit = find_unit(map->program, pou);
-	map->watched = choose(map, instance);
+	map->watched = choose(map, map->unit, instance);
+	find_owner(map, instance);
 	map->instance = map->watched ? g_strdup(map->program->string + map->watched->name) : NULL;
 	map->names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
 	take_names(map);
@@ -312,5 +336,6 @@ void live_map_free(struct live_map *map)
 	g_hash_table_unref(map->names);
 	g_free(map->instance);
 	g_free(map->pou);
+	g_free(map->owner);
 	g_free(map);
 }

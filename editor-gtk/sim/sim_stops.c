@@ -44,6 +44,19 @@ static bool find_entry(const struct program *program, const char *name, uint32_t
 	return false;
 }
 
+/* The POU whose action this is: Fill of Fill.Drain; of others itself. */
+static uint32_t owner_of(const struct program *program, uint32_t entry)
+{
+	const char *name = program->string + program->entry[entry].name, *dot = strrchr(name, '.');
+	char *own = dot ? g_strndup(name, (gsize)(dot - name)) : NULL;
+	uint32_t owner;
+
+	if (!own || !find_entry(program, own, &owner))
+		owner = entry;
+	g_free(own);
+	return owner;
+}
+
 static const char *from_line(const char *text, int line)
 {
 	for (; text && line > 1; line--) {
@@ -150,18 +163,19 @@ static void add(struct sim_stops *stops, struct sim_stop stop)
 	g_array_append_val(stops->stop, stop);
 }
 
-/* A function block: one for each instance. False: some of them has no formula. */
+/* A function block, or an action of one: one for each instance. False: some of them has no formula. */
 static bool add_if(struct sim_stops *stops, struct sim_stop stop, const char *condition)
 {
 	const struct program *program = stops->program->program;
+	const uint32_t owner = owner_of(program, stop.pou);
 	const guint before = stops->stop->len;
 	bool good = true;
 
 	for (uint32_t i = 0; i < program->watched_count; i++) {
-		if (program->watched[i].pou != stop.pou)
+		if (program->watched[i].pou != owner)
 			continue;
 		stop.instance = program->string + program->watched[i].name;
-		stop.condition = formula_of(stops->program, &stops->arena, stop.instance, stop.pou,
+		stop.condition = formula_of(stops->program, &stops->arena, stop.instance, owner,
 					    condition);
 		good = good && stop.condition;
 		add(stops, stop);
@@ -169,7 +183,7 @@ static bool add_if(struct sim_stops *stops, struct sim_stop stop, const char *co
 	if (stops->stop->len > before)
 		return good;
 	stop.condition = formula_of(stops->program, &stops->arena,
-				    program->string + program->entry[stop.pou].name, stop.pou, condition);
+				    program->string + program->entry[owner].name, owner, condition);
 	add(stops, stop);
 	return stop.condition != NULL;
 }

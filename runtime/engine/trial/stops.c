@@ -4,6 +4,7 @@
  */
 #include "engine/trial/stops.h"
 
+#include "engine/base/name.h"
 #include "engine/trial/formula.h"
 
 #include <stddef.h>
@@ -198,6 +199,25 @@ static bool is_part(const char *instance, const struct declared_name *part)
 	       part->name[len - pou - 1] == '.';
 }
 
+static const char *name_of(const struct program *program, uint32_t pou)
+{
+	return program->string_bytes ? program->string + program->entry[pou].name : "";
+}
+
+/* The POU whose action this is: Fill of Fill.Drain; of others itself. */
+static uint32_t owner_of(const struct program *program, uint32_t pou)
+{
+	const char *name = name_of(program, pou), *dot = strrchr(name, '.');
+
+	for (uint32_t i = 0; dot && i < program->entry_count; i++) {
+		const char *other = name_of(program, i);
+
+		if (name_same(name, (size_t)(dot - name), other, strlen(other)))
+			return i;
+	}
+	return pou;
+}
+
 /* The instance whose parts lie at frame->kept; NULL: none has a name. */
 static const struct code_watched *find_watched(const struct program *program,
 					       const struct stops_frame *frame)
@@ -213,7 +233,8 @@ static const struct code_watched *find_watched(const struct program *program,
 	for (uint32_t i = 0; i < program->watched_count; i++) {
 		const struct code_watched *watched = &program->watched[i];
 
-		if (watched->pou == frame->pou && is_part(program->string + watched->name, &part))
+		if (watched->pou == owner_of(program, frame->pou) &&
+		    is_part(program->string + watched->name, &part))
 			return watched;
 	}
 	return NULL;
@@ -236,11 +257,6 @@ static void find_instance(const struct program *program, struct stops_frame *fra
 		frame->size = 0;
 }
 
-static const char *name_of(const struct program *program, uint32_t pou)
-{
-	return program->string_bytes ? program->string + program->entry[pou].name : "";
-}
-
 static struct stops_frame frame_at(const struct program *program, uint32_t word)
 {
 	const struct code_place *place = statement_at(program, word);
@@ -254,6 +270,18 @@ static struct stops_frame frame_at(const struct program *program, uint32_t word)
 		frame.at.rung = frame.at.row = 0;
 	}
 	return frame;
+}
+
+/* A block that calls an action of its own: the action has the same instance. */
+static void name_actions(struct stops *stops)
+{
+	for (int i = stops->frames - 2; i >= 0; i--) {
+		struct stops_frame *frame = &stops->frame[i], *caller = frame + 1;
+		const uint32_t owner = owner_of(stops->program, frame->pou);
+
+		if (!frame->instance[0] && owner != frame->pou && owner == owner_of(stops->program, caller->pou))
+			memcpy(frame->instance, caller->instance, sizeof(frame->instance));
+	}
 }
 
 /* From the outermost body inwards. @memory: of the twin. */
@@ -273,6 +301,7 @@ static void find_stack(struct stops *stops, const uint8_t *memory)
 				      stand->back[i - 1] - 2, memory);
 	}
 	stops->frames = last + 1;
+	name_actions(stops);
 }
 
 int stops_stack(struct stops *stops, const struct twin *twin, struct stops_frame *out)

@@ -239,6 +239,52 @@ def bodies(screen):
         goes_on(editor)
 
 
+ACTIONS = '''RUNGBOARD 1
+
+FUNCTION_BLOCK Fill ST
+VAR_INPUT
+  Step : INT;
+END_VAR
+VAR_OUTPUT
+  Level : INT;
+END_VAR
+  Add();
+ACTION Add:
+  Level := Level + Step;
+  Level := MIN(Level, 90);
+END_ACTION
+END_FUNCTION_BLOCK
+
+PROGRAM Main ST
+VAR
+  A, B : Fill;
+END_VAR
+  A(Step := 1);
+  B(Step := 30);
+END_PROGRAM
+'''
+
+
+def actions(screen):
+    """an action of a block has the names and values of its instance, in a condition, beside its lines and in the bar"""
+    editor, path, view = opened(screen, ACTIONS)
+    editor.click(editor.find('Fill.Add, ST'), count=2)
+    action = until(lambda: next((n for n in editor.walk() if n.has(12) and n.text().lstrip().startswith('Level := Level')), None), 'the action')
+    to_line(editor, 2)
+    editor.keys('shift+F9')
+    editor.focus_on('Condition of the breakpoint')
+    editor.type('Step = 30 AND Level > 90')
+    editor.keys('Return')
+    stands(editor, 'line 2 of Fill.Add (instance B), called from line 8 of Fill (instance B)')
+    until(lambda: 'value 120' in said_of(action), 'the value of B, not ' + said_of(action))
+    editor.shot('breakpoints-action')
+    editor.keys('F9')
+    until(lambda: 'breakpoint' not in said_of(action), 'no breakpoint')
+    editor.keys('F5')
+    goes_on(editor)
+    until(lambda: re.search('value [0-9]+', said_of(action)), 'the values of the first instance')
+
+
 def edited(screen):
     """breakpoints stay with their lines while the text is edited; an edit ends the scan that stands, with the program before"""
     editor, path, view = opened(screen)
@@ -272,4 +318,4 @@ def looks(screen):
 
 looks.size = '1024x600x24'
 stepped.quick = 'editor-gtk/text'
-main([stepped, by_pointer, conditional, bodies, edited, looks])
+main([stepped, by_pointer, conditional, bodies, actions, edited, looks])

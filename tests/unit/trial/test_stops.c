@@ -510,6 +510,44 @@ static void test_condition(void)
 	close_bench(&bench);
 }
 
+/* An action of a block has the instance of the block that calls it, or in front of its name. */
+static void test_actions(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n"
+		"FUNCTION_BLOCK Fill ST\n"
+		"  VAR_INPUT\n    Step : INT;\n  END_VAR\n"
+		"  VAR_OUTPUT\n    Level : INT;\n  END_VAR\n"
+		"  Add();\n"                       /* 9 */
+		"END_FUNCTION_BLOCK\n"
+		"ACTION Fill.Add:\n"
+		"  Level := Level + Step;\n"       /* 12 */
+		"  Level := MIN(Level, 90);\n"     /* 13 */
+		"END_ACTION\n"
+		"PROGRAM Main ST\n"
+		"  VAR\n    A, B : Fill;\n  END_VAR\n"
+		"  A(Step := 1);\n"                /* 19 */
+		"  B(Step := 30);\n"
+		"  B.Add();\n"                     /* 21 */
+		"END_PROGRAM\n";
+	struct bench bench;
+	struct arena arena;
+
+	open_bench(&bench, text);
+	arena_init(&arena);
+	add_at(&bench, &arena, "Fill.Add", 13, "A", "A.Level = 2");
+	add_at(&bench, &arena, "Fill.Add", 13, "B", "B.Level = 60");
+	step(&bench, STOPS_GO, "Fill.Add 13 B, Main 21");
+	step(&bench, STOPS_GO, "");
+	step(&bench, STOPS_GO, "Fill.Add 13 A, Fill 9 A, Main 19");
+	CHECK(set(&bench, "A.Level", 40));
+	step(&bench, STOPS_OVER, "Main 20");
+	CHECK_AS(get(&bench, "A.Level") == 40, "a value of the block that waits for its action");
+	step(&bench, STOPS_GO, "");
+	arena_free(&arena);
+	close_bench(&bench);
+}
+
 /* Copies have the values of instances as they are now, and which lines ran. */
 static void test_show(void)
 {
@@ -699,6 +737,7 @@ int main(void)
 	test_chart();
 	test_condition();
 	test_frames();
+	test_actions();
 	test_show();
 	test_values();
 	test_tasks();
