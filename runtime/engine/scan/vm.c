@@ -602,33 +602,23 @@ static inline uint64_t bits_of_many(const uint8_t *at)
 	       bits_of_16(at + 48) << 48;
 }
 
-/* How many bits of @x are 1. */
-static inline uint32_t count_bits(uint64_t x)
-{
-	x -= x >> 1 & 0x5555555555555555u;
-	x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
-	x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
-	return (uint32_t)(x * 0x0101010101010101u >> 56);
-}
-
-/* Returns @mask without its lowest bit, which is listed. */
-static inline uint64_t list_lowest(uint16_t *out, uint32_t first, uint64_t mask)
+/* Lists the lowest bit of @mask, if there is one. Returns where the next one goes. */
+static inline uint16_t *list_lowest(uint16_t *out, uint32_t first, uint64_t mask)
 {
 	*out = (uint16_t)(first + (uint32_t)__builtin_ctzll(mask | UINT64_C(1) << 63));
-	return mask & (mask - 1);
+	return out + (mask != 0);
 }
 
-/* Returns how many bits of @mask are listed. Two at a time, whether there are two or not. */
-static inline uint32_t list_bits(uint16_t *out, uint32_t first, uint64_t mask)
+/* Lists the bits of @mask. Two at a time, whether there are two or not. */
+static inline uint16_t *list_bits(uint16_t *out, uint32_t first, uint64_t mask)
 {
-	const uint32_t count = count_bits(mask);
-
 	do {
-		mask = list_lowest(out, first, mask);
-		mask = list_lowest(out + 1, first, mask);
-		out += 2;
+		out = list_lowest(out, first, mask);
+		mask &= mask - 1;
+		out = list_lowest(out, first, mask);
+		mask &= mask - 1;
 	} while (mask);
-	return count;
+	return out;
 }
 
 /* Lists those of @n BOOLs that are TRUE, from @from on, as long as there is room for more.
@@ -636,18 +626,19 @@ static inline uint32_t list_bits(uint16_t *out, uint32_t first, uint64_t mask)
 static SELDOM void list_active(const uint8_t *bits, uint32_t from, uint32_t n, struct active *out)
 {
 	const uint32_t left = from < n ? n - from : 0, end = from + (left < FAR ? left : FAR);
-	uint32_t count = 0, at = from;
+	const uint16_t *last = out->step + LISTED - MANY;
+	uint16_t *to = out->step;
+	uint32_t at = from;
 
-	for (; count <= LISTED - MANY && end - at >= MANY; at += MANY)
-		count += list_bits(out->step + count, at - from, bits_of_many(bits + at));
-	if (count <= LISTED - MANY && at < n && n - at < MANY) {
-		count += list_bits(out->step + count, at - from,
-				   bits_of_many(bits + n - MANY) >> (MANY - (n - at)));
+	for (; to <= last && end - at >= MANY; at += MANY)
+		to = list_bits(to, at - from, bits_of_many(bits + at));
+	if (to <= last && at < n && n - at < MANY) {
+		to = list_bits(to, at - from, bits_of_many(bits + n - MANY) >> (MANY - (n - at)));
 		at = n;
 	}
 	out->next = out->first = from;
 	out->at = 0;
-	out->count = count;
+	out->count = (uint32_t)(to - out->step);
 	out->end = at;
 }
 
@@ -787,14 +778,9 @@ static inline void look_up(uint8_t *m, const uint32_t *pc)
 	m[d >> 8] = BIT_OF(d, i & 31u);
 }
 
-static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
+/* Less than four of them: what a LUT between other instructions has. */
+static INLINE const uint32_t *run_few(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
-	for (; n >= 4; n -= 4, pc += 16) {
-		look_up(m, pc);
-		look_up(m, pc + 4);
-		look_up(m, pc + 8);
-		look_up(m, pc + 12);
-	}
 	if (n & 2) {
 		look_up(m, pc);
 		look_up(m, pc + 4);
@@ -805,6 +791,17 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 		pc += 4;
 	}
 	return pc;
+}
+
+static SELDOM const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
+{
+	for (; n >= 4; n -= 4, pc += 16) {
+		look_up(m, pc);
+		look_up(m, pc + 4);
+		look_up(m, pc + 8);
+		look_up(m, pc + 12);
+	}
+	return run_few(m, pc, n);
 }
 
 #if !defined(RUNGBOARD_SMALL) && !defined(VM_COUNTS_BACK)
@@ -972,10 +969,24 @@ static INLINE bool run_quick(uint8_t *m, const uint32_t *pc, uint32_t n, size_t 
 	return true;
 }
 
+static int64_t time_at(const uint8_t *at)
+{
+	int64_t value;
+
+	memcpy(&value, at, sizeof(value));
+	return value;
+}
+
 static uint32_t order(const uint8_t *m, const uint32_t *pc)
 {
 	uint32_t left = CODE_TYPE(pc[0]), right = CODE_TYPE(pc[1]);
 
+	/* The times of steps and timers. */
+	if (HAS_OFTEN && LIKELY(left == IEC_TIME) && right == IEC_TIME) {
+		int64_t a = time_at(m + CODE_OFFSET(pc[0])), b = time_at(m + CODE_OFFSET(pc[1]));
+
+		return ORDER(a, b);
+	}
 	if (is_real(pc[0]) || is_real(pc[1])) {
 		double a = real(m, pc[0]), b = real(m, pc[1]);
 
@@ -1226,7 +1237,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				vm->budget = budget;
 				return FAULT_NONE;
 			}
-			pc = run_lut(m, pc + 1, n);
+			pc = HAS_OFTEN && n < 4 ? run_few(m, pc + 1, n) : run_lut(m, pc + 1, n);
 			break;
 		case VM_BITGET:
 			m[pc[2]] = m[pc[1]] >> n & 1u;
