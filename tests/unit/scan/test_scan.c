@@ -385,6 +385,70 @@ static void test_no_force(void)
 	close_bed(&bed);
 }
 
+/* ---- charts with many steps ---- */
+
+#define STEPS 200
+
+/* Steps S0 … with a transition to the next one each; every third one is initial. */
+static void write_chart(char *text, size_t size)
+{
+	size_t used = (size_t)snprintf(text, size, "RUNGBOARD 1\nPROGRAM Main SFC\n"
+				       "  VAR\n    Go AT %%IX0.0 : BOOL;\n  END_VAR\n");
+
+	for (int i = 0; i < STEPS; i++)
+		used += (size_t)snprintf(text + used, size - used, "  %s S%d:\n  END_STEP\n",
+					 i % 3 ? "STEP" : "INITIAL_STEP", i);
+	for (int i = 0; i < STEPS; i++)
+		used += (size_t)snprintf(text + used, size - used, "  TRANSITION FROM S%d TO S%d := Go; END_TRANSITION\n",
+					 i, (i + 1) % STEPS);
+	snprintf(text + used, size - used, "END_PROGRAM\n");
+}
+
+/* How many steps are active, and are these those at @first, @first + 3 …? */
+static bool active_are(struct scan_bed *bed, int first)
+{
+	char name[16];
+
+	for (int i = 0; i < STEPS; i++) {
+		snprintf(name, sizeof(name), "S%d.X", i);
+		if (get(bed, name) != (i >= first && (i - first) % 3 == 0))
+			return false;
+	}
+	return true;
+}
+
+/* The cursor of the first EACH of the program. */
+static uint8_t *cursor_of(struct scan_bed *bed)
+{
+	const struct program *program = ladder_program(bed->ladder);
+	const uint32_t *code = program->text + program->entry[0].text;
+
+	while ((*code & 0xff) != VM_EACH)
+		code += code_words(code);
+	return bed->resource.image.memory + code[1];
+}
+
+/* One that an image has set to where there is no step; no EACH reads anything there. */
+static void test_cursor(void)
+{
+	const uint32_t cursors[] = { STEPS - 1, STEPS, STEPS + 1, STEPS + 64, 65536, INT32_MAX, UINT32_MAX - 8, UINT32_MAX };
+	static char text[STEPS * 100];
+	struct scan_bed bed;
+
+	write_chart(text, sizeof(text));
+	if (!open_bed(&bed, text))
+		return;
+	resource_start(&bed.resource);
+	CHECK(resource_scan(&bed.resource, MS) && active_are(&bed, 0));
+	for (uint32_t i = 0; i < sizeof(cursors) / sizeof(*cursors); i++) {
+		memcpy(cursor_of(&bed), &cursors[i], sizeof(cursors[i]));
+		CHECK(resource_scan(&bed.resource, (2 + i) * MS) && active_are(&bed, 0));
+	}
+	CHECK(set(&bed, "Go", 1));
+	CHECK(resource_scan(&bed.resource, 100 * MS) && active_are(&bed, 1));
+	close_bed(&bed);
+}
+
 int main(void)
 {
 	test_loops();
@@ -397,5 +461,6 @@ int main(void)
 	test_force();
 	test_aside();
 	test_no_force();
+	test_cursor();
 	return tap_done();
 }
