@@ -568,7 +568,7 @@ static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 /* The active steps of a chart with many, from one of them on. EACH makes the list when it begins and
  * walks it: nobody can foresee where the next active step is, so a search for each one takes a wrong
  * branch. Conditions and actions write into no step but through a pointer; POKE ends the list. */
-enum { MANY = 64, LISTED = 112, FAR = UINT16_MAX - MANY };
+enum { MANY = 64, LISTED = 96, FAR = UINT16_MAX - MANY };
 struct active {
 	const uint32_t *each;  /* operands of the EACH that walks it; NULL: none does */
 	uint32_t next;         /* its cursor                                  */
