@@ -580,6 +580,18 @@ def limits(port):
         assert two.recv(1) == b''
 
 
+def test_a_master_that_asks_too_often_waits():
+    """rate=50 and its burst of one second: 150 requests take two seconds at least, and each is answered."""
+    port = free_port()
+    with Board(PUMP, pump_map(port).replace('connections=2', 'connections=2 rate=50')):
+        with joined(port) as stream:
+            began = time.monotonic()
+            for _ in range(150):
+                assert exchange(stream, b'\x03\x00\x00\x00\x01')[0] == 3
+            took = time.monotonic() - began
+            assert took > 1.9, took
+
+
 def test_other_programs_and_other_maps():
     """A download of a program with the same map cuts no connection; one with another map begins anew."""
     port = free_port()
