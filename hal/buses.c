@@ -38,25 +38,31 @@ static int try_port(const char *port)
 	return why;
 }
 
+static enum diag_id id_of(int why)
+{
+	switch (why) {
+	case EACCES:
+	case EPERM:
+		return DIAG_MODBUS_PERMISSION;
+	case EBUSY:
+	case EWOULDBLOCK:
+		return DIAG_MODBUS_PORT_BUSY;
+	case ENOTTY:
+		return DIAG_MODBUS_NOT_SERIAL;
+	default:
+		return DIAG_MODBUS_NO_PORT;
+	}
+}
+
 static bool check_port(const struct iomap *map, const struct io_bus *bus, struct diag_list *diags)
 {
 	const int why = try_port(bus->port);
+	const enum diag_id id = id_of(why);
 
-	switch (why) {
-	case 0:
+	if (!why)
 		return true;
-	case EACCES:
-	case EPERM:
-		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_PERMISSION), "%s", bus->port);
-	case EBUSY:
-	case EWOULDBLOCK:
-		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_PORT_BUSY), "%s", bus->port);
-	case ENOTTY:
-		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NOT_SERIAL), "%s", bus->port);
-	default:
-		return diag_add(diags, place_of(map, bus, DIAG_MODBUS_NO_PORT), "%s%s%s", bus->port, DIAG_AND,
-				why == ENOENT ? "" : strerror(why));
-	}
+	return diag_add(diags, place_of(map, bus, id), "%s%s%s", bus->port, DIAG_AND,
+			id == DIAG_MODBUS_NO_PORT && why != ENOENT ? strerror(why) : "");
 }
 
 static bool check_host(const struct iomap *map, const struct io_bus *bus, struct diag_list *diags)
