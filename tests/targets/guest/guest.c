@@ -228,7 +228,7 @@ static int held(char **command)
 
 static int usage(void)
 {
-	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..14] "
+	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..15] "
 		"[--longest S] [--flips N] [--kills N] [--stops N] [--starts N] [--work DIR] CASES LADDERD...\n");
 	return 2;
 }
@@ -283,6 +283,7 @@ static const struct {
 	{ 12, "a desk at a serial line, without names", test_serial },
 	{ 13, "a guard, and a ladderd that dies or freezes", test_guard },
 	{ 14, "starts, and how long they take", test_starts },
+	{ 15, "values by drivers of the kernel", test_values },
 };
 
 static void run_all(const char *ladderd)

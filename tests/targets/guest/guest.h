@@ -71,4 +71,5 @@ void test_link(void);
 void test_serial(void);
 void test_guard(void);
 void test_starts(void);
+void test_values(void);
 #endif

@@ -207,6 +207,51 @@ stock_gpio_sim() { # ABI BASE KARCH CROSS
 	depmod -b "$PWD" "$1"
 }
 
+# values ARCH FLAVOUR KARCH CROSS MODULE : drivers of values for the kernel of `stock`: those that Debian builds, and
+# from its source chips on I2C and the memory that stands for them. MODULE is a source of the tests.
+values() {
+	debs "$1" bookworm "$dest/tree"
+	[ ! -s "$dest/.lacking" ] || return 0
+	abi=$(APT_CONFIG=$apt/conf apt-cache show "linux-image-$2" |
+		sed -n 's/^Depends: .*linux-image-\([^ ,]*\).*/\1/p' | sort -V | tail -n 1)
+	debs "$1" bookworm "$dest/tree" "linux-image-$abi" "linux-headers-$abi" \
+		"linux-headers-${abi%-"$2"}-common" linux-source-6.1 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	debs "$(dpkg --print-architecture)" bookworm "$dest/tree" linux-kbuild-6.1 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	cp "$5" "$dest/tree/w1-sim.c"
+	(cd "$dest/tree" && values_modules "$abi" "${abi%-"$2"}" "$3" "$4") || return
+	mkdir "$dest/modules"
+	n=30
+	for module in $(for wanted in i2c-dev i2c-stub pwm-pca9685 lm75 w1_therm w1-sim; do
+			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
+		done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }'); do
+		cp "$module" "$dest/modules/$n-$(basename "$module")" || return
+		n=$((n + 1))
+	done
+	rm -r "$dest/tree"
+	ls "$dest/modules"/*-w1-sim.ko
+}
+values_modules() { # ABI BASE KARCH CROSS
+	headers=$PWD/usr/src/linux-headers-$1
+	mkdir chips
+	tar -xJf usr/src/linux-source-6.1.tar.xz -C chips --transform 's|.*/||' \
+		linux-source-6.1/drivers/i2c/i2c-stub.c linux-source-6.1/drivers/pwm/pwm-pca9685.c || return
+	mv w1-sim.c chips/
+	sed -i "s|^include /usr/src/|include $PWD/usr/src/|" "$headers/Makefile"
+	for folder in scripts tools; do
+		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "$headers/$folder"
+		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "usr/src/linux-headers-$2-common/$folder"
+	done
+	# The guest loads modules without parameters: these addresses have a chip.
+	sed -i 's/^static unsigned short chip_addr\[MAX_CHIPS\];/static unsigned short chip_addr[MAX_CHIPS] = { 0x40, 0x4f };/' chips/i2c-stub.c
+	echo 'obj-m := i2c-stub.o pwm-pca9685.o w1-sim.o' >chips/Kbuild
+	make -s -C "$headers" M="$PWD/chips" ARCH="$3" CROSS_COMPILE="$4" modules || return
+	mkdir -p "lib/modules/$1/extra"
+	cp chips/*.ko "lib/modules/$1/extra/"
+	depmod -b "$PWD" "$1"
+}
+
 # musl CROSS CPU TARGET LIBGCC HEADERS PATCH : a C library for a machine without MMU, and
 # $dest/cc, a compiler that makes static PIE with it: what the kernel's FDPIC loader
 # takes. There is no guard page below a stack; STACK says how many bytes it has.

@@ -4,6 +4,7 @@
 # after build.sh. GPIO_DRIVERS: the gpio drivers to test.
 
 # virt ARCH FLAVOUR KARCH TRIPLET EMULATOR
+# VALUES=1: with chips on I2C and a 1-wire bus.
 virt() {
 	deb=$1 triplet=$4
 	drivers=${GPIO_DRIVERS:-uapi gpiod1 gpiod2}
@@ -13,12 +14,14 @@ virt() {
 	once "gpiod1-$1" gpiod "$1" "$triplet" bookworm
 	once "gpiod2-$1" gpiod "$1" "$triplet" bookworm-backports
 	once "cyclictest-$1" cyclictest "$1" "$triplet"
+	[ -z "${VALUES-}" ] || once "values-$1" values "$1" "$2" "$3" "$4-" tests/targets/guest/values/w1-sim.c
 
 	programs CROSS="$triplet-" -- $drivers
 	command_line
 	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out/ladder" "$out"/ladderd-* \
 		"$out/ladder-guard" "$out/cases" "$cache/cyclictest-$1/guest"/*
 	cp -r "$cache/stock-$1/sim" "$root/modules"
+	[ -z "${VALUES-}" ] || cp "$cache/values-$1/modules"/* "$root/modules/"
 	guest_runs /guest $(guest_options) /cases $(printf '/ladderd-%s ' $drivers)
 	guest_runs /replay /cases/programs.bundle
 	disk_close
