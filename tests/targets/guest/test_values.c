@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_values - values by drivers of the kernel: temperatures of an LM75 (hwmon) and of a DS18B20 (w1_therm), pulse
- * widths of a PCA9685.
+ * widths of a PCA9685; with a ladderd that has libiio, a voltage of an ADS1015 and one of the kernel's dummy converter.
  *
  * The LM75 and the PCA9685 are memory on a bus of I2C (i2c-stub), so that a test writes what a chip would measure
  * and reads what it would drive. The DS18B20 is that of values/w1-sim.c. Without them the test is skipped.
@@ -16,13 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define BUS    "/sys/bus/i2c/devices/i2c-0/"
 #define SENSOR "/sys/module/w1_sim/parameters/"
 #define LM75   0x4f
+#define ADC    0x48
 #define PWM    0x40
 #define STEPS  4096
+#define DUMMY  "/sys/kernel/config/iio/devices/dummy/valve"
+#define WITH_LIBIIO "/ladderd-iio"
 #define NEAR   6 /* of 4096 steps: two of ten thousand and two of the chip  */
 
 static const char program[] =
@@ -62,13 +66,18 @@ static int access_chip(int chip, uint8_t reg, bool writes, uint32_t size, union 
 	return ioctl(bus, I2C_SLAVE_FORCE, chip) == 0 ? ioctl(bus, I2C_SMBUS, &access) : -1;
 }
 
-/* The LM75 has the higher byte first, in steps of 1/256 °C. */
-static void measure(double celsius)
+/* What a chip measures has the higher byte first. */
+static void measure_raw(int chip, unsigned raw)
 {
-	const unsigned raw = (unsigned)(celsius * 256);
 	union i2c_smbus_data data = { .word = (uint16_t)(raw << 8 | raw >> 8) };
 
-	access_chip(LM75, 0, true, I2C_SMBUS_WORD_DATA, &data);
+	access_chip(chip, 0, true, I2C_SMBUS_WORD_DATA, &data);
+}
+
+/* The LM75 has steps of 1/256 °C. */
+static void measure(double celsius)
+{
+	measure_raw(LM75, (unsigned)(celsius * 256));
 }
 
 static unsigned byte_of(uint8_t reg)
@@ -155,6 +164,67 @@ static void end_badly(void)
 	check(shows(4050, 3012), "SIGKILL without a guard: the last values stay, as documented");
 }
 
+/* ---- converters ---- */
+
+static const char converters_map[] =
+	"BOARD \"converters\"\n"
+	"%AIW0 iio device=ads1015 channel=voltage0 range=0..10000 at 0V..2V poll=20ms stale=200ms substitute=9000\n"
+	"%AIW2 sim\n"
+	"%AQW0 iio device=valve channel=voltage0 range=0..10000 at 0V..10V safe=1234\n"
+	"%AQW2 sim safe=0\n";
+
+/* The output of the dummy, in mV; -1: it is not there. */
+static long valve(void)
+{
+	char path[PATH_MOST], text[64];
+
+	for (int i = 0; i < 8; i++) {
+		snprintf(path, sizeof(path), "/sys/bus/iio/devices/iio:device%d/name", i);
+		if (file_take(path, text, sizeof(text)) < 0 || strncmp(text, "valve", 5) != 0)
+			continue;
+		snprintf(path, sizeof(path), "/sys/bus/iio/devices/iio:device%d/out_voltage0_raw", i);
+		return file_take(path, text, sizeof(text)) < 0 ? -1 : strtol(text, NULL, 10);
+	}
+	return -1;
+}
+
+static bool valve_shows(long mv)
+{
+	int64_t end_ns = clock_now() + LIMIT_MS * MS;
+
+	while (labs(valve() - mv) > 5 && clock_now() < end_ns)
+		sleep_ms(20);
+	if (labs(valve() - mv) > 5)
+		note("the output is %ld mV", valve());
+	return labs(valve() - mv) <= 5;
+}
+
+static void converters(void)
+{
+	const char *const usual = guest.ladderd;
+	struct child child;
+
+	if (!file_is_there(WITH_LIBIIO) || mkdir(DUMMY, 0755) != 0) {
+		skip("no ladderd with libiio, or no dummy of Industrial I/O", "converters");
+		return;
+	}
+	guest.ladderd = WITH_LIBIIO;
+	measure_raw(ADC, 1000 << 4);
+	check(put(BUS, "new_device", "ads1015 0x48"), "an ADS1015 is there");
+	ladderd_start(&child, file_text("values.rung", program), file_text("converters.io", converters_map), NULL);
+	check(child_ready() && valve_shows(5000), "a voltage comes in, another one goes out");
+	measure_raw(ADC, 250 << 4);
+	check(valve_shows(1250), "it follows");
+	put(BUS, "delete_device", "0x48");
+	check(valve_shows(9000), "a converter whose driver has gone has its substitute");
+	put(BUS, "new_device", "ads1015 0x48");
+	check(valve_shows(1250), "and is back");
+	check(child_stop(&child) == 0 && valve_shows(1234), "SIGTERM: the safe value");
+	put(BUS, "delete_device", "0x48");
+	rmdir(DUMMY);
+	guest.ladderd = usual;
+}
+
 void test_values(void)
 {
 	if (guest.small || !can()) {
@@ -166,6 +236,8 @@ void test_values(void)
 	check(put(BUS, "new_device", "lm75 0x4f") && put(BUS, "new_device", "pca9685 0x40"), "an LM75 and a PCA9685 are there");
 	follow();
 	end_badly();
+	if (!guest.again)
+		converters();
 	put(BUS, "delete_device", "0x4f");
 	put(BUS, "delete_device", "0x40");
 	close(bus);

@@ -223,9 +223,9 @@ values() {
 	(cd "$dest/tree" && values_modules "$abi" "${abi%-"$2"}" "$3" "$4") || return
 	mkdir "$dest/modules"
 	n=30
-	for module in $(for wanted in i2c-dev i2c-stub pwm-pca9685 lm75 w1_therm w1-sim; do
+	for module in $(for wanted in i2c-dev i2c-stub pwm-pca9685 lm75 w1_therm w1-sim ti-ads1015 iio-dummy; do
 			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
-		done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }'); do
+		done | awk '$1 == "insmod" && $2 !~ "/configfs.ko" && !seen[$2]++ { print $2 }'); do
 		cp "$module" "$dest/modules/$n-$(basename "$module")" || return
 		n=$((n + 1))
 	done
@@ -236,7 +236,9 @@ values_modules() { # ABI BASE KARCH CROSS
 	headers=$PWD/usr/src/linux-headers-$1
 	mkdir chips
 	tar -xJf usr/src/linux-source-6.1.tar.xz -C chips --transform 's|.*/||' \
-		linux-source-6.1/drivers/i2c/i2c-stub.c linux-source-6.1/drivers/pwm/pwm-pca9685.c || return
+		linux-source-6.1/drivers/i2c/i2c-stub.c linux-source-6.1/drivers/pwm/pwm-pca9685.c \
+		linux-source-6.1/drivers/iio/industrialio-sw-device.c linux-source-6.1/drivers/iio/industrialio-configfs.c \
+		linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.c linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.h || return
 	mv w1-sim.c chips/
 	sed -i "s|^include /usr/src/|include $PWD/usr/src/|" "$headers/Makefile"
 	for folder in scripts tools; do
@@ -244,12 +246,36 @@ values_modules() { # ABI BASE KARCH CROSS
 		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "usr/src/linux-headers-$2-common/$folder"
 	done
 	# The guest loads modules without parameters: these addresses have a chip.
-	sed -i 's/^static unsigned short chip_addr\[MAX_CHIPS\];/static unsigned short chip_addr[MAX_CHIPS] = { 0x40, 0x4f };/' chips/i2c-stub.c
-	echo 'obj-m := i2c-stub.o pwm-pca9685.o w1-sim.o' >chips/Kbuild
+	sed -i 's/^static unsigned short chip_addr\[MAX_CHIPS\];/static unsigned short chip_addr[MAX_CHIPS] = { 0x40, 0x48, 0x4f };/' chips/i2c-stub.c
+	# It measures what was written to its input, as in linux_source.
+	sed -i '/^static int iio_dummy_write_raw/,/^}/s/if (chan->output == 0)/if (!chan->output) { st->single_ended_adc_val = val; return 0; } if (0)/' \
+		chips/iio_simple_dummy.c
+	mv chips/iio_simple_dummy.c chips/iio-dummy.c
+	printf '%s\n' 'obj-m := i2c-stub.o pwm-pca9685.o w1-sim.o industrialio-sw-device.o industrialio-configfs.o iio-dummy.o' \
+		'ccflags-y := -DCONFIG_CONFIGFS_FS' >chips/Kbuild
 	make -s -C "$headers" M="$PWD/chips" ARCH="$3" CROSS_COMPILE="$4" modules || return
 	mkdir -p "lib/modules/$1/extra"
 	cp chips/*.ko "lib/modules/$1/extra/"
 	depmod -b "$PWD" "$1"
+}
+
+# iio ARCH TRIPLET : libiio with its header, and in guest/lib what it is linked with.
+iio() {
+	debs "$1" bookworm "$dest/tree" libiio-dev libiio0 libusb-1.0-0 libudev1 libavahi-client3 libavahi-common3 \
+		libdbus-1-3 libsystemd0 libcap2 libgcrypt20 libgpg-error0 liblz4-1 libzstd1 liblzma5 libxml2 libicu72 zlib1g \
+		libstdc++6 libgcc-s1 libc6 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	mkdir -p "$dest/guest/lib" "$dest/include"
+	for file in iio usb-1.0 udev avahi-client avahi-common dbus-1 systemd cap gcrypt gpg-error lz4 zstd lzma xml2 icuuc icudata \
+		z stdc++ gcc_s m c; do
+		find "$dest/tree/lib/$2" "$dest/tree/usr/lib/$2" -maxdepth 1 -name "lib$file.so.[0-9]*" |
+			while IFS= read -r path; do cp -L "$path" "$dest/guest/lib/"; done
+	done
+	cp -L "$dest/tree/lib/$2"/ld-linux* "$dest/guest/lib/" && cp "$dest/tree/usr/include/iio.h" "$dest/include/" || return
+	# Each library once, by the name that others ask for.
+	rm -f "$dest/guest/lib"/*.so.*.*
+	rm -r "$dest/tree"
+	ls "$dest/guest/lib/libiio.so.0"
 }
 
 # musl CROSS CPU TARGET LIBGCC HEADERS PATCH : a C library for a machine without MMU, and
