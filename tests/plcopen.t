@@ -142,6 +142,31 @@ like($rung, qr/Go AT %IX0\.0 : BOOL;/, 'a variable of another POU has its own na
 unlike($rung, qr/\r/, 'returns are ends of lines');
 like($rung, qr/INTERVAL := T#100ms/, 'the interval of a clock');
 
+# ---- actions of CODESYS that are charts ----
+sub link_to { return '<connectionPointIn>' . join('', map { "<connection refLocalId=\"$_\"/>" } @_) . '</connectionPointIn>' }
+sub when { my ($id, $from, $text) = @_; return "<transition localId=\"$id\">" . link_to($from) . "<condition><inline name=\"\"><ST><xhtml:p>$text</xhtml:p></ST></inline></condition></transition>\n" }
+sub does { my ($id, $step, @what) = @_; return "<actionBlock localId=\"$id\">" . link_to($step) . join('', map { "<action localId=\"$id$_\" qualifier=\"N\"><reference name=\"$_\"/><connectionPointOut/></action>" } @what) . "</actionBlock>\n" }
+sub chart_action { my ($name, $start, $stop, @what) = @_;
+	return "<action name=\"$name\"><body><SFC>\n<step localId=\"1\" initialStep=\"true\" name=\"${name}_off\"><connectionPointIn/></step>\n" . when(2, 1, $start) .
+		"<step localId=\"3\" name=\"${name}_on\">" . link_to(2) . "</step>\n" . does(4, 3, @what) . when(5, 3, $stop) . '<jumpStep localId="6" targetName="' . $name . '_off">' . link_to(5) . "</jumpStep>\n</SFC></body></action>\n" }
+my $inputs = join '', map { variable($_, 'BOOL') } qw(Start SFCReset);
+my $many = join '', map { variable("Nr$_", 'INT') } 1 .. 25;
+my $sum = join '', map { "Nr$_ := Nr$_ + 1; " } 1 .. 25;
+my $block = pou('Pump', 'functionBlock', "<inputVars>$inputs</inputVars><outputVars>" . variable('Runs', 'BOOL') . variable('Fast', 'BOOL') . '</outputVars><localVars>' . variable('Wait', 'TON') . $many . '</localVars>'
+	. '<localVars constant="true">' . variable('Most', 'INT', '<initialValue><simpleValue value="3"/></initialValue>') . '</localVars>',
+	text_body('ST', 'Wait(IN := Runs, PT := T#20ms);') . "<actions>\n" . chart_action('Move', 'Start AND Most = 3', 'NOT Start AND Nr25 &gt; 2', 'Runs', 'Count', 'Speed') . '<action name="Count"><body><ST><xhtml:p>' . $sum . '</xhtml:p></ST></body></action>'
+	. chart_action('Speed', 'Wait.Q', 'FALSE', 'Fast') . "</actions>\n");
+my $plant = pou('Main', 'program', '<localVars>' . join('', map { located(@$_) } ['Go', 'BOOL', '%IX0.0'], ['Halt', 'BOOL', '%IX0.1'], ['Runs', 'BOOL', '%QX0.0']) . variable('One', 'Pump') . variable('Two', 'Pump') . '</localVars>',
+	text_body('ST', "One(Start := Go);\nIF Halt THEN One.Move(SFCReset := TRUE); ELSE One.Move(SFCReset := FALSE, Start := Go); END_IF;\nRuns := One.Runs;"));
+($rung, $said) = imported('charts', project('', $block . $plant));
+like($rung, qr/^FUNCTION_BLOCK Pump_Move SFC$/m, 'a chart becomes a block');
+like($said, qr/changed: the action Pump\.Move is a chart: it becomes the function block Pump_Move, which the action calls/, 'which is told');
+unlike($said, qr/: lost:/, 'and nothing is lost');
+like($rung, qr/One\.SFCReset := FALSE;\s+One\.Start := Go;\s+One\.Move\(\);/, 'inputs of an action are stores before its call');
+trace_is('charts', "\@print One.Runs One.Fast One.Nr1 One.Nr25 Two.Runs\n.\nGo=1\n. x3\nGo=0\n.\nGo=1 Halt=1\n.\nHalt=0\n.\n", join '',
+	"2 t=20 One.Runs=1 One.Nr1=1 One.Nr25=1\n", "3 t=30 One.Nr1=2 One.Nr25=2\n", "4 t=40 One.Nr1=3 One.Nr25=3\n", "5 t=50 One.Fast=1 One.Nr1=4 One.Nr25=4\n",
+	"6 t=60 One.Runs=0 One.Nr1=5 One.Nr25=5\n", "10 t=100 One.Runs=1 One.Nr1=6 One.Nr25=6\n", "11 t=110 One.Nr1=7 One.Nr25=7\n");
+
 # ---- lists, and an error in the line of the XML ----
 my $count = variable('Count', 'INT') . variable('Go', 'BOOL');
 imported('list', project('', pou('Main', 'program', "<localVars>$count</localVars>", text_body('IL', "LD Count\nADD 1\nST Count"))));

@@ -460,7 +460,7 @@ spew('application.xml', $application);
 my $report = `$ladder import application.xml -o application.rung 2>warnings`;
 my $made = slurp('application.rung');
 is($?, 0, 'an application: imported') or diag($report . slurp('warnings') . $made);
-is(join('', grep { /: (?:lost|changed): / } $report =~ /^.*\n/mg), "application.xml:35: lost: Chart: an action that is a chart itself does nothing here\n", 'and nothing is lost but a chart in a chart')
+is(join('', grep { /: (?:lost|changed): / } $report =~ /^.*\n/mg), "application.xml:35: changed: the action Chart.Inner is a chart: it becomes the function block Chart_Inner, which the action calls\n", 'and nothing is lost')
 	or diag($report);
 like($made, qr/TASK Often \(INTERVAL := T#500us, PRIORITY := 3\);\n    PROGRAM MAIN WITH Often : MAIN;/, 'its task, as the settings say it');
 like($made, qr/^NAMESPACE GVL\n\nVAR_GLOBAL\n  Go /m, 'a list whose name is said before its variables');

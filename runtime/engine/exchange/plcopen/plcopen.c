@@ -314,6 +314,7 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 		return;
 	}
 	c->types = xml_look(types, "dataTypes");
+	plc_charts_apart(c, xml_look(types, "pous"));
 	plc_find_pous(c, xml_child(types, "pous"));
 	plc_find_own(c, project);
 	if (plc_own_project(c, project))

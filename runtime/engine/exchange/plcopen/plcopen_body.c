@@ -119,7 +119,7 @@ static void plc_put_text(struct plcopen *c, struct xml_node *element)
 	text = arena_copy(c->arena, text, len);
 	if (!text || !*text)
 		return;
-	plc_text(c, plc_renamed(c, flat_comments(c, element, text)));
+	plc_text(c, plc_renamed(c, plc_plain_calls(c, flat_comments(c, element, text))));
 	plc_put(c, "\n");
 }
 
@@ -219,6 +219,39 @@ bool plc_has_action(const struct plcopen *c, const struct plcopen_pou *pou, cons
 		    plc_same(xml_value(each, "name"), dot ? dot + 1 : name))
 			return true;
 	return false;
+}
+
+/* The POU whose instance a variable is; NULL: it is none. */
+static struct plcopen_pou *block_of(const struct plcopen *c, const struct xml_node *variable)
+{
+	const struct xml_node *type = variable ? xml_look(variable, "type") : NULL;
+	const struct xml_node *derived = type ? xml_look(type, "derived") : NULL;
+
+	return derived && xml_value(derived, "name") ? plc_pou(c, xml_value(derived, "name")) : NULL;
+}
+
+bool plc_instance_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name)
+{
+	char part[LIMIT_NAME + 1];
+
+	for (bool first = true; ; first = false) {
+		const size_t len = strcspn(name, ".");
+		const struct xml_node *variable;
+
+		if (!len || len >= sizeof(part))
+			return false;
+		memcpy(part, name, len);
+		part[len] = '\0';
+		if (!name[len])
+			return !first && plc_has_action(c, pou, part);
+		variable = plc_find_variable(pou, part);
+		if (!variable && first)
+			return name[len] && plc_is_action(c, strrchr(name, '.') + 1);
+		pou = block_of(c, variable);
+		if (!pou)
+			return false;
+		name += len + 1;
+	}
 }
 
 /* An action of a chart has no networks; another one is a body like that of its POU. */

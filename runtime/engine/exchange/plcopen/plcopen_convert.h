@@ -97,6 +97,16 @@ bool plc_same(const char *a, const char *b);
 /** plc_pou - the POU of this name; NULL: none. */
 struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
 
+/* ---- plcopen_calls.c ---- */
+/** plc_is_action - whether any POU has an action of this name. */
+bool plc_is_action(const struct plcopen *c, const char *name);
+/** plc_plain_calls - @text with calls of actions that have no inputs. */
+const char *plc_plain_calls(struct plcopen *c, const char *text);
+
+/* ---- plcopen_apart.c ---- */
+/** plc_charts_apart - makes function blocks of actions that are charts. */
+void plc_charts_apart(struct plcopen *c, struct xml_node *pous);
+
 /* ---- plcopen_address.c ---- */
 /** plc_find_addresses - which addresses change. */
 void plc_find_addresses(struct plcopen *c, struct xml_node *project);
@@ -158,6 +168,9 @@ void plc_part_swap(struct plcopen *c, struct plc_part *part);
 void plc_part_append(struct plcopen *c, struct plc_part *part);
 /** plc_has_action - whether @name is an action of @pou, or, as Other.Name, of another POU. */
 bool plc_has_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name);
+/** plc_instance_action - whether @name, Pump.Start or Plant.Pump.Start, is an action of the block that a variable of @pou
+ * is, or, of a variable from outside, of any block. */
+bool plc_instance_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name);
 /** plc_actions - the actions of a POU. */
 void plc_actions(struct plcopen *c, struct plcopen_pou *pou);
 /** plc_put_inner - the body of an action: text, rungs or statements. false: it has none of these. */

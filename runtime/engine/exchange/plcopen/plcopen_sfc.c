@@ -204,6 +204,9 @@ static const char *find_condition(struct chart *chart, struct plc_element *e)
 
 		text = pin ? drawn_condition(chart, chart->graph, pin) : NULL;
 	}
+	/* CODESYS takes a semicolon behind it. */
+	for (size_t len = text && !chart->il ? strlen(text) : 0; len && strchr("; \t\r\n", text[len - 1]); len--)
+		text = text[len - 1] == ';' ? plc_print(c, "%.*s", (int)(len - 1), text) : text;
 	if (text && negated)
 		text = chart->il ? plc_print(c, "%s\nNOT", text) : plc_print(c, "NOT (%s)", text);
 	return text;
@@ -264,6 +267,18 @@ static bool is_qualifier(const char *text)
 	return false;
 }
 
+/* An action that calls @name, an action of an instance. */
+static const char *calling(struct chart *chart, const struct plc_element *step, const char *name)
+{
+	struct plcopen *c = chart->c;
+	const char *made = plc_print(c, "%s_Inline%d", step->name, ++chart->root->inlines);
+
+	plc_part_swap(c, &chart->root->actions);
+	plc_put(c, "\nACTION %s:\n  %s();\nEND_ACTION\n", made, plc_renamed(c, name));
+	plc_part_swap(c, &chart->root->actions);
+	return made;
+}
+
 /* The name of the thing that a line of a step does; NULL: it does nothing. */
 static const char *action_name(struct chart *chart, const struct plc_element *step,
 			       struct xml_node *action)
@@ -274,7 +289,7 @@ static const char *action_name(struct chart *chart, const struct plc_element *st
 	struct plc_part before;
 
 	if (reference && name && *name)
-		return name;
+		return plc_instance_action(c, chart->pou, name) ? calling(chart, step, name) : name;
 	if (!body)
 		return NULL;
 	xml_take(body, "name");
@@ -325,7 +340,7 @@ static void put_set_action(struct chart *chart, const struct plc_element *step, 
 	struct plcopen *c = chart->c;
 	const char *made;
 
-	if (!plc_has_action(c, chart->pou, name)) {
+	if (strchr(name, '.') || !plc_has_action(c, chart->pou, name)) {
 		made = plc_print(c, "%s_%s", step->name, set->end);
 		plc_part_swap(c, &chart->root->actions);
 		plc_put(c, "\nACTION %s:\n  %s();\nEND_ACTION\n", made, plc_renamed(c, name));
@@ -387,6 +402,7 @@ static void put_action(struct chart *chart, const struct plc_element *step, stru
 	bool timed;
 
 	action->taken = true;
+	xml_child(action, "connectionPointOut"); /* nothing leads on from there */
 	put_set_actions(chart, NULL, action, NULL);
 	if (!qualifier || !*qualifier)
 		qualifier = "N";
@@ -532,6 +548,20 @@ static void put_items(struct chart *chart)
 	plc_part_append(c, &before);
 }
 
+/* While SFCReset or SFCInit is TRUE, a chart of CODESYS is in its first step. */
+static void put_flags(struct plcopen *c, const struct plcopen_pou *pou)
+{
+	const struct xml_node *reset = plc_find_variable(pou, "SFCReset"), *init = plc_find_variable(pou, "SFCInit");
+	const struct xml_node *flag = reset ? reset : init, *type = flag ? xml_look(flag, "type") : NULL;
+
+	if (!type || !type->first || !xml_is(type->first, "BOOL") || xml_is(flag->parent, "externalVars"))
+		return;
+	plc_put(c, "  CONTROL(RESET := %s);\n", xml_value(flag, "name"));
+	if (reset && init)
+		plc_report(c, REPORT_LOST, init, "%s", report_said(c->report,
+			   REPORTED("SFCInit does nothing beside SFCReset")));
+}
+
 void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
 {
 	struct chart chart = { .c = c, .pou = pou };
@@ -541,6 +571,7 @@ void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
 		return;
 	chart.graph = graph;
 	chart.root = &chart;
+	put_flags(c, pou);
 	put_items(&chart);
 	if (chart.compute)
 		plc_put(c, "\nACTION %s:\n", chart.compute);

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plcopen_calls - calls of actions with inputs, in Structured Text.
+ *
+ * In CODESYS `Pump.Start(Reset := TRUE)` stores into the input Reset of the block and runs its action. Here an action
+ * has no inputs, so that becomes `Pump.Reset := TRUE; Pump.Start()`.
+ */
+#include "engine/exchange/plcopen/plcopen_convert.h"
+
+#include "engine/base/lex.h"
+
+#include <string.h>
+
+bool plc_is_action(const struct plcopen *c, const char *name)
+{
+	for (int i = 0; i < c->pous; i++)
+		if (plc_has_action(c, &c->pou[i], name))
+			return true;
+	return false;
+}
+
+/* Behind the last dot of a name. */
+static const char *last_part(const struct token *name)
+{
+	const char *part = name->text;
+
+	for (size_t i = 0; i < name->len; i++)
+		part = name->text[i] == '.' ? name->text + i + 1 : part;
+	return part;
+}
+
+/* A name without dots is an action of the POU in work. */
+static bool is_action(struct plcopen *c, const struct token *name)
+{
+	const char *part = last_part(name);
+	const size_t before = (size_t)(part - name->text);
+	const struct plcopen_pou *own;
+
+	part = plc_print(c, "%.*s", (int)(name->len - before), part);
+	if (before)
+		return plc_is_action(c, part);
+	own = c->pou_name ? plc_pou(c, plc_print(c, "%.*s", (int)strcspn(c->pou_name, "."), c->pou_name)) : NULL;
+	return own && plc_has_action(c, own, part);
+}
+
+/* One input, `Name := value`, as a statement; the lexer stops at the comma or parenthesis behind it. */
+static bool put_input(struct plc_build *to, struct plcopen *c, const struct token *name, struct lex *lex)
+{
+	const int before = (int)(last_part(name) - name->text);
+	const struct token input = lex->token;
+	const char *value, *end;
+	int open = 0;
+
+	if (input.kind != TOKEN_NAME || lex_next(lex) == TOKEN_END || !lex_is(lex, ":="))
+		return false;
+	lex_next(lex);
+	value = end = lex->token.text;
+	for (; lex->token.kind != TOKEN_END && (open || (!lex_is(lex, ",") && !lex_is(lex, ")"))); lex_next(lex)) {
+		open += lex_is(lex, "(") || lex_is(lex, "[");
+		open -= lex_is(lex, ")") || lex_is(lex, "]");
+		end = lex->token.text + lex->token.len;
+	}
+	plc_add_text(to, plc_print(c, "%.*s%.*s := %.*s; ", before, name->text, (int)input.len, input.text,
+				   (int)(end - value), value));
+	return end > value && lex->token.kind != TOKEN_END;
+}
+
+/* The call that @name begins, the lexer at its parenthesis, which steps to the closing one. NULL: it has no inputs, or
+ * others. */
+static const char *plain_call(struct plcopen *c, const struct token *name, struct lex *lex)
+{
+	struct plc_build all;
+	bool good = true;
+	int count = 0;
+
+	plc_build(&all);
+	do {
+		lex_next(lex);
+		good = !(count == 0 && lex_is(lex, ")")) && put_input(&all, c, name, lex);
+		count++;
+	} while (good && lex_is(lex, ","));
+	plc_add_text(&all, plc_print(c, "%.*s()", (int)name->len, name->text));
+	return good ? plc_built(c, &all) : (plc_built(c, &all), NULL);
+}
+
+/* Does a statement begin behind the token? */
+static bool ends_statement(const struct lex *lex)
+{
+	return lex_is(lex, ";") || lex_is(lex, "THEN") || lex_is(lex, "ELSE") || lex_is(lex, "DO") || lex_is(lex, ":") ||
+	       lex_is(lex, "REPEAT");
+}
+
+const char *plc_plain_calls(struct plcopen *c, const char *text)
+{
+	const char *from = text;
+	struct plc_build all;
+	bool begins = true;
+	struct lex lex;
+
+	plc_build(&all);
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END) {
+		const struct token name = lex.token;
+		struct lex ahead = lex;
+
+		if (begins && name.kind == TOKEN_NAME && lex_next(&ahead) != TOKEN_END && lex_is(&ahead, "(") &&
+		    is_action(c, &name)) {
+			const char *call = plain_call(c, &name, &ahead);
+
+			if (call) {
+				plc_add_text(&all, plc_print(c, "%.*s%s", (int)(name.text - from), from, call));
+				lex = ahead;
+				from = lex.token.text + 1;
+			}
+		}
+		begins = ends_statement(&lex);
+	}
+	plc_add_text(&all, from);
+	return plc_built(c, &all);
+}
