@@ -38,7 +38,7 @@ my $tail = "<instances><configurations/></instances>\n</project>\n";
 
 sub variable {
 	my ($name, $type, $more) = @_;
-	$type = $type =~ /^[A-Z]+$/ && $type !~ /^(TON|CTU|R_TRIG)$/ ? "<$type/>" : $type =~ /^</ ? $type : "<derived name=\"$type\"/>";
+	$type = $type =~ /^[A-Z]+$/ && $type !~ /^(TON|CTU|R_TRIG|PID|HYSTERESIS|RAMP)$/ ? "<$type/>" : $type =~ /^</ ? $type : "<derived name=\"$type\"/>";
 	return "<variable name=\"$name\"><type>$type</type>" . ($more // '') . "</variable>\n";
 }
 sub pou {
@@ -166,6 +166,28 @@ like($rung, qr/One\.SFCReset := FALSE;\s+One\.Start := Go;\s+One\.Move\(\);/, 'i
 trace_is('charts', "\@print One.Runs One.Fast One.Nr1 One.Nr25 Two.Runs\n.\nGo=1\n. x3\nGo=0\n.\nGo=1 Halt=1\n.\nHalt=0\n.\n", join '',
 	"2 t=20 One.Runs=1 One.Nr1=1 One.Nr25=1\n", "3 t=30 One.Nr1=2 One.Nr25=2\n", "4 t=40 One.Nr1=3 One.Nr25=3\n", "5 t=50 One.Fast=1 One.Nr1=4 One.Nr25=4\n",
 	"6 t=60 One.Runs=0 One.Nr1=5 One.Nr25=5\n", "10 t=100 One.Runs=1 One.Nr1=6 One.Nr25=6\n", "11 t=110 One.Nr1=7 One.Nr25=7\n");
+
+# ---- what Beremiz and OpenPLC have in another way ----
+my $own = '<localVars>' . join('', map { variable(@$_) } ['Loop', 'PID'], ['Out', 'REAL'], ['Held', 'REAL'], ['Long', 'DINT'], ['Wait', 'TIME'], ['Half', 'TIME'], ['Two', 'INT'], ['Wet', 'HYSTERESIS'], ['Slow', 'RAMP']) . '</localVars>';
+my $lines = "Loop(AUTO := TRUE, PV := 3.0, SP := 1.0, X0 := 0.0, KP := 2.0, TR := 10.0, TD := 0.0, CYCLE := T#500ms);\nOut := Loop.XOUT;\nHeld := TIME_TO_REAL(T#1500ms);\n"
+	. "Long := TIME_TO_DINT(T#90s);\nWait := INT_TO_TIME(3);\nHalf := REAL_TO_TIME(0.5);\nTwo := Share(Whole := 2);\nWet(XIN1 := Out, XIN2 := 5.0, EPS := 0.3);\n"
+	. "Slow(RUN := TRUE, X0 := 0.0, X1 := 8.0, TR := T#40ms, CYCLE := T#10ms);";
+my $share = pou('Share', 'function', '<returnType><INT/></returnType><inputVars>' . variable('Whole', 'INT') . variable('Twice', 'BOOL') . variable('More', 'INT', '<initialValue><simpleValue value="5"/></initialValue>') . '</inputVars>',
+	text_body('ST', "Share := Whole + More;\nIF Twice THEN Share := Share * 2; END_IF;"));
+($rung, $said) = imported('library', project('', pou('Main', 'program', $own, text_body('ST', $lines)) . $share));
+like($said, qr/changed: the block PID of other tools has other pins: it becomes a block of the project/, 'a block with other pins is told');
+like($said, qr/changed: TIME_TO_REAL counts seconds there and milliseconds here/, 'a conversion of TIME, too');
+like($rung, qr/^  Twice : BOOL := FALSE;\n  More  : INT := 5;/m, 'an input that a call leaves out has a value');
+# 2 * (error + the sum of error by time / TR), with an error of 2.
+trace_is('library', "\@print Out Held Long Wait Half Two Wet.Q Slow.XOUT\n. x5\n", "1 t=10 Out=4.2 Held=1.5 Long=90 Wait=3000 Half=500 Two=7\n2 t=20 Out=4.4 Slow.XOUT=2\n3 t=30 Out=4.6 Slow.XOUT=4\n"
+	. "4 t=40 Out=4.8 Slow.XOUT=6\n5 t=50 Out=5 Slow.XOUT=8\n");
+($rung, $said) = imported('library2', project('', pou('Main', 'program', '<localVars>' . variable('Held', 'REAL') . '</localVars>', text_body('ST', 'Held := TIME_TO_REAL(T#1500ms);'))) =~ s{</project>}{$codesys}r);
+trace_is('library2', "\@print Held\n.\n", "1 t=10 Held=1500\n");
+
+# A list brings a result to a label.
+imported('brought', project('', pou('Main', 'program', '<localVars>' . variable('Go', 'BOOL') . variable('Count', 'INT') . variable('Seen', 'INT') . '</localVars>',
+	text_body('IL', "LD Go\nJMPC Clear\n(* one more *)\nLD Count\nADD 1\nJMP Save\nClear:\nLD 0\nSave:\nST Count\nST Seen"))));
+trace_is('brought', "\@print Count Seen\n. x2\nGo=1\nGo=0\n", "1 t=10 Count=1 Seen=1\n2 t=20 Count=2 Seen=2\n3 t=30 Count=0 Seen=0\n4 t=40 Count=1 Seen=1\n");
 
 # ---- lists, and an error in the line of the XML ----
 my $count = variable('Count', 'INT') . variable('Go', 'BOOL');

@@ -314,13 +314,15 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 		return;
 	}
 	c->types = xml_look(types, "dataTypes");
+	plc_find_own(c, project);
+	plc_library(c, project, xml_look(types, "pous"));
 	plc_charts_apart(c, xml_look(types, "pous"));
 	plc_find_pous(c, xml_child(types, "pous"));
-	plc_find_own(c, project);
 	if (plc_own_project(c, project))
 		return;
 	plc_find_renames(c, project);
 	plc_find_addresses(c, project);
+	plc_find_short_calls(c);
 	put_header(c, project);
 	if (xml_child(types, "dataTypes"))
 		plc_types(c, xml_look(types, "dataTypes"));

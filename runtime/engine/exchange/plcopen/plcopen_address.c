@@ -182,16 +182,29 @@ static void report_moved(struct plcopen *c, const struct used *used, int count)
 	}
 }
 
+static bool is_twincat(const struct xml_node *header)
+{
+	const char *product = header ? xml_value(header, "productName") : NULL;
+
+	return product && strstr(product, "TwinCAT");
+}
+
+bool plc_counts_otherwise(const struct plcopen *c, const struct xml_node *project)
+{
+	const struct xml_node *header = xml_look(project, "fileHeader");
+
+	return is_ours(c, header) || is_twincat(header) || is_codesys(project);
+}
+
 void plc_find_addresses(struct plcopen *c, struct xml_node *project)
 {
-	struct xml_node *header = xml_look(project, "fileHeader");
-	const char *product = header ? xml_value(header, "productName") : NULL;
+	const struct xml_node *header = xml_look(project, "fileHeader");
 	struct finding f = { .c = c };
 	bool codesys;
 
 	for (int i = 0; i < AREAS * WIDTHS; i++)
 		c->address[i / WIDTHS][i % WIDTHS] = -1;
-	if (is_ours(c, header) || (product && strstr(product, "TwinCAT")))
+	if (is_ours(c, header) || is_twincat(header))
 		return;
 	codesys = is_codesys(project);
 	find_in(&f, project);

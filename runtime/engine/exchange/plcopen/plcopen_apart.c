@@ -38,12 +38,8 @@ static struct xml_node *chart_of(const struct xml_node *action)
 
 static void add_attribute(struct apart *a, struct xml_node *node, const char *name, const char *value)
 {
-	struct xml_attribute *attribute = node ? arena_alloc(a->c->arena, sizeof(*attribute)) : NULL;
-
-	if (!attribute)
-		return;
-	*attribute = (struct xml_attribute){ .name = name, .value = value, .taken = true, .next = node->attribute };
-	node->attribute = attribute;
+	if (node)
+		xml_give(a->c->arena, node, name, value);
 }
 
 static struct xml_node *make(struct apart *a, struct xml_node *parent, const char *name)

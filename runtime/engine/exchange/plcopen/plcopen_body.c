@@ -100,7 +100,7 @@ static const char *flat_comments(struct plcopen *c, const struct xml_node *eleme
 }
 
 /* The text of a body in ST or IL. */
-static void plc_put_text(struct plcopen *c, struct xml_node *element)
+static void put_text(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *element)
 {
 	int line = element->line;
 	const char *text = xml_text(c->arena, element, &line);
@@ -119,7 +119,9 @@ static void plc_put_text(struct plcopen *c, struct xml_node *element)
 	text = arena_copy(c->arena, text, len);
 	if (!text || !*text)
 		return;
-	plc_text(c, plc_renamed(c, plc_plain_calls(c, flat_comments(c, element, text))));
+	text = flat_comments(c, element, text);
+	text = xml_is(element, "IL") ? plc_labels(c, pou, element, text) : plc_plain_calls(c, text);
+	plc_text(c, plc_renamed(c, text));
 	plc_put(c, "\n");
 }
 
@@ -153,7 +155,7 @@ static enum plcopen_language put_body(struct plcopen *c, struct plcopen_pou *pou
 	switch ((int)pou->language) {
 	case PLCOPEN_ST:
 	case PLCOPEN_IL:
-		plc_put_text(c, pou->body);
+		put_text(c, pou, pou->body);
 		return pou->language;
 	case PLCOPEN_LD:
 	case PLCOPEN_FBD:
@@ -186,7 +188,7 @@ bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *
 	switch ((int)language) {
 	case PLCOPEN_ST:
 	case PLCOPEN_IL:
-		plc_put_text(c, element);
+		put_text(c, pou, element);
 		return true;
 	case PLCOPEN_LD:
 	case PLCOPEN_FBD:

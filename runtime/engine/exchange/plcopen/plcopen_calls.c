@@ -118,3 +118,72 @@ const char *plc_plain_calls(struct plcopen *c, const char *text)
 	plc_add_text(&all, from);
 	return plc_built(c, &all);
 }
+
+/* ---- calls of functions without some inputs ---- */
+
+enum { MOST_WORK = 20000000 }; /* names that are compared: a hostile file may have many */
+
+static int inputs_of(const struct plcopen_pou *pou)
+{
+	const struct xml_node *interface = xml_look(pou->node, "interface");
+	int count = 0;
+
+	for (const struct xml_node *list = interface ? interface->first : NULL; list; list = list->next)
+		for (const struct xml_node *each = xml_is(list, "inputVars") ? list->first : NULL; each; each = each->next)
+			count += xml_is(each, "variable");
+	return count;
+}
+
+/* The inputs that a call names, the lexer at its parenthesis; -1: it gives them by their places. */
+static int named_inputs(struct lex lex)
+{
+	int open = 0, count = 0;
+	bool named = false;
+
+	do {
+		const bool enables = lex_is(&lex, "EN");
+
+		open += lex_is(&lex, "(");
+		open -= lex_is(&lex, ")");
+		if (open != 1 || lex.token.kind != TOKEN_NAME)
+			continue;
+		lex_next(&lex);
+		named |= lex_is(&lex, ":=");
+		count += lex_is(&lex, ":=") && !enables;
+		open += lex_is(&lex, "(");
+		open -= lex_is(&lex, ")");
+	} while (open > 0 && lex_next(&lex) != TOKEN_END);
+	return named ? count : -1;
+}
+
+static void find_short(struct plcopen *c, const char *text, long *work)
+{
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (*work > 0 && lex_next(&lex) != TOKEN_END) {
+		const struct token name = lex.token;
+		struct plcopen_pou *pou;
+		struct lex ahead = lex;
+		int named;
+
+		if (name.kind != TOKEN_NAME || lex_next(&ahead) == TOKEN_END || !lex_is(&ahead, "("))
+			continue;
+		*work -= c->pous;
+		pou = plc_pou(c, plc_print(c, "%.*s", (int)name.len, name.text));
+		if (!pou || pou->kind != POU_FUNCTION || pou->called_short)
+			continue;
+		named = named_inputs(ahead);
+		pou->called_short = named >= 0 && named < inputs_of(pou);
+	}
+}
+
+void plc_find_short_calls(struct plcopen *c)
+{
+	long work = MOST_WORK;
+
+	for (int i = 0; i < c->pous; i++)
+		for (const struct xml_node *node = c->pou[i].node, *end = node->next; node && node != end; node = xml_next(node))
+			if (node->text && strchr(node->text, '('))
+				find_short(c, node->text, &work);
+}

@@ -21,6 +21,7 @@ struct plcopen_pou {
 	enum { POU_PROGRAM, POU_FUNCTION, POU_BLOCK } kind;
 	struct xml_node *body;          /* the element of its language; NULL: none */
 	enum plcopen_language language; /* that of the file                        */
+	bool called_short;              /* a function: a call names only some inputs */
 };
 
 /* Text that waits until what stands above it is written. */
@@ -97,9 +98,19 @@ bool plc_same(const char *a, const char *b);
 /** plc_pou - the POU of this name; NULL: none. */
 struct plcopen_pou *plc_pou(const struct plcopen *c, const char *name);
 
+/* ---- plcopen_library.c ---- */
+/** plc_library - adds the blocks and functions of Beremiz and OpenPLC that the project uses, to its POUs. */
+void plc_library(struct plcopen *c, struct xml_node *project, struct xml_node *pous);
+
+/* ---- plcopen_list.c ---- */
+/** plc_labels - an instruction list of @pou in which no label is reached with a result. @node: for the report. */
+const char *plc_labels(struct plcopen *c, struct plcopen_pou *pou, const struct xml_node *node, const char *text);
+
 /* ---- plcopen_calls.c ---- */
 /** plc_is_action - whether any POU has an action of this name. */
 bool plc_is_action(const struct plcopen *c, const char *name);
+/** plc_find_short_calls - which functions are called without some of their inputs. */
+void plc_find_short_calls(struct plcopen *c);
 /** plc_plain_calls - @text with calls of actions that have no inputs. */
 const char *plc_plain_calls(struct plcopen *c, const char *text);
 
@@ -108,6 +119,8 @@ const char *plc_plain_calls(struct plcopen *c, const char *text);
 void plc_charts_apart(struct plcopen *c, struct xml_node *pous);
 
 /* ---- plcopen_address.c ---- */
+/** plc_counts_otherwise - whether the file is from here, from CODESYS or from TwinCAT. */
+bool plc_counts_otherwise(const struct plcopen *c, const struct xml_node *project);
 /** plc_find_addresses - which addresses change. */
 void plc_find_addresses(struct plcopen *c, struct xml_node *project);
 /** plc_moved - the address @text as it is here; NULL: it stays, or is none. */

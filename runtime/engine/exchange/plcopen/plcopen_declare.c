@@ -263,10 +263,29 @@ const char *plc_value(struct plcopen *c, struct xml_node *node)
 
 /* ---- variables ---- */
 
+/* Other tools take 0 for an input that a call leaves out, here it needs a value; NULL: no call leaves it out. */
+static const char *left_out(struct plcopen *c, const struct xml_node *variable, const char *type)
+{
+	const struct xml_node *list = variable->parent, *interface = list ? list->parent : NULL;
+	const enum iec_type of = iec_type_find(type, strcspn(type, "[( "));
+	const struct plcopen_pou *pou;
+
+	if (of == IEC_NONE || !interface || !xml_is(list, "inputVars") || !xml_is(interface, "interface") || !interface->parent)
+		return NULL;
+	pou = xml_value(interface->parent, "name") ? plc_pou(c, xml_value(interface->parent, "name")) : NULL;
+	if (!pou || !pou->called_short)
+		return NULL;
+	return of == IEC_BOOL ? "FALSE" : iec_type_row(of)->class & (ANY_INT | CLASS_BITS) ? "0" :
+	       iec_type_row(of)->class == CLASS_REAL ? "0.0" : iec_type_row(of)->class == CLASS_STRING ? "''" :
+	       iec_type_row(of)->class == CLASS_TIME ? "T#0s" : NULL;
+}
+
 static void put_value(struct plcopen *c, struct xml_node *variable, const char *type)
 {
 	const char *value = plc_value(c, variable);
 
+	if (!value)
+		value = left_out(c, variable, type);
 	if (!value)
 		return;
 	/* Beremiz takes a text without its quotes, and a number for a BOOL. */

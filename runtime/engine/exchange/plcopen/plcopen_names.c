@@ -8,6 +8,7 @@
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/check/reserved.h"
+#include "engine/model/convert.h"
 #include "engine/model/words.h"
 
 #include <stdlib.h>
@@ -35,11 +36,12 @@ static const char *renamed(const struct plcopen *c, const char *name, size_t len
 static bool is_built_in(const struct xml_node *node, const char *name)
 {
 	const enum word word = word_find(name, strlen(name));
+	struct convert_word convert;
 
 	if (xml_is(node, "dataType"))
 		return word != WORD_COUNT && !words_is_operator(name, strlen(name));
 	return xml_is(node, "pou") &&
-	       ((word != WORD_COUNT && word_row(word)->kind != WORD_ELEM) ||
+	       (convert_make(name, strlen(name), &convert) || (word != WORD_COUNT && word_row(word)->kind != WORD_ELEM) ||
 		op_find(name, strlen(name)) != OP_COUNT);
 }
 

@@ -127,6 +127,16 @@ struct xml_node *xml_make(struct arena *arena, struct xml_node *parent, const ch
 	return node;
 }
 
+void xml_give(struct arena *arena, struct xml_node *node, const char *name, const char *value)
+{
+	struct xml_attribute *attribute = arena_alloc(arena, sizeof(*attribute));
+
+	if (!attribute)
+		return;
+	*attribute = (struct xml_attribute){ .name = name, .value = value, .taken = true, .next = node->attribute };
+	node->attribute = attribute;
+}
+
 const char *xml_text(struct arena *arena, struct xml_node *node, int *line)
 {
 	const struct xml_node *only = NULL;

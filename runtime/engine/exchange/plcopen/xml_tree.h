@@ -60,6 +60,8 @@ void xml_take_all(struct xml_node *node);
 void xml_move(struct xml_node *node, struct xml_node *to);
 /** xml_make - a new last child, marked as taken; NULL: no memory. @name lives as long as @arena. */
 struct xml_node *xml_make(struct arena *arena, struct xml_node *parent, const char *name);
+/** xml_give - an attribute more, marked as taken. The texts live as long as @arena. */
+void xml_give(struct arena *arena, struct xml_node *node, const char *name, const char *value);
 /** xml_text - the text of @node and of all elements in it, which are marked; "": none. */
 const char *xml_text(struct arena *arena, struct xml_node *node, int *line);
 #endif
