@@ -172,8 +172,9 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
+	/* A member of a union is in the variable itself. */
 	if (meaning->through && use & USE_WRITTEN)
-		use = (use & ~(unsigned)USE_WRITTEN) | USE_READ;
+		use = (meaning->var && meaning->var->target ? use & ~(unsigned)USE_WRITTEN : use) | USE_READ;
 	if (meaning->addr.area != AREA_NONE)
 		map_add(uses, span_of(uses, meaning->addr, meaning_reach(meaning)), use);
 	if (!meaning->var)
