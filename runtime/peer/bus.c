@@ -101,14 +101,18 @@ static int open_bus(struct bus *bus)
 
 bool bus_keep(struct bus *bus)
 {
+	bool was_open;
 	int error;
 
 	if (bus->fd >= 0 && if_nametoindex(bus->interface) != bus->index)
 		bus_close(bus);
-	error = bus->fd >= 0 ? read_networks(bus) : open_bus(bus);
+	was_open = bus->fd >= 0;
+	error = was_open ? read_networks(bus) : open_bus(bus);
 	if (error)
 		bus_close(bus);
-	bus->error = error;
+	/* An open bus that does not send keeps that error until it sends again. */
+	if (error || !was_open)
+		bus->error = error;
 	return !error;
 }
 
