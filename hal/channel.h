@@ -170,6 +170,7 @@ struct io_net {
 #define IO_STALE_NS   1000000000 /* of inputs that do not say stale=       */
 #define IO_POLL_NS    100000000  /* … poll=                                */
 #define IO_REFRESH_NS 1000000000 /* … refresh=                             */
+#define IO_BUSES      16         /* of a map; servers, too                  */
 
 /** io_is_gateway - whether another program serves the point (modbus, module, peer), and not a driver
  * in this one. */

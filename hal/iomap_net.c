@@ -15,7 +15,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BUSES       16       /* buses and servers of a map, each               */
 #define PEER_GROUP  "239.192.20.1"
 #define PEER_PORT   20020
 #define MODBUS_PORT 502
@@ -353,7 +352,7 @@ static void read_bus_line(struct reader *reader, const struct map_word *first)
 	struct io_net *net = &reader->net->net;
 	struct io_bus *bus;
 
-	if (net->bus_count == BUSES) {
+	if (net->bus_count == IO_BUSES) {
 		complain(reader, DIAG_IO_TOO_MANY, first);
 		skip_words(reader);
 		return;
@@ -368,7 +367,7 @@ static void read_serve_line(struct reader *reader, const struct map_word *first)
 	struct io_net *net = &reader->net->net;
 	struct io_serve *serve;
 
-	if (net->serve_count == BUSES) {
+	if (net->serve_count == IO_BUSES) {
 		complain(reader, DIAG_IO_TOO_MANY, first);
 		skip_words(reader);
 		return;

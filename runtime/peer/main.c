@@ -10,7 +10,6 @@
 #include "peer/inbox.h"
 #include "peer/outbox.h"
 
-#include "engine/base/name.h"
 #include "engine/base/version.h"
 #include "hal/clock.h"
 
@@ -26,7 +25,6 @@
 #define SECOND     INT64_C(1000000000)
 #define AGAIN_MS   500         /* between two attempts to reach ladderd        */
 #define ALIVE_NS   (SECOND / 50) /* what ladderd has said is no older when it is sent */
-#define BUSES      16
 #define AT_ONCE    256         /* datagrams of one bus before ladderd is heard again */
 
 struct peer {
@@ -37,13 +35,12 @@ struct peer {
 	struct iomap map;
 	struct inbox inbox;
 	struct outbox outbox;
-	uint32_t *asked;       /* the value of the outbox that is published as number so-and-so */
-	struct bus bus[BUSES]; /* by their numbers in the map; of others fd is -1 and interface NULL */
+	struct bus bus[IO_BUSES]; /* by their numbers in the map; of others fd is -1 and interface NULL */
 	int bus_count;
-	int told[BUSES];       /* the error that was reported                 */
+	int told[IO_BUSES];    /* the error that was reported                 */
 	int away;              /* … about ladderd: enum desk_end              */
 	uint64_t run;
-	int64_t keep_ns, report_ns, heard_ns;
+	int64_t keep_ns, heard_ns;
 	struct gateway_report report;
 	struct peer_writer out;
 	uint8_t in[PEER_BYTES + 1];
@@ -68,7 +65,7 @@ static void take_output(void *context, uint32_t point, enum iec_type type, union
 static void take_published(void *context, uint32_t which, enum iec_type type, union iec_value value, bool good)
 {
 	struct peer *peer = context;
-	struct outbox_value *out = &peer->outbox.value[peer->asked[which]];
+	struct outbox_value *out = &peer->outbox.value[which];
 
 	if (type == IEC_STRING)
 		return;
@@ -76,28 +73,6 @@ static void take_published(void *context, uint32_t which, enum iec_type type, un
 	out->good = good;
 	out->type = type;
 	out->value = value;
-}
-
-/* The program has no variable of this name. */
-static void leave_out(struct peer *peer, const char *name)
-{
-	for (uint32_t i = 0; i < peer->outbox.value_count; i++)
-		if (name_equal(peer->outbox.value[i].name, name) && !peer->outbox.value[i].missing) {
-			peer->outbox.value[i].missing = true;
-			fprintf(stderr, "ladder-peer: the program has no variable %s: it is not sent\n", name);
-		}
-}
-
-static uint32_t collect_names(struct peer *peer, const char **name)
-{
-	uint32_t count = 0;
-
-	for (uint32_t i = 0; i < peer->outbox.value_count; i++)
-		if (!peer->outbox.value[i].missing) {
-			name[count] = peer->outbox.value[i].name;
-			peer->asked[count++] = i;
-		}
-	return count;
 }
 
 static uint32_t shortest_us(const struct outbox *outbox)
@@ -110,26 +85,18 @@ static uint32_t shortest_us(const struct outbox *outbox)
 	return (uint32_t)(every_ns / 1000);
 }
 
-/* A variable that is missing stops no other one. */
+/* ladderd runs no map that publishes what its program does not have. */
 static enum desk_end want_variables(struct peer *peer)
 {
-	struct gateway *gateway = &peer->gateway;
-	const uint32_t most = peer->outbox.value_count;
-	const char **name = arena_alloc(&peer->arena, (most + 1) * sizeof(*name));
+	const struct outbox *outbox = &peer->outbox;
+	const char **name = arena_alloc(&peer->arena, (outbox->value_count + 1) * sizeof(*name));
 
-	peer->asked = arena_alloc(&peer->arena, (most + 1) * sizeof(*peer->asked));
-	if (!name || !peer->asked)
+	if (!name)
 		return DESK_NO_ROOM;
-	for (uint32_t i = 0; i <= most; i++) {
-		const uint32_t count = collect_names(peer, name);
-		const enum desk_end end = count ? gateway_publish(gateway, name, count, shortest_us(&peer->outbox)) :
-						  DESK_GOOD;
-
-		if (end != DESK_REFUSED || gateway->desk.refusal != REFUSAL_NO_NAME)
-			return end;
-		leave_out(peer, gateway->desk.detail);
-	}
-	return DESK_GOOD;
+	for (uint32_t i = 0; i < outbox->value_count; i++)
+		name[i] = outbox->value[i].name;
+	return outbox->value_count ?
+		       gateway_publish(&peer->gateway, name, outbox->value_count, shortest_us(outbox)) : DESK_GOOD;
 }
 
 /* ---- the map ---- */
@@ -161,7 +128,7 @@ static void find_buses(struct peer *peer)
 {
 	const struct io_net *net = peer->map.net;
 
-	for (int i = 0; net && i < net->bus_count && i < BUSES; i++) {
+	for (int i = 0; net && i < net->bus_count; i++) {
 		const struct io_bus *bus = &net->bus[i];
 
 		bus_init(&peer->bus[i], bus->interface, bus->host, bus->tcp_port);
@@ -235,17 +202,15 @@ static enum desk_end send_due(struct peer *peer)
 	struct outbox_line *line;
 	enum desk_end end = DESK_GOOD;
 
-	while (end == DESK_GOOD && (line = outbox_line_due(&peer->outbox, clock_now()))) {
-		struct bus *bus = line->publish->bus >= 0 && line->publish->bus < peer->bus_count ?
-					  &peer->bus[line->publish->bus] : NULL;
-		const int64_t now_ns = clock_now();
+	while (end == DESK_GOOD && !peer->gateway.changed && (line = outbox_line_due(&peer->outbox, clock_now()))) {
+		struct bus *bus = &peer->bus[line->publish->bus];
 
-		if (now_ns - peer->heard_ns > ALIVE_NS) {
+		if (clock_now() - peer->heard_ns > ALIVE_NS) {
 			end = gateway_alive(&peer->gateway);
-			peer->heard_ns = end == DESK_GOOD ? clock_now() : peer->heard_ns;
+			if (end != DESK_GOOD || peer->gateway.changed)
+				break;
+			peer->heard_ns = clock_now();
 		}
-		if (!bus || end != DESK_GOOD || peer->gateway.changed)
-			break;
 		while (outbox_write(&peer->outbox, line, peer->gateway.held ? PEER_HELD : 0,
 				    (uint32_t)((clock_now() - peer->heard_ns) / 1000000), &peer->out))
 			bus_send(bus, peer->out.bytes, peer_end(&peer->out));
@@ -255,13 +220,6 @@ static enum desk_end send_due(struct peer *peer)
 
 /* ---- the report ---- */
 
-static const char *bus_name(const struct peer *peer, int number)
-{
-	const struct io_net *net = peer->map.net;
-
-	return net && number >= 0 && number < net->bus_count ? net->bus[number].name : "";
-}
-
 static void add_unit(struct peer *peer, int bus, const char *board, uint64_t requests, uint64_t errors,
 		     uint64_t timeouts)
 {
@@ -270,7 +228,7 @@ static void add_unit(struct peer *peer, int bus, const char *board, uint64_t req
 	if (peer->report.count == REPORT_UNITS)
 		return;
 	*unit = (struct gateway_unit){ .requests = requests, .errors = errors, .timeouts = timeouts };
-	snprintf(unit->name, sizeof(unit->name), "%.18s/%.20s", bus_name(peer, bus), board);
+	snprintf(unit->name, sizeof(unit->name), "%.18s/%.20s", peer->map.net->bus[bus].name, board);
 	peer->report.count++;
 }
 
@@ -299,7 +257,7 @@ static enum desk_end report(struct peer *peer)
 
 static void wait_for_all(struct peer *peer)
 {
-	struct pollfd ready[BUSES + 1] = { { .fd = gateway_fd(&peer->gateway), .events = POLLIN } };
+	struct pollfd ready[IO_BUSES + 1] = { { .fd = gateway_fd(&peer->gateway), .events = POLLIN } };
 	int64_t due_ns = outbox_due(&peer->outbox), left_ns;
 
 	for (int i = 0; i < peer->bus_count; i++)

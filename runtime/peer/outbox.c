@@ -93,7 +93,7 @@ bool outbox_write(struct outbox *outbox, struct outbox_line *line, uint8_t flags
 		const struct outbox_value *value = &outbox->value[line->first + line->next];
 		const struct peer_value wire = value_of(value);
 
-		if (value->known && !value->missing && !peer_add(out, &wire))
+		if (value->known && !peer_add(out, &wire))
 			break;
 	}
 	return true;

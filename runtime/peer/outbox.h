@@ -13,8 +13,7 @@
 
 struct outbox_value {
 	const char *name;      /* of the map                                  */
-	bool missing;          /* the program has no such variable, or it is a text */
-	bool known, good;
+	bool known, good;      /* known: ladderd has told its value; a text stays unknown */
 	enum iec_type type;
 	union iec_value value;
 };
