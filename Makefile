@@ -123,6 +123,7 @@ $(BUILD)/unit/modbus/tests: $(call obj,$(filter-out %/main.c %/session.c,$(wildc
 $(BUILD)/unit/modbus/tests: private ROOM_LIB = $(MODBUS_LIB)
 $(BUILD)/unit/modbus/tests: private LDFLAGS += -Wl,--gc-sections
 $(BUILD)/unit/peer/tests: $(call obj,$(addprefix runtime/peer/,datagram.c inbox.c outbox.c) runtime/online/wire.c runtime/online/service.c)
+$(BUILD)/unit/guard/tests: $(call obj,$(addprefix runtime/guard/,check.c files.c place.c text.c))
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c) runtime/ladder/foreign.c)
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md

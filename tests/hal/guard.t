@@ -12,6 +12,7 @@ use Fcntl qw(:flock SEEK_SET);
 use File::Temp qw(tempdir);
 use FindBin;
 use IO::Socket::UNIX;
+use Socket qw(MSG_DONTWAIT);
 use POSIX qw(:sys_wait_h);
 use Time::HiRes qw(sleep clock_gettime CLOCK_MONOTONIC);
 use lib "$FindBin::Bin/..";
@@ -659,7 +660,34 @@ like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": .*; name a watchdog device of
 	ok(!(grep { $_->[1] ne '' } lines()), 'no line was touched');
 }
 is(finish(start(named(), '--heartbeat', $_, '--', @ladderd)), 2, "a heartbeat of $_ ms is out of range") for 5, 49, 10001, '50x';
-is(finish(start()), 2, 'no command');
+for my $case ([2, qr/^-- and the command of ladderd are missing$/m], [2, qr/^-- names no program$/m, '--'],
+		[2, qr/^--name is no option, or needs a value$/m, '--name'], [2, qr/^--fly is no option$/m, '--fly', 1, '--', @ladderd],
+		[1, qr/^--name is too long$/m, '--name', 'x' x 200, '--', @ladderd]) {
+	my ($status, $why, @args) = @$case;
+	fresh();
+	is(finish(start(@args)), $status, "refused: @args");
+	like(err() =~ s/^ladder-guard: //r, $why, 'with the reason');
+	ok(!(grep { $_->[1] ne '' } lines()), 'and no line was touched');
+}
+is(finish(start('--help')), 0, '--help');
+like(slurp("$dir/out"), qr/^usage: ladder-guard .*\n  --heartbeat MS .*\n127 /s, 'tells the options and statuses');
+for my $socket ('notify', '/' . 'x' x 200) {
+	local $ENV{NOTIFY_SOCKET} = $socket;
+	is(finish(start(named(), '--', @ladderd)), 1, 'a socket of the service manager that is none');
+	is(err(), "ladder-guard: NOTIFY_SOCKET: no path of a socket\n", 'is told');
+}
+
+# ---- a ladderd that dies at once each time ----
+# The guard waits a second before it starts it again; SIGTERM ends it then, too.
+{
+	fresh();
+	$pid = start(named(), '--', 'perl', '-e', 'kill 9, $$');
+	ok(until_it(sub { err() =~ /(?:died of signal 9.*){3}/s }), 'a program that dies at once is started again');
+	my $tries = () = err() =~ /died of signal 9/g;
+	kill 'TERM', $pid;
+	like(finish($pid), qr/^(?:1|137|143)$/, 'SIGTERM ends the guard while nothing runs');
+	cmp_ok($tries, '<', 6, 'and it had not filled the machine');
+}
 
 # ---- watchdog device and service manager ----
 {
@@ -683,6 +711,20 @@ is(finish(start()), 2, 'no command');
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'it ends');
 	like(slurp("$dir/watchdog"), qr/^\0{3,}V$/, 'the watchdog device was fed, and stopped at the end');
+	# A socket of the service manager without a file.
+	{
+		my $name = "guard-t-$$";
+		my $other = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => "\0$name") or die;
+		local $ENV{NOTIFY_SOCKET} = "\@$name";
+		local $ENV{WATCHDOG_USEC} = 30_000_000;
+		fresh();
+		$pid = start(named(), '--', @ladderd);
+		$text = '';
+		until_it(sub { $other->recv($text, 200, MSG_DONTWAIT); $text eq 'READY=1' });
+		is($text, 'READY=1', 'an abstract one is told, too');
+		kill 'TERM', $pid;
+		is(finish($pid), 0, 'it ends');
+	}
 	# A terminal stands for the device: it vanishes when its other end is closed. Then another one is there.
 	open my $terminal, '+<', '/dev/ptmx' or die;
 	my $number = pack 'i', 0;
