@@ -5,6 +5,7 @@ package Files;
 use strict;
 use warnings;
 use Exporter 'import';
+use Limit ();
 our @EXPORT = qw(slurp spew answer);
 
 # The bytes of a file; undef: it cannot be read. @layer: such as ':encoding(UTF-8)'.

@@ -12,6 +12,8 @@ use File::Basename qw(dirname);
 use JSON::PP;
 use Test::More;
 use Time::HiRes qw(sleep);
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $build = abs_path($ENV{BUILD} // 'build');
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");

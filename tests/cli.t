@@ -11,6 +11,9 @@ use JSON::PP;
 use POSIX qw(mkfifo);
 use Test::More;
 use Time::HiRes qw(sleep time);
+use File::Basename qw(dirname);
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $ladder = abs_path($ENV{LADDER} // 'build/ladder');
 my $root = abs_path('.');

@@ -11,6 +11,8 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";

@@ -10,6 +10,8 @@ use File::Basename qw(basename dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $top = dirname(dirname(abs_path(__FILE__)));
 my $build = $ENV{BUILD} // "$top/build";

@@ -9,6 +9,8 @@ use Cwd qw(abs_path);
 use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $tests = abs_path(dirname(__FILE__));
 my $ladder = abs_path($ENV{LADDER} || "$tests/../build/ladder");

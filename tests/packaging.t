@@ -13,6 +13,8 @@ use IO::Socket::UNIX;
 use POSIX ();
 use Socket qw(MSG_DONTWAIT);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $build = abs_path($ENV{BUILD} // 'build');
 chdir dirname(__FILE__) . '/..' or die;

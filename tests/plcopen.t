@@ -10,6 +10,8 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $tests = dirname(abs_path(__FILE__));
 my $build = abs_path($ENV{BUILD} // "$tests/../build");

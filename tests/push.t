@@ -9,11 +9,14 @@
 use strict;
 use warnings;
 use Cwd qw(abs_path);
+use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use IO::Socket::INET;
-use POSIX qw(:sys_wait_h);
+use POSIX ();
 use Test::More;
 use Time::HiRes qw(sleep);
+use lib dirname(abs_path(__FILE__));
+use Limit;
 
 my $build = abs_path($ENV{BUILD} // 'build');
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
@@ -22,6 +25,7 @@ my $dir = tempdir(CLEANUP => 1);
 my $bin = "$dir/board/bin";
 my $etc = "$dir/board/etc"; # in place of /etc/ladder
 my (@started, $made_run_sshd);
+@Limit::show = map { "$dir/$_" } qw(log .out .err);
 chdir $dir or die;
 
 sub put { my ($name, $text, $mode) = @_; open my $f, '>:raw', $name or die "$name: $!"; print $f $text; close $f; chmod $mode, $name if $mode }
@@ -56,9 +60,7 @@ sub push_it {
 		open STDIN, '<', '/dev/null'; open STDOUT, '>', '.out'; open STDERR, '>', '.err';
 		exec $ladder, 'push', '--ssh', $ssh, @args or die;
 	}
-	local $SIG{ALRM} = sub { kill 9, $pid };
-	alarm 120; waitpid $pid, 0; my $status = $?; alarm 0;
-	return ($status & 127 ? "signal $status" : $status >> 8, get('.out'), get('.err'));
+	return (finish($pid), get('.out'), get('.err'));
 }
 sub is_push {
 	my ($want, $what, $ssh, @args) = @_;
@@ -315,7 +317,6 @@ ok(!-e "$dir/board/fresh/active", 'nothing ran before: nothing is named afterwar
 
 # ---- through the link ----
 # From here on ladderd on the board has a link, and ladder-attach finds it.
-sub until_it { my ($check) = @_; for (1 .. 600) { return 1 if $check->(); sleep 0.05 } return 0 }
 sub running { # identity of the program that runs, asked as on the board itself
 	my ($sha) = `cd $dir/board && $ladder board unix:link status 2>&1` =~ /^program: (\w+)/m;
 	return $sha // '';
@@ -329,7 +330,7 @@ put("$dir/board/default", "LADDERD_OPTIONS=\"$link --slots $dir/board/slots\"\n"
 is_push(0, 'files for a ladderd with a link', $ssh, @to, 'one.rung', 'desk.io', $board);
 my $one = identity('one.rung');
 my $two = identity('two.rung');
-ok(until_it(sub { running() eq $one }), 'the layout of /etc/ladder/active runs with a link, too');
+ok(until_true(sub { running() eq $one }), 'the layout of /etc/ladder/active runs with a link, too');
 
 put("$bin/ladder-attach", "#!/bin/sh\ncd $dir/board && exec $attach\n", 0755);
 $pid = pid();
@@ -340,7 +341,7 @@ is(pid(), $pid, 'the same ladderd runs on');
 is(running(), $two, 'and has the new program');
 is_deeply([map { s{.*/}{}r } glob "$dir/board/slots/prog.*"], ['prog.A'], 'it is in a slot');
 kill 'TERM', $pid;
-ok(until_it(sub { pid() && pid() != $pid && running() ne '' }), 'ladderd starts again');
+ok(until_true(sub { pid() && pid() != $pid && running() ne '' }), 'ladderd starts again');
 is(running(), $two, 'with the program of the slot: the files of /etc/ladder/active were taken over once');
 
 put('three.rung', program('Three', 'NO') =~ s/(Lamp  AT.*\n)/$1  Pieces : INT;\n/r);
@@ -393,7 +394,7 @@ put('from-tomorrow', "#!/bin/sh\nhead -c 30 >/dev/null; printf '\\012\\000\\000\
 $ENV{HOW} = "$dir/not-there";
 $out = falls_back('no ladder-attach', 'the board has no ladder-attach', 'two.rung', "$dir/home-ssh");
 like($out, qr/^state: RUN\n.*^program: $two$/ms, 'no ladder-attach: the program runs all the same');
-ok(until_it(sub { running() eq $two }), 'no ladder-attach: newer files are used instead of the slot');
+ok(until_true(sub { running() eq $two }), 'no ladder-attach: newer files are used instead of the slot');
 $ENV{HOW} = "$dir/no-daemon";
 falls_back('no socket', 'ladderd on the board has no link', 'one.rung', "$dir/home-ssh");
 $ENV{HOW} = "$dir/chatter";
@@ -403,7 +404,7 @@ falls_back('another version', 'the link of the board has another version', 'one.
 $ENV{HOW} = "$bin/ladder-attach";
 put("$dir/board/default", "LADDERD_OPTIONS=\"$link\"\n");
 is_push(0, 'a ladderd without slots', $ssh, @to, 'one.rung', 'desk.io', $board);
-ok(until_it(sub { running() eq $one }), 'it runs');
+ok(until_true(sub { running() eq $one }), 'it runs');
 falls_back('no slots', 'ladderd on the board has no --slots', 'two.rung', "$dir/home-ssh");
 put("$dir/board/default", "LADDERD_OPTIONS=\"$link --slots $dir/board/slots\"\n");
 put("$dir/board/group", "ladder-view:x:$group:\n");

@@ -11,6 +11,8 @@ use Cwd qw(abs_path);
 use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Limit ();
 
 my $tests = abs_path(dirname(__FILE__));
 my $build = abs_path($ENV{BUILD} // "$tests/../build");

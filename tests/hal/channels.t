@@ -11,15 +11,17 @@ use File::Copy qw(copy);
 use File::Path qw(make_path remove_tree);
 use File::Temp qw(tempdir);
 use FindBin;
-use POSIX qw(:sys_wait_h mkfifo);
+use POSIX qw(mkfifo);
 use Time::HiRes qw(sleep time);
 use lib "$FindBin::Bin/..";
 use Files;
+use Limit;
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/tests/hal/ladderd_v2";
 my $dir = tempdir(CLEANUP => 1);
 my $sys = "$dir/sys";
+@Limit::show = ("$dir/err", "$dir/out");
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
 $ENV{FAKE_SYS} = $sys;
 
@@ -88,25 +90,6 @@ sub start {
 	return $pid;
 }
 
-# The limit is long and reached only by a hang.
-sub until_true {
-	my ($test) = @_;
-	for (1 .. 1500) {
-		return 1 if $test->();
-		sleep 0.02;
-	}
-	return 0;
-}
-
-sub finish {
-	my ($pid) = @_;
-	my $ended = until_true(sub { waitpid($pid, WNOHANG) == $pid });
-	return $? & 127 ? 'signal ' . ($? & 127) : $? >> 8 if $ended;
-	kill 'KILL', $pid;
-	waitpid $pid, 0;
-	return 'hangs';
-}
-
 # Asks for the status until it matches.
 sub status_has {
 	my ($pid, $want) = @_;
@@ -120,15 +103,14 @@ sub status_has {
 # A temperature of 21.43 °C is 2144 hundredths, 21.44 % of 20 ms.
 make_devices();
 my $pid = start();
-ok(until_true(sub { duty() == 4_288_000 }), 'what the program writes is at the output') or diag get('err');
-ok(status_has($pid, qr/^io: good.*\nchannels: 3 good, 0 stale, 0 in fault$/m), 'the status counts qualities')
-	or diag get('out');
+ok(until_true(sub { duty() == 4_288_000 }), 'what the program writes is at the output');
+ok(status_has($pid, qr/^io: good.*\nchannels: 3 good, 0 stale, 0 in fault$/m), 'the status counts qualities');
 show($sensor, "38000\n");
 ok(until_true(sub { duty() == 7_600_000 }), 'it follows the input');
 show($sensor, "wrong\n");
 ok(until_true(sub { duty() == 2_000_000 }), 'a sensor that answers nonsense has its substitute');
 ok(status_has($pid, qr/^state: RUN\n.*^io: fault.*^channels: 2 good, 0 stale, 1 in fault$/ms),
-	'the status says so, and the program runs') or diag get('out');
+	'the status says so, and the program runs');
 show($sensor, "30000\n");
 ok(until_true(sub { duty() == 6_000_000 }), 'and it comes back');
 unlink "$sys/$sensor";
@@ -214,11 +196,11 @@ for my $hold (0, 1) {
 	$rung = put('copy.rung', get('loop.rung') =~ s/^RUNG Again\n.*\n//mr);
 	make_devices();
 	$pid = start_guard($copied, $rung, '--io', $its);
-	ok(until_true(sub { duty() == 4_288_000 }), 'under a guard it writes') or diag get('err');
+	ok(until_true(sub { duty() == 4_288_000 }), 'under a guard it writes');
 	unlink $copied;
 	my $child = child_of($pid);
 	kill 'KILL', $child if $child;
-	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; the outputs are safe/ }), 'ladderd is killed') or diag get('err');
+	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; the outputs are safe/ }), 'ladderd is killed');
 	is(duty(), $hold ? 4_288_000 : $safe, $hold ? 'an output that holds keeps its value' : 'the guard has made the pulse width safe');
 	kill 'TERM', $pid;
 	finish($pid);
@@ -236,12 +218,12 @@ $pid = start_guard($ladderd, $rung, '--io', $map);
 ok(until_true(sub { duty() == 4_288_000 }), 'it writes');
 kill 'STOP', child_of($pid);
 ok(until_true(sub { get('err') =~ /was frozen and is killed; the outputs are safe/ }), 'one that stands still is killed');
-ok(until_true(sub { duty() == 4_288_000 }), 'and the next one writes again') or diag get('err');
+ok(until_true(sub { duty() == 4_288_000 }), 'and the next one writes again');
 # A file that cannot be written any more is told; the rest goes on.
 remove_tree("$sys/class/pwm");
 kill 'KILL', child_of($pid);
 ok(until_true(sub { get('err') =~ m{ladder-guard: "\S*/pwm0/duty_cycle" is not safe: No such file or directory; the guard tries again} }),
-	'an output that is gone is told') or diag get('err');
+	'an output that is gone is told');
 kill 'TERM', $pid;
 finish($pid);
 
@@ -278,7 +260,7 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	}
 	my $its = put('named.io', slurp($map) =~ s/pwmchip0/$was/r);
 	$pid = start_guard($copied, $rung, '--io', $its);
-	ok(until_true(sub { duty_of(0) == 4_288_000 }), "$how: it writes") or diag get('err');
+	ok(until_true(sub { duty_of(0) == 4_288_000 }), "$how: it writes");
 	my $child = child_of($pid); # a guard that is late has killed it already
 	kill 'STOP', $child;
 	unlink $copied;
@@ -297,7 +279,7 @@ for my $case (['at its place', '1-0040', '1-0040', '', 1], ['elsewhere, by its n
 	kill 'KILL', $child;
 	my $told = qr{ladder-guard: "\S*/pwmchip0/pwm0/duty_cycle" is not safe: No such device; the guard tries again};
 	ok(until_true(sub { $found ? duty_of(3) == $safe : get('err') =~ $told }),
-		$found ? 'the guard finds the chip' : 'the guard tells that it is not there') or diag get('err');
+		$found ? 'the guard finds the chip' : 'the guard tells that it is not there');
 	is(duty_of($twin // 0), 0, 'and does not touch the other chip');
 	is(duty_of(3), 0, 'nor this one') if $is && !$found;
 	kill 'TERM', $pid;
@@ -326,14 +308,13 @@ for my $case ([1, 70, '', qr{ladderd: ladder-guard knows (\d+) outputs of conver
 	}
 	my @duty = map { my $chip = $_; map { "sys/class/pwm/pwmchip$chip/pwm$_/duty_cycle" } 0 .. $channels - 1 } 0 .. $chips - 1;
 	$pid = start_guard($copied, $rung, '--io', put('many.io', $lines));
-	ok(until_true(sub { number_in('sys/class/pwm/pwmchip0/pwm0/enable') == 1 && get('err') =~ $told }), 'too many outputs are told')
-		or diag get('err');
+	ok(until_true(sub { number_in('sys/class/pwm/pwmchip0/pwm0/enable') == 1 && get('err') =~ $told }), 'too many outputs are told');
 	my ($known) = get('err') =~ $told;
 	my $are_safe = sub { scalar grep { number_in($_) == $safe } @duty };
-	ok(until_true(sub { $are_safe->() == 0 }), 'the program has written them all') or diag get('err');
+	ok(until_true(sub { $are_safe->() == 0 }), 'the program has written them all');
 	unlink $copied;
 	kill 'KILL', child_of($pid);
-	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; / }), 'ladderd is killed') or diag get('err');
+	ok(until_true(sub { get('err') =~ /ladderd died of signal 9; / }), 'ladderd is killed');
 	is($are_safe->(), $known, "the $known outputs that the guard knows are safe");
 	like(get('err'), qr/signal 9; not all outputs are safe/, 'and it says that not all are') if $long;
 	kill 'TERM', $pid;

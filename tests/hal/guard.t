@@ -13,10 +13,11 @@ use File::Temp qw(tempdir);
 use FindBin;
 use IO::Socket::UNIX;
 use Socket qw(MSG_DONTWAIT);
-use POSIX qw(:sys_wait_h);
+use POSIX ();
 use Time::HiRes qw(sleep clock_gettime CLOCK_MONOTONIC);
 use lib "$FindBin::Bin/..";
 use Files;
+use Limit;
 
 my $build = $ENV{BUILD} || 'build';
 my ($guard, $ladderd) = map { "$build/tests/hal/guarded_$_" } qw(guard ladderd);
@@ -24,8 +25,8 @@ my $kills = $ENV{GUARD_KILLS} || 20;
 my $stops = $ENV{GUARD_STOPS} || 4;
 my $dir = tempdir(CLEANUP => 1);
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
+@Limit::show = ("$dir/err", "$dir/out");
 my $running;
-END { kill 'KILL', $running if $running }
 
 mkdir "$dir/dev";
 spew("$dir/dev/gpiochip0", '');
@@ -83,16 +84,7 @@ sub is_at {
 	return $line[0][0] == $motor && $line[1][0] == $brake && !grep { $_->[1] ne $owner } @line;
 }
 sub runs { return is_at('ladderd', 1, 0) }
-# Waits for a condition; the limit is long and reached only by a hang.
-sub until_it {
-	my ($what) = @_;
-	for (1 .. 20000) {
-		return 1 if $what->();
-		sleep 0.002;
-	}
-	return 0;
-}
-# The same for a moment that is soon over.
+# Waits for a moment that is soon over.
 sub until_quick {
 	my ($what) = @_;
 	for (1 .. 200000) {
@@ -118,12 +110,6 @@ sub start {
 	return $running = $pid;
 }
 sub named { return ('--name', "test-$$-" . ++$names) }
-sub finish {
-	my ($pid) = @_;
-	my $status = until_it(sub { waitpid($pid, WNOHANG) == $pid }) ? $? : -1;
-	$running = undef;
-	return $status == -1 ? 'hangs' : $status & 127 ? 'signal ' . ($status & 127) : $status >> 8;
-}
 # The ladderd of a guard.
 sub child {
 	my ($pid) = @_;
@@ -140,7 +126,7 @@ sub median { my @all = sort { $a <=> $b } @_; return $all[$#all / 2] }
 sub guarded_since {
 	my ($since) = @_;
 	my $at;
-	until_it(sub {
+	until_true(sub {
 		my @line = (lines())[0, 1];
 		my ($last) = sort { $b <=> $a } map { $_->[3] } @line;
 		$at = $last if $line[0][4] == 0 && $line[1][4] == 1 && !grep { $_->[3] < $since } @line;
@@ -171,14 +157,14 @@ for my $how (['kills', $kills, qw(SEGV FPE BUS ABRT KILL)], ['stops', $stops, 'S
 			fresh();
 			start(named(), '--heartbeat', 100, '--', @ladderd);
 		}
-		until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
+		until_true(\&runs);
 		my $pid = child($running);
 		sleep rand 0.02;
 		my $since = clock_gettime(CLOCK_MONOTONIC);
 		kill $signals[$number % @signals], $pid;
 		my $at = guarded_since($since);
 		defined $at ? push(@took, $at - $since) : $bad++;
-		$again++ if until_it(\&runs) && child($running) != $pid;
+		$again++ if until_true(\&runs) && child($running) != $pid;
 		next if $number % 2 && $number < $count;
 		kill 'TERM', $running;
 		finish($running);
@@ -220,29 +206,29 @@ for my $way (@ways) {
 	my $ways_rung = spew("$dir/ways.rung", "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n${vars}END_VAR\n\nPROGRAM Main LD\n$rungs${rung_of}END_PROGRAM\n");
 	fresh();
 	my $guard_pid = start(named(), '--heartbeat', 1000, '--', $ladderd, $ways_rung, '--io', $ways_map, '--period', '10ms', @options);
-	until_it(sub { levels() eq "@in_run" }) or BAIL_OUT("ladderd does not run: " . err());
+	until_true(sub { levels() eq "@in_run" });
 	my @changes = map { $_->[5] } lines();
 	my $pid = child($guard_pid);
 	$do->();
 	my @got;
 	if ($state eq 'again') {
-		ok(until_it(sub { my @line = lines(); !grep { !$_->[3] } @line[0 .. $#kinds] }), "$name: the guard takes the lines");
+		ok(until_true(sub { my @line = lines(); !grep { !$_->[3] } @line[0 .. $#kinds] }), "$name: the guard takes the lines");
 		@got = map { $_->[4] } (lines())[0 .. $#kinds];
 	} else {
-		until_it(sub { levels() eq "@safe" });
+		until_true(sub { levels() eq "@safe" });
 		is(finish($guard_pid), 0, 'the guard ends with status 0') if $state eq '';
 		@got = split / /, levels();
 	}
 	is($got[$_], $safe[$_], "$name: $kinds[$_][0]") for 0 .. $#kinds;
 	if ($state eq 'again') {
-		ok(until_it(sub { levels() eq "@in_run" && child($guard_pid) != $pid && err() !~ /STOP/ }), "$name: it runs again");
+		ok(until_true(sub { levels() eq "@in_run" && child($guard_pid) != $pid && err() !~ /STOP/ }), "$name: it runs again");
 	}
 	# What holds its level has not changed it, not even for a moment, also over another start.
 	is_deeply([map { (lines())[$_][5] } 2, 3], [@changes[2, 3]], "$name: what holds was not touched");
 	next if $state eq '';
 	$then->() if $then;
 	if ($state ne 'again') {
-		until_it(sub { kill 'USR1', $pid; sleep 0.02; (slurp("$dir/out") // '') =~ /^state: $state/m });
+		until_true(sub { kill 'USR1', $pid; sleep 0.02; (slurp("$dir/out") // '') =~ /^state: $state/m });
 		like(slurp("$dir/out"), qr/^state: $state/m, "$name: the state is $state");
 	}
 	kill 'TERM', $guard_pid;
@@ -253,14 +239,14 @@ for my $way (@ways) {
 fresh();
 my $pid = start(named(), '--', @ladderd, @linked);
 for my $time (1 .. 3) {
-	until_it(\&runs);
+	until_true(\&runs);
 	kill 'KILL', child($pid);
-	until_it(sub { err() =~ /(?:died of signal 9.*){$time}/s });
+	until_true(sub { err() =~ /(?:died of signal 9.*){$time}/s });
 }
-ok(until_it(sub { err() =~ /3 times within 60 s: it begins in STOP/ }), 'the third death is told');
-ok(until_it(sub { is_at('ladderd', 0, 1) }), 'and ladderd holds the outputs at their safe values');
+ok(until_true(sub { err() =~ /3 times within 60 s: it begins in STOP/ }), 'the third death is told');
+ok(until_true(sub { is_at('ladderd', 0, 1) }), 'and ladderd holds the outputs at their safe values');
 kill 'USR1', child($pid);
-ok(until_it(sub { (slurp("$dir/out") // '') =~ /^state: STOP$/m }), 'it lives, in STOP');
+ok(until_true(sub { (slurp("$dir/out") // '') =~ /^state: STOP$/m }), 'it lives, in STOP');
 {
 	my $status = board('status');
 	like($status, qr/^stop: ladderd has ended abnormally three times within a minute$/m, 'a desk is told why');
@@ -284,7 +270,7 @@ like(err(), qr/^ladder-guard: "\S+nothing" cannot be started$/m, 'is told');
 mkdir "$dir/slots";
 fresh();
 $pid = start(named(), '--', @ladderd, @linked, '--slots', "$dir/slots");
-until_it(\&runs);
+until_true(\&runs);
 {
 	# The child locks OUT0 as soon as ladderd is dead: it waits for the lock of the kernel.
 	my $holder = fork // die;
@@ -300,14 +286,14 @@ until_it(\&runs);
 	kill 'KILL', child($pid);
 	sleep 0.1;
 	kill 'CONT', $pid;
-	ok(until_it(sub { err() =~ /line 2 of gpiochip0 is held by "[^"]*": it is not safe; the guard tries again/ }),
+	ok(until_true(sub { err() =~ /line 2 of gpiochip0 is held by "[^"]*": it is not safe; the guard tries again/ }),
 		'a line that another process holds is told');
-	ok(until_it(sub { (lines())[1][0] == 1 }), 'the other output is safe');
+	ok(until_true(sub { (lines())[1][0] == 1 }), 'the other output is safe');
 	# Also after more starts than make it begin in STOP: none of them has driven an output.
-	ok(until_it(sub { err() =~ /(?:ended with status 1.*){3}/s }), 'ladderd is started again and again');
+	ok(until_true(sub { err() =~ /(?:ended with status 1.*){3}/s }), 'ladderd is started again and again');
 	kill 'KILL', $holder;
 	waitpid $holder, 0;
-	ok(until_it(\&runs), 'when it is free, ladderd runs again');
+	ok(until_true(\&runs), 'when it is free, ladderd runs again');
 	like(events('33'), qr/^33 1 [4-9]$/, 'that it had ended with a status is an event');
 	like(board('status'), qr/^before this start: ladderd ended with status 1; ladder-guard made the outputs safe and started it again; since the guard began: [4-9] times$/m,
 		'and told in the status');
@@ -327,7 +313,7 @@ until_it(\&runs);
 		fresh();
 		unlink glob "$dir/slots/*";
 		$pid = start(named(), @$case, '--', @hung, @linked, '--slots', "$dir/slots");
-		until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
+		until_true(\&runs);
 		my $since = clock_gettime(CLOCK_MONOTONIC);
 		reads(3);
 		my $at = guarded_since($since);
@@ -336,7 +322,7 @@ until_it(\&runs);
 		push @took, 1e3 * ($at - waits_since()) - 100 if defined $at;
 		like(err(), qr/ladderd hung in a scan and is killed; the outputs are safe/, 'since the scan is over its limit, not the heartbeat');
 		reads(0);
-		ok(until_it(\&runs), 'when the driver answers, ladderd runs again');
+		ok(until_true(\&runs), 'when the driver answers, ladderd runs again');
 		is(events('34'), '34 1', 'with an event');
 		kill 'TERM', $pid;
 		finish($pid);
@@ -345,14 +331,14 @@ until_it(\&runs);
 		median(@took), (sort { $b <=> $a } @took)[0]) if @took;
 	fresh();
 	$pid = start(named(), '--heartbeat', 10000, '--', @hung);
-	until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
+	until_true(\&runs);
 	reads(2);
-	ok(until_it(sub { is_at('ladderd', 0, 1) }), 'a signal reaches the driver: ladderd makes the outputs safe');
+	ok(until_true(sub { is_at('ladderd', 0, 1) }), 'a signal reaches the driver: ladderd makes the outputs safe');
 	my ($at) = sort { $b <=> $a } map { $_->[2] } (lines())[0, 1];
 	diag(sprintf 'a signal reaches the driver: safe %.1f ms after the limit of the scan', 1e3 * ($at - waits_since()) - 100);
 	sleep 0.1; # more than the grace of the guard
 	reads(0);
-	ok(until_it(sub { err() =~ /FAULT, outputs are safe: watchdog/ }), 'and it lives: its fault is told');
+	ok(until_true(sub { err() =~ /FAULT, outputs are safe: watchdog/ }), 'and it lives: its fault is told');
 	unlike(err(), qr/killed/, 'the guard has left it alone');
 	kill 'TERM', $pid;
 	finish($pid);
@@ -374,7 +360,7 @@ until_it(\&runs);
 		fresh();
 		unlink glob "$dir/slots/*";
 		my $guard_pid = start(named(), '--', @before);
-		until_it(sub { runs() && -S "$dir/link" }) or BAIL_OUT("ladderd does not run: " . err());
+		until_true(sub { runs() && -S "$dir/link" });
 		return $guard_pid;
 	};
 	my $send = sub {
@@ -393,10 +379,10 @@ until_it(\&runs);
 		my $pid = child($guard_pid);
 		kill 'STOP', $guard_pid;
 		kill 'STOP', $pid;
-		until_it(sub { is_state($pid, 'T') });
+		until_true(sub { is_state($pid, 'T') });
 		my $ran = $runs_other->();
 		kill 'KILL', $pid;
-		until_it(sub { is_state($pid, 'Z') });
+		until_true(sub { is_state($pid, 'Z') });
 		kill 'TERM', $guard_pid;
 		kill 'CONT', $guard_pid;
 		my $status = finish($guard_pid);
@@ -417,7 +403,7 @@ until_it(\&runs);
 		my $since = clock_gettime(CLOCK_MONOTONIC);
 		my $was = child($guard_pid);
 		$send->($how);
-		ok(until_it($runs_other), "$how: the other program drives the lines of its map") or diag(slurp("$dir/sent"), err());
+		ok(until_true($runs_other), "$how: the other program drives the lines of its map");
 		waitpid $sent, 0;
 		$took{$how} = clock_gettime(CLOCK_MONOTONIC) - $since;
 		is(child($guard_pid), $was, "$how: by the same ladderd");
@@ -427,9 +413,9 @@ until_it(\&runs);
 	{
 		my $guard_pid = $begin->();
 		poke(56 * $count + 8, pack 'q', 1);
-		until_it(sub { is_state($guard_pid, 'T') });
+		until_true(sub { is_state($guard_pid, 'T') });
 		$send->('swap');
-		ok(until_it($runs_other), 'while the guard does not listen');
+		ok(until_true($runs_other), 'while the guard does not listen');
 		waitpid $sent, 0;
 		is_deeply([$end->($guard_pid, 1)], ['new', ''], 'what a ladderd has said before its end counts');
 	}
@@ -453,9 +439,9 @@ until_it(\&runs);
 		my $guard_pid = $begin->();
 		my $was = child($guard_pid);
 		board('stop');
-		ok(until_it(sub { is_at('ladderd', 0, 1) }), 'a desk stops the program: both are safe');
+		ok(until_true(sub { is_at('ladderd', 0, 1) }), 'a desk stops the program: both are safe');
 		board('run --cold');
-		ok(until_it(\&runs), 'it runs again');
+		ok(until_true(\&runs), 'it runs again');
 		is(child($guard_pid), $was, 'in the same ladderd');
 		is_deeply([$end->($guard_pid)], ['old', ''], 'and the guard makes its lines safe as before');
 	}
@@ -466,14 +452,14 @@ until_it(\&runs);
 	local $ENV{FAKE_NO_PIDFD} = 1;
 	fresh();
 	$pid = start(named(), '--', @ladderd);
-	until_it(\&runs);
+	until_true(\&runs);
 	my $child = child($pid);
 	my $since = clock_gettime(CLOCK_MONOTONIC);
 	kill 'KILL', $child;
 	my $at = guarded_since($since);
 	ok(defined $at, 'without pidfd the outputs are safe, too');
 	diag(sprintf 'without pidfd: safe after %.1f ms', 1e3 * ($at - $since)) if defined $at;
-	until_it(\&runs);
+	until_true(\&runs);
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'and an orderly end is one');
 }
@@ -485,11 +471,11 @@ until_it(\&runs);
 	my $many = spew("$dir/many.io", "BOARD \"panel\"\n" . join '', map { '%QX' . int($_ / 8) . '.' . $_ % 8 . " gpio line=OUT$_ safe=1\n" } 0 .. 299);
 	fresh();
 	$pid = start(named(), '--', $ladderd, $rung, '--io', $many, '--period', '50ms');
-	until_it(sub { my @line = lines(); !grep { $_->[1] ne 'ladderd' } @line });
+	until_true(sub { my @line = lines(); !grep { $_->[1] ne 'ladderd' } @line });
 	like(err(), qr/^ladderd: ladder-guard holds 256 outputs; 44 are not made safe by it$/m, 'more outputs than the guard holds are told');
-	until_it(sub { (lines())[2][0] == 0 });
+	until_true(sub { (lines())[2][0] == 0 });
 	kill 'KILL', child($pid);
-	ok(until_it(sub { scalar(grep { $_->[3] } lines()) == 256 }), '256 of them are made safe');
+	ok(until_true(sub { scalar(grep { $_->[3] } lines()) == 256 }), '256 of them are made safe');
 	ok(!(grep { $_->[3] && $_->[4] != 1 } lines()), 'at their safe levels');
 	kill 'TERM', $pid;
 	finish($pid);
@@ -548,12 +534,12 @@ END
 	$pid = start(named(), '--heartbeat', 100, '--', @ladderd, @linked, '--slots', "$dir/slots");
 	for my $step (['KILL', '31 9 1'], ['STOP', '31 9 1, 32 2']) {
 		my ($signal, $want) = @$step;
-		until_it(\&runs);
+		until_true(\&runs);
 		kill $signal, child($pid);
-		until_it(sub { events('31|32') eq $want });
+		until_true(sub { events('31|32') eq $want });
 		is(events('31|32'), $want, "a start after $signal is an event");
 	}
-	until_it(\&runs);
+	until_true(\&runs);
 	like(board('status'), qr/^before this start: ladderd gave no sign of life; ladder-guard ended it, made the outputs safe and started it again; since the guard began: 2 times$/m,
 		'the status tells the last one');
 	kill 'TERM', $pid;
@@ -612,10 +598,10 @@ END
 	my $holds = spew("$dir/holds.io", "BOARD \"panel\"\n%QX0.0 gpio line=OUT0 safe=hold\n%QX0.1 gpio line=OUT1 safe=1\n");
 	fresh();
 	$pid = start(named(), '--', 'env', 'FAKE_INTERRUPTED=3', $ladderd, $rung, '--io', $holds);
-	until_it(\&runs);
+	until_true(\&runs);
 	my ($was, $changes) = (child($pid), (lines())[0][5]);
 	kill 'KILL', $was;
-	ok(until_it(sub { (lines())[1][3] && runs() && child($pid) != $was }), 'interrupted while it asks for its lines: it begins');
+	ok(until_true(sub { (lines())[1][3] && runs() && child($pid) != $was }), 'interrupted while it asks for its lines: it begins');
 	is((lines())[0][5], $changes, 'with the level that is held');
 	kill 'TERM', $pid;
 	finish($pid);
@@ -626,7 +612,7 @@ END
 	my @name = named();
 	fresh();
 	$pid = start(@name, '--', @ladderd);
-	until_it(\&runs);
+	until_true(\&runs);
 	is(system("$guard @name -- $ladderd 2>$dir/second") >> 8, 1, 'a second guard is refused');
 	like(slurp("$dir/second"), qr/^ladder-guard: another ladder-guard of this name runs; /, 'with a reason');
 	ok(runs(), 'the first one goes on');
@@ -682,7 +668,7 @@ for my $socket ('notify', '/' . 'x' x 200) {
 {
 	fresh();
 	$pid = start(named(), '--', 'perl', '-e', 'kill 9, $$');
-	ok(until_it(sub { err() =~ /(?:died of signal 9.*){3}/s }), 'a program that dies at once is started again');
+	ok(until_true(sub { err() =~ /(?:died of signal 9.*){3}/s }), 'a program that dies at once is started again');
 	my $tries = () = err() =~ /died of signal 9/g;
 	kill 'TERM', $pid;
 	like(finish($pid), qr/^(?:1|137|143)$/, 'SIGTERM ends the guard while nothing runs');
@@ -697,7 +683,7 @@ for my $socket ('notify', '/' . 'x' x 200) {
 	fresh();
 	$pid = start(named(), '--watchdog', "$dir/watchdog", '--', @ladderd);
 	my ($text, %seen) = '';
-	until_it(sub {
+	until_true(sub {
 		$socket->recv($text, 200);
 		$seen{$text}++;
 		return $seen{'READY=1'} && ($seen{'WATCHDOG=1'} // 0) >= 3;
@@ -705,9 +691,9 @@ for my $socket ('notify', '/' . 'x' x 200) {
 	ok($seen{'READY=1'}, 'READY=1 of ladderd is passed on');
 	ok($seen{'WATCHDOG=1'}, 'WATCHDOG=1 is sent');
 	kill 'KILL', child($pid);
-	until_it(sub { $socket->recv($text, 200); $text eq 'STATUS=ladderd has died, outputs are safe' });
+	until_true(sub { $socket->recv($text, 200); $text eq 'STATUS=ladderd has died, outputs are safe' });
 	is($text, 'STATUS=ladderd has died, outputs are safe', 'a death is told to the service manager');
-	until_it(\&runs);
+	until_true(\&runs);
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'it ends');
 	like(slurp("$dir/watchdog"), qr/^\0{3,}V$/, 'the watchdog device was fed, and stopped at the end');
@@ -720,7 +706,7 @@ for my $socket ('notify', '/' . 'x' x 200) {
 		fresh();
 		$pid = start(named(), '--', @ladderd);
 		$text = '';
-		until_it(sub { $other->recv($text, 200, MSG_DONTWAIT); $text eq 'READY=1' });
+		until_true(sub { $other->recv($text, 200, MSG_DONTWAIT); $text eq 'READY=1' });
 		is($text, 'READY=1', 'an abstract one is told, too');
 		kill 'TERM', $pid;
 		is(finish($pid), 0, 'it ends');
@@ -733,17 +719,17 @@ for my $socket ('notify', '/' . 'x' x 200) {
 	symlink '/dev/pts/' . unpack('i', $number), "$dir/dog" or die;
 	fresh();
 	$pid = start(named(), '--watchdog', "$dir/dog", '--', @ladderd);
-	until_it(\&runs);
+	until_true(\&runs);
 	is(sysread($terminal, $text, 1), 1, 'a watchdog device is fed');
 	my $was = child($pid);
 	close $terminal;
-	ok(until_it(sub { err() =~ /^ladder-guard: watchdog "\S+dog" takes no byte: [^;]*; if it still counts, it restarts the machine; the guard tries again$/m }),
+	ok(until_true(sub { err() =~ /^ladder-guard: watchdog "\S+dog" takes no byte: [^;]*; if it still counts, it restarts the machine; the guard tries again$/m }),
 		'it vanishes: that is told');
-	until_it(sub { $socket->recv($text, 200); $text eq 'WATCHDOG=1' }) for 1 .. 5;
+	until_true(sub { $socket->recv($text, 200); $text eq 'WATCHDOG=1' }) for 1 .. 5;
 	spew("$dir/dog2", '');
 	symlink "$dir/dog2", "$dir/next" or die;
 	rename "$dir/next", "$dir/dog" or die;
-	ok(until_it(sub { err() =~ /^ladder-guard: watchdog "\S+dog" is fed again$/m && length slurp("$dir/dog2") }), 'it is there again: it is fed');
+	ok(until_true(sub { err() =~ /^ladder-guard: watchdog "\S+dog" is fed again$/m && length slurp("$dir/dog2") }), 'it is there again: it is fed');
 	is(scalar(() = err() =~ /^ladder-guard:/mg), 2, 'each is told once');
 	ok(runs() && child($pid) == $was, 'and the machine has run on');
 	kill 'TERM', $pid;

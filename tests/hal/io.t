@@ -10,6 +10,9 @@ use File::Path qw(make_path);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use File::Basename qw(dirname);
+use lib abs_path(dirname(__FILE__)) . '/..';
+use Limit ();
 
 my $build = abs_path($ENV{BUILD} // 'build');
 my $dir = tempdir(CLEANUP => 1);

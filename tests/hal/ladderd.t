@@ -11,14 +11,16 @@ use File::Temp qw(tempdir);
 use FindBin;
 use IO::Socket::UNIX;
 use Socket qw(MSG_DONTWAIT);
-use POSIX qw(:sys_wait_h);
+use POSIX ();
 use Time::HiRes qw(sleep time);
 use lib "$FindBin::Bin/..";
 use Files;
+use Limit;
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
 my $dir = tempdir(CLEANUP => 1);
+@Limit::show = ("$dir/err", "$dir/out");
 # Other tests run beside this one, which needs scans of milliseconds: root is served before them.
 eval { setpriority 0, 0, -10 };
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
@@ -61,30 +63,8 @@ sub start_attended {
 	return ($pid, $ours);
 }
 
-# Waits until a file matches; the limit is long and reached only by a hang.
-sub until_has {
-	my ($name, $want) = @_;
-	for (1 .. 1500) {
-		return 1 if get($name) =~ $want;
-		sleep 0.02;
-	}
-	return 0;
-}
-
-# Exit status, or "signal N", or "hangs".
-sub finish {
-	my ($pid) = @_;
-	for (1 .. 1500) {
-		if (waitpid($pid, WNOHANG) == $pid) {
-			my $signal = $? & 127;
-			return $signal ? "signal $signal" : $? >> 8;
-		}
-		sleep 0.02;
-	}
-	kill 'KILL', $pid;
-	waitpid $pid, 0;
-	return 'hangs';
-}
+# Waits until a file matches.
+sub until_has { my ($name, $want) = @_; return until_true(sub { get($name) =~ $want }) }
 
 sub run { return finish(start(@_)); }
 

@@ -9,10 +9,11 @@ use warnings;
 use Test::More;
 use File::Temp qw(tempdir);
 use FindBin;
-use POSIX qw(:sys_wait_h);
+use POSIX ();
 use Time::HiRes qw(sleep time);
 use lib "$FindBin::Bin/..";
 use Files;
+use Limit;
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
@@ -20,6 +21,7 @@ my $kills = $ENV{RETAIN_KILLS} || 400;
 my $lanes = 4;
 my $dir = tempdir(CLEANUP => 1);
 my $keep = "$dir/keep";
+@Limit::show = ("$dir/err", "$dir/out");
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
 
 sub put { return spew("$dir/$_[0]", $_[1]) }
@@ -39,28 +41,7 @@ sub start_in {
 }
 sub start { return start_in($dir, @_); }
 
-sub finish {
-	my ($pid) = @_;
-	for (1 .. 3000) {
-		if (waitpid($pid, WNOHANG) == $pid) {
-			return $? & 127 ? "signal " . ($? & 127) : $? >> 8;
-		}
-		sleep 0.01;
-	}
-	kill 'KILL', $pid;
-	waitpid $pid, 0;
-	return 'hangs';
-}
 sub run { return finish(start(@_)); }
-
-sub until_true {
-	my ($test) = @_;
-	for (1 .. 1500) {
-		return 1 if $test->();
-		sleep 0.02;
-	}
-	return 0;
-}
 
 # ---- reads the file: seq, and values by "NAME TYPE" ----
 my @crc_table = map {
