@@ -23,7 +23,7 @@ import traceback
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'online'))
 from board import BUILD, MODBUS, Board, crc, free_port, until  # noqa: E402
-from link import in_front  # noqa: E402
+from link import begin_limit, in_front  # noqa: E402
 if not os.access(MODBUS, os.X_OK):
     print('1..0 # SKIP ladder-modbus is not built: it needs libmodbus')
     sys.exit(0)
@@ -1010,6 +1010,7 @@ def main():
     in_front()
     for number, (name, test) in enumerate(tests, 1):
         began = time.monotonic()
+        begin_limit()
         try:
             test()
             print(f'ok {number} - {name[5:].replace("_", " ")}', flush=True)

@@ -20,8 +20,9 @@ import time
 import traceback
 from collections import namedtuple
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)) + other for other in ('', '/../online')]
 from board import BUILD, MODBUS, Board, until  # noqa: E402
+from link import begin_limit  # noqa: E402
 
 # ---- what is driven ----
 
@@ -458,6 +459,7 @@ def run(devices, names):
         draw = random.Random(seed + round_)
         for name, way in ways.items():
             number_ += 1
+            begin_limit()
             try:
                 cells = way_out(way, draw, devices)
                 count += cells

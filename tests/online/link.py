@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """link - tests the link of ladderd from outside, with a client made from docs/online.md.
 
-It checks order and values, never times; a limit of a minute is only reached by a hang. Started by root, ladderd
+It checks order and values, never times; a limit of LIMIT s is only reached by a hang. Started by root, ladderd
 and its clients run as other users, so that roles can be tried.
 """
 import hashlib
@@ -29,6 +29,8 @@ from client import ANY, BOOL, INT, STRING, TIME, Client, Gone, Refused  # noqa: 
 
 BUILD = os.path.abspath(os.environ.get('BUILD', 'build'))
 ROOT = os.getuid() == 0
+LIMIT = 50  # s in which something happens in a test; only a hang takes so long
+LIMITED = None  # the process of a test
 PROGRAMS = ('ladderd', 'ladder', 'tests/online/ladder-attach')
 OWN, GROUPS = 23456, {'view': 24001, 'oper': 24002, 'eng': 24003, 'io': 24004}
 SEAL = '''RUNGBOARD 1
@@ -115,7 +117,11 @@ class Board:
     def stop(self):
         if self.daemon.poll() is None:
             self.daemon.send_signal(signal.SIGTERM)
-        return self.daemon.wait(60)
+        try:
+            return self.daemon.wait(LIMIT)
+        except subprocess.TimeoutExpired:
+            self.daemon.kill()
+            raise
 
     def client(self, **options):
         return Client(self.socket, **options)
@@ -191,11 +197,50 @@ def patiently(do):
 
 def until(check):
     """Waits for something that must happen soon."""
-    for _ in range(6000):
-        if check():
-            return
+    end = time.monotonic() + LIMIT
+    while not check():
+        if time.monotonic() > end:
+            raise AssertionError(f'it did not happen within {LIMIT} s')
         time.sleep(0.01)
-    raise AssertionError('it did not happen within a minute')
+    limit()
+
+
+def family():
+    """The processes that this one has started, and theirs; and the processor time of all, in hundredths of a second."""
+    children, used = {}, {}
+    for entry in os.listdir('/proc'):
+        try:
+            with open(f'/proc/{int(entry)}/stat', encoding='utf-8', errors='replace') as stat:
+                fields = stat.read().rpartition(')')[2].split()
+        except (ValueError, OSError):
+            continue
+        children.setdefault(int(fields[1]), []).append(int(entry))
+        used[int(entry)] = sum(int(it) for it in fields[11:15])
+    found = list(children.get(os.getpid(), []))
+    for process in found:
+        found += children.get(process, [])
+    return found, used.get(os.getpid(), 0) + sum(used[it] for it in found)
+
+
+def begin_limit():
+    """A test begins in this process."""
+    global LIMITED  # pylint: disable=global-statement
+    LIMITED = os.getpid()
+    limit()
+
+
+def limit(before=0):
+    """From now on: a test that gets no further for some time, and whose programs compute nothing, is over."""
+
+    def look(*_signal):
+        used = family()[1]
+        if used - before < 5 * LIMIT:
+            raise AssertionError(f'nothing happened within {LIMIT} s, and nothing computed')
+        limit(used)
+
+    if LIMITED == os.getpid():
+        signal.signal(signal.SIGALRM, look)
+        signal.alarm(LIMIT)
 
 
 # ---- hello ----
@@ -3760,6 +3805,7 @@ def run(number, test, kept):
         os.setgid(OWN)
         os.setuid(OWN)
         ROOT = False
+    begin_limit()
     try:
         test()
         print(f'ok {number} - {name}')
