@@ -13,7 +13,7 @@ use JSON::PP;
 use Test::More;
 use Time::HiRes qw(sleep);
 use lib abs_path(dirname(__FILE__));
-use Limit ();
+use Limit;
 
 my $build = abs_path($ENV{BUILD} // 'build');
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
@@ -42,7 +42,6 @@ sub start {
 	}
 	return $pid;
 }
-sub until_it { my ($check) = @_; for (1 .. 600) { return 1 if $check->(); sleep 0.05 } return 0 }
 sub boards { # exit status, output, messages
 	my (@words) = @_;
 	my $status = system "$ladder boards @words >/run/out 2>/run/err";
@@ -66,7 +65,7 @@ put('/run/bus.conf', <<'END');
 <policy context="default"><allow send_destination="*" eavesdrop="true"/><allow eavesdrop="true"/><allow own="*"/></policy></busconfig>
 END
 start('/run/bus.log', 'dbus-daemon', '--config-file=/run/bus.conf', '--nofork');
-ok(until_it(sub { -S '/run/dbus/system_bus_socket' }), 'a bus of its own');
+ok(until_true(sub { -S '/run/dbus/system_bus_socket' }), 'a bus of its own');
 put('/run/avahi.conf', "[server]\nhost-name=garage\nenable-dbus=yes\n");
 my $service = get('packaging/ladder.service');
 my ($version) = get('runtime/engine/base/version.h') =~ /LADDER_VERSION "(.*)"/;
@@ -75,16 +74,16 @@ SKIP: {
 	skip 'Avahi looks for services in another folder', 12
 		if system('mount --bind /run/services /etc/avahi/services 2>/dev/null');
 	my $daemon = start('/run/avahi.log', 'avahi-daemon', '--no-drop-root', '--no-rlimits', '--no-chroot', '--no-proc-title', '-f', '/run/avahi.conf');
-	ok(until_it(sub { get('/run/avahi.log') =~ /successfully established/ }), 'Avahi takes packaging/ladder.service')
+	ok(until_true(sub { get('/run/avahi.log') =~ /successfully established/ }), 'Avahi takes packaging/ladder.service')
 		or diag(get('/run/avahi.log'));
-	ok(until_it(sub { ($status, $out, $err) = boards(); $out =~ /^garage/m }), 'the board is found');
+	ok(until_true(sub { ($status, $out, $err) = boards(); $out =~ /^garage/m }), 'the board is found');
 	like($out, qr/^garage\.local\tgarage\t\Q$version\E$/m, 'a line: where, name, version');
 	is($status, 0, 'exit 0');
 	is($err, '', 'without a message');
 	is(() = $out =~ /^garage/mg, 1, 'once, whatever the number of networks');
 
 	start('/run/publish.log', 'avahi-publish', '-s', "Evil\e[31m", '_ladder._tcp', '2222', "board=T\x{fc}r\a" =~ s/\x{fc}/\xc3\xbc/r, 'version=' . 'v' x 200);
-	ok(until_it(sub { ($status, $out, $err) = boards(); $out =~ /2222/ }), 'another one comes');
+	ok(until_true(sub { ($status, $out, $err) = boards(); $out =~ /2222/ }), 'another one comes');
 	like($out, qr/^garage\.local\tTür\?\tv{31}\tport 2222$/m, 'no control character of it is printed, and long texts are cut');
 	($status, $out) = boards('--json');
 	my $list = decode_json(do { my $bytes = $out; utf8::encode($bytes); $bytes });

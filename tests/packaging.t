@@ -14,7 +14,7 @@ use POSIX ();
 use Socket qw(MSG_DONTWAIT);
 use Test::More;
 use lib abs_path(dirname(__FILE__));
-use Limit ();
+use Limit;
 
 my $build = abs_path($ENV{BUILD} // 'build');
 chdir dirname(__FILE__) . '/..' or die;
@@ -75,7 +75,6 @@ is_deeply([$unit =~ /^(NotifyAccess|KillMode|Type)=(.*)$/mg], [qw(Type notify No
 unlike(join('', map { get("packaging/$_") } qw(ladderd.service ladderd.default ladderd-run ladderd.procd)), qr/^[^#]*watchdog \/dev/m,
 	'nobody opens the watchdog device unasked');
 
-sub until_it { my ($what) = @_; for (1 .. 1200) { return 1 if $what->(); select undef, undef, undef, 0.02 } return 0 }
 sub put { my ($name, $text) = @_; open my $f, '>', $name or die; print $f $text; close $f }
 mkdir "$dir/$_" for qw(bin etc run);
 symlink "$build/ladderd", "$dir/bin/ladderd" or die;
@@ -98,7 +97,7 @@ my ($watchdog_s) = $unit =~ /^WatchdogSec=(\d+)$/m;
 mkdir "$dir/state";
 my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => "$dir/notify") or die;
 # Waits for a message of the service.
-sub told { my ($want) = @_; return until_it(sub { my $text = ''; $socket->recv($text, 200, MSG_DONTWAIT); return $text eq $want }) }
+sub told { my ($want) = @_; return until_true(sub { my $text = ''; $socket->recv($text, 200, MSG_DONTWAIT); return $text eq $want }) }
 sub start_unit {
 	my $pid = fork // die;
 	return $pid if $pid;
@@ -118,19 +117,19 @@ ok(told('READY=1'), 'the next one is ready, in the same service');
 ok(told('WATCHDOG=1'), 'which is still fed');
 kill 'TERM', $service;
 ok(told('STOPPING=1'), 'SIGTERM: it says that it stops');
-ok(until_it(sub { waitpid($service, 1) == $service }) && $? == 0, 'and ends with status 0');
+ok(until_true(sub { waitpid($service, 1) == $service }) && $? == 0, 'and ends with status 0');
 $service = start_unit();
 told('READY=1');
 my $left = ladderd_of($service);
 kill 'KILL', $service;
 waitpid $service, 0;
 is($? & 127, 9, 'a guard that is killed has died of a signal: that is abnormal, so systemd starts it again');
-ok(until_it(sub { !-e "/proc/$left" || get("/proc/$left/stat") =~ /\) Z/ }), 'its ladderd has ended');
+ok(until_true(sub { !-e "/proc/$left" || get("/proc/$left/stat") =~ /\) Z/ }), 'its ladderd has ended');
 is(unpack('x8 C', get("$dir/state/ends")), 0, 'in order: it has noted that');
 $set{LADDERD_FILE} = "$dir/nothing.rung";
 @command = ($command[0], '--name', "unit-$$", '--', "$build/ladderd", $set{LADDERD_FILE}, '--io', $set{LADDERD_MAP});
 $service = start_unit();
-ok(until_it(sub { waitpid($service, 1) == $service }) && $? >> 8 == 2, 'a file that cannot be read: status 2, which is no abnormal end: it is not started again');
+ok(until_true(sub { waitpid($service, 1) == $service }) && $? >> 8 == 2, 'a file that cannot be read: status 2, which is no abnormal end: it is not started again');
 like($unit, qr/^Restart=on-abnormal$/m, 'as the unit says');
 
 # ladderd-run with and without a guard beside it.
@@ -138,7 +137,7 @@ my @env = ("LADDERD_FOLDER=$dir/etc", "LADDERD_DEFAULT=$dir/default", "LADDERD_R
 # Before it has handlers, a signal ends it.
 sub listens {
 	my ($pid) = @_;
-	return until_it(sub {
+	return until_true(sub {
 		my ($caught) = $pid->() && get('/proc/' . $pid->() . '/status') =~ /^SigCgt:\s*\S*(\S{8})$/m;
 		return $caught && hex($caught) & 1 << POSIX::SIGHUP() - 1;
 	});
@@ -152,18 +151,18 @@ for my $guarded (0, 1) {
 		exec 'env', @env, 'sh', 'packaging/ladderd-run' or die;
 	}
 	my $comm = $guarded ? 'ladder-guard' : 'ladderd';
-	ok(until_it(sub { get("/proc/$run/comm") eq "$comm\n" }), "ladderd-run becomes $comm");
+	ok(until_true(sub { get("/proc/$run/comm") eq "$comm\n" }), "ladderd-run becomes $comm");
 	my $ladderd = sub { return $guarded ? ladderd_of($run) : $run };
 	ok(listens($ladderd), 'ladderd listens to signals');
 	like(`env @env sh packaging/ladderd-run status`, qr/^state: RUN$/m, 'its status is that of ladderd') or diag(get("$dir/run/out"));
 	if ($guarded) {
 		my $first = ladderd_of($run);
 		kill 'KILL', $first if $first;
-		ok(until_it(sub { my $now = ladderd_of($run); $now && $now != $first }), 'a ladderd that was killed is started again');
+		ok(until_true(sub { my $now = ladderd_of($run); $now && $now != $first }), 'a ladderd that was killed is started again');
 	}
 	listens($ladderd);
 	kill 'TERM', $run;
-	ok(until_it(sub { waitpid($run, 1) == $run }) && $? == 0, 'SIGTERM ends it');
+	ok(until_true(sub { waitpid($run, 1) == $run }) && $? == 0, 'SIGTERM ends it');
 }
 
 my ($version) = get('runtime/engine/base/version.h') =~ /LADDER_VERSION "(.*)"/;
