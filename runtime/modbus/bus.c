@@ -480,6 +480,7 @@ static void plan_writes(struct bus *bus, int number)
 {
 	const struct plan_ask *ask = &bus->plan.ask[number];
 	struct row row = { .bus = bus, .now_ns = bus->wire.now(bus->wire.context) };
+	const bool waits = bus->ask[number].changed;
 	int64_t next_ns = INT64_MAX;
 
 	if (ask->by >= 0)
@@ -496,6 +497,8 @@ static void plan_writes(struct bus *bus, int number)
 			next_ns = at_ns;
 	}
 	bus->ask[number].refresh_ns = next_ns;
+	if (!waits)
+		bus->ask[number].since_ns = row.now_ns;
 	pthread_mutex_unlock(&bus->field->lock);
 }
 
@@ -583,11 +586,16 @@ static void do_write(struct bus *bus, int number)
 	static _Thread_local struct load load;
 	const struct plan_ask ask = bus->plan.ask[number];
 	struct row row = { .bus = bus, .now_ns = bus->wire.now(bus->wire.context) };
-	int from = ask.from + (ask.by >= 0 ? bus->ask[number].next : 0), to, exception;
+	int from = ask.from + bus->ask[number].next, to, exception;
 	enum result result;
 
 	pthread_mutex_lock(&bus->field->lock);
 	to = plan_run(&bus->plan, &ask, &from, is_due, &row, &bus->limits[ask.unit]);
+	/* What was written last comes last: an item that is due all the time holds up no other. */
+	if (to <= from && ask.by < 0) {
+		from = ask.from;
+		to = plan_run(&bus->plan, &ask, &from, is_due, &row, &bus->limits[ask.unit]);
+	}
 	/* One at a time for a unit that takes no more. */
 	if (bus->unit[ask.unit].no_many && to > from && bus->plan.item[from].bit < 0 &&
 	    bus->plan.item[from].words == 1)
@@ -611,6 +619,7 @@ static void do_write(struct bus *bus, int number)
 		if (result == REFUSED || to == ask.to)
 			serve_block(bus, number, result == REFUSED ? exception : 0);
 	}
+	bus->ask[number].changed = false;
 	plan_writes(bus, number);
 }
 
@@ -621,7 +630,7 @@ static int64_t due_of(const struct bus *bus, int number, int64_t now_ns, bool al
 	const struct plan_ask *ask = &bus->plan.ask[number];
 	const struct bus_ask *state = &bus->ask[number];
 	const int64_t own = ask->by >= 0 ? (is_waiting(bus, number) ? now_ns : INT64_MAX) :
-			    !ask->output ? state->due_ns : state->changed ? now_ns : state->refresh_ns;
+			    !ask->output ? state->due_ns : state->changed ? state->since_ns : state->refresh_ns;
 	const struct unit *unit = &bus->unit[ask->unit];
 	const int64_t unit_ns = unit_due_ns(unit, alone);
 	int64_t due_ns = own > unit_ns ? own : unit_ns, clear_ns;

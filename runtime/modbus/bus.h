@@ -34,9 +34,10 @@ struct wire {
 struct bus_ask {
 	int64_t due_ns;        /* of a read                                    */
 	int64_t refresh_ns;    /* of a write: when one of its items must be repeated */
-	bool changed;          /* of a write: one of its items is due           */
+	bool changed;          /* of a write: one of its items is due …         */
+	int64_t since_ns;      /* … since then                                  */
 	uint32_t served;       /* the number of the request for which it was done */
-	int next;              /* of a write: items that are done for it       */
+	int next;              /* of a write: the item that is looked at first */
 	bool apart;            /* of a write: the device refused it together with a read */
 };
 

@@ -510,6 +510,47 @@ static void test_reads_and_writes_together(void)
 	}
 }
 
+/* More outputs than the line can refresh in time: a new value comes to its unit within one turn of all, whatever
+ * the others want. */
+static void test_no_output_waits_for_ever(void)
+{
+	int late = 0;
+
+	for (int round = 0; round < 60; round++) {
+		int count, turn_ms = 0;
+
+		begin();
+		seed = (uint32_t)round * 7919 + 1;
+		count = 2 + some(10);
+		for (int i = 0; i < count; i++) {
+			const int unit = 1 + some(3);
+
+			/* Neighbours go in one request; others do not. */
+			bench_map_add(&it, unit, TABLE_HOLDING_REGISTER, i * (some(2) ? 1 : 15), IEC_INT, true)->refresh_ns =
+				(20 + some(100)) * (int64_t)MS;
+			for (int k = 0; k < i; k++)
+				if (it.channel[k].unit_id == unit && it.channel[k].reg == it.channel[i].reg)
+					it.channel[i].reg = (uint16_t)(200 + i);
+		}
+		for (int u = 1; u <= 3; u++)
+			far.unit[u].delay_ns = (30 + some(60)) * (int64_t)MS;
+		start();
+		for (int i = 0; i < count; i++)
+			turn_ms += (int)(far.unit[it.channel[i].unit_id].delay_ns / MS);
+		for (int i = 0; i < count; i++)
+			output(i, 1);
+		run(4 * turn_ms);
+		for (int i = 0; i < count; i++)
+			output(i, 1000 + i);
+		run(turn_ms + 100);
+		for (int i = 0; i < count; i++)
+			late += far.unit[it.channel[i].unit_id].reg[it.channel[i].reg] != 1000 + i;
+		end();
+	}
+	if (!CHECK(late == 0))
+		printf("# %d outputs had an old value\n", late);
+}
+
 int main(void)
 {
 	test_reads_come_by_period();
@@ -522,5 +563,6 @@ int main(void)
 	test_bits_of_a_register();
 	test_functions_that_a_device_lacks();
 	test_reads_and_writes_together();
+	test_no_output_waits_for_ever();
 	return tap_done();
 }
