@@ -25,6 +25,8 @@
 #define SAFE_MS        1000 /* for safe values, when ladderd has gone       */
 #define FLUSH_NS       1000000 /* values that come within it go together        */
 
+enum told { TOLD_NOTHING, TOLD_AWAY, TOLD_REFUSED };
+
 static struct {
 	struct gateway gateway;
 	struct gateway_report report;
@@ -40,7 +42,7 @@ static struct {
 	struct status_strays strays;
 	bool runs;             /* masters and servers have begun                */
 	bool stop;
-	bool told_away;        /* it has been said that there is no ladderd      */
+	enum told told;        /* what was said of ladderd last                */
 	enum desk_end end;
 	int signal_fd;
 	int64_t report_ns, flush_ns;
@@ -353,6 +355,7 @@ static void serve_board(void)
 		keep_end(gateway_begin(&session.gateway, "modbus"));
 		if (session.end != DESK_GOOD)
 			break;
+		session.told = TOLD_NOTHING;
 		if (!is_same_map()) {
 			end_map();
 			if (!begin_map()) {
@@ -371,10 +374,10 @@ static void tell_away(void)
 {
 	const struct desk *desk = &session.gateway.desk;
 
-	if (session.told_away)
+	if (session.told == (session.end == DESK_REFUSED ? TOLD_REFUSED : TOLD_AWAY))
 		return;
-	session.told_away = true;
-	if (session.end == DESK_REFUSED)
+	session.told = session.end == DESK_REFUSED ? TOLD_REFUSED : TOLD_AWAY;
+	if (session.told == TOLD_REFUSED)
 		fprintf(stderr, "ladder-modbus: ladderd refuses%s%s; is this user in the group ladder-io, and does "
 			"no other ladder-modbus run?\n", desk->detail[0] ? ": " : "", desk->detail);
 	else
@@ -407,7 +410,6 @@ int session_run(const char *socket)
 		session.end = gateway_open(&session.gateway, socket, "ladder-modbus");
 		if (session.end == DESK_GOOD) {
 			session.gateway.output = on_output;
-			session.told_away = false;
 			again_ms = AGAIN_LEAST_MS;
 			serve_board();
 		}
