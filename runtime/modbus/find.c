@@ -192,7 +192,8 @@ int find_units(const struct io_bus *bus, int first, int last, bool json)
 	if (json)
 		printf("{\"units\":[");
 	for (unit = first; unit <= last && !lost; unit++)
-		lost = !ask(&search, unit);
+		/* All units of a serial line take what is sent to 0, and none answers. */
+		lost = (unit || bus->kind == BUS_MODBUS_TCP) && !ask(&search, unit);
 	conclude(&search, bus, last - first + 1, lost, unit - 1);
 	line_close(&search.line);
 	return lost ? -1 : search.found;

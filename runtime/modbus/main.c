@@ -223,6 +223,8 @@ static int scan_of_map(const struct request *request)
 
 static int do_scan(struct request *request)
 {
+	if (request->from > request->to)
+		return wrong("--from", "is above --to");
 	if (request->map)
 		return scan_of_map(request);
 	if (request->bus_name || !(request->bus.port || request->bus.host))

@@ -850,6 +850,147 @@ def test_a_scan_tells_exceptions():
     plant.close()
 
 
+def test_what_the_command_takes():
+    """Each wrong word is told, and opens nothing; what is right is used."""
+    with tempfile.TemporaryDirectory() as folder:
+        with open(folder + '/board.io', 'w', encoding='utf-8') as out:
+            out.write('BOARD "x"\nBUS yard peer interface=lo\n%QX0.0 sim safe=0\n')
+        with open(folder + '/wrong.io', 'w', encoding='utf-8') as out:
+            out.write('BOARD "x"\n%QX0.0 nonsense\n')
+        with open(folder + '/empty.io', 'w', encoding='utf-8') as out:
+            out.write('BOARD "x"\n%QX0.0 sim safe=0\n')
+        no_option, needs = 'is no option here, or its value is wrong', 'is no option, or needs a value'
+        for words, status, out, err in [
+                ('--help', 0, 'usage: ladder-modbus', ''), ('--version', 0, 'ladder-modbus ', ''), ('scan --help', 0, 'usage: ', ''),
+                ('--link', 2, '', f'--link {needs}'), ('--check', 2, '', f'--check {needs}'), ('--fly', 2, '', f'--fly {needs}'),
+                ('--fly now', 2, '', f'--fly {no_option}'), ('--json', 2, '', f'--json {needs}'), ('--baud 9600', 2, '', f'--baud {no_option}'),
+                ('scan', 2, '', 'scan needs the name of a bus and a map, or --port, or --host'),
+                ('scan yard', 2, '', 'scan needs the name of a bus and a map'), ('scan yard --host 127.0.0.1', 2, '', 'scan needs the name of a bus'),
+                ('scan yard board.io', 2, '', 'yard is no bus of this map'), ('scan yard empty.io', 2, '', 'yard is no bus of this map'),
+                ('scan yard nothing.io', 1, '', 'nothing.io: error LD'), ('scan yard wrong.io', 1, '', 'wrong.io:2:8: error LD503'),
+                ('scan yard board.io more', 2, '', f'more {needs}'), ('scan --link x', 2, '', f'--link {no_option}'),
+                ('scan --check board.io', 2, '', f'--check {no_option}'), ('scan --port', 2, '', f'--port {needs}'),
+                *[(f'scan --port /dev/none {it}', 2, '', f'{it.split(" ")[0]} {no_option}') for it in (
+                    '--baud 0', '--baud 12345', '--baud 9600x', '--baud 5000000', '--baud ', '--parity mark', '--parity ', '--stop-bits 0',
+                    '--stop-bits 3', '--stop-bits two', '--from -1', '--from 256', '--to 256', '--to x', '--timeout 0', '--timeout 60001', '--fly 1')],
+                *[(f'scan --host {it}', 2, '', f'--host {no_option}') for it in ('', ':502', 'plc:', 'plc:0', 'plc:65536', 'plc:x', 'x' * 256)],
+                ('scan --port /dev/none --from 5 --to 4', 2, '', '--from is above --to'),
+                ('--check nothing.io', 1, '', 'nothing.io: error LD'), ('--check wrong.io', 1, '', 'wrong.io:2:8: error LD503'),
+                ('--check empty.io', 0, 'empty.io: good', ''), ('--check board.io', 0, 'board.io: good', ''),
+                ('scan --port /dev/none', 1, '', 'ladder-modbus: /dev/none: No such file or directory: is it the right serial line')]:
+            done = run(*words.split(' '), cwd=folder)
+            assert done.returncode == status and done.stdout.startswith(out) and err in done.stderr, (words, done)
+            assert bool(done.stdout) == bool(out) and bool(done.stderr) == bool(err), (words, done)
+
+
+def test_a_serial_line_is_scanned_as_it_is_set():
+    """Speed, parity and stop bits reach the line. Nobody answers for 0, which is all units."""
+    import termios
+    wire = Wire()
+    asked, seen = [], wire.answer
+    serial = Units([2]).rtu(wire.theirs)
+    for parity, stop, baud, wanted in [('even', 1, 9600, termios.PARENB), ('odd', 2, 1200, termios.PARENB | termios.PARODD | termios.CSTOPB),
+                                       ('none', 2, 115200, termios.CSTOPB), ('none', 1, 19200, 0)]:
+        def look(data):
+            asked.append(termios.tcgetattr(wire.ends[0][1]))
+            seen(data)
+        wire.answer = look
+        done = run('scan', '--port', wire.ours, '--baud', str(baud), '--parity', parity, '--stop-bits', str(stop), '--from', '0', '--to', '2',
+                   '--timeout', '150')
+        assert done.returncode == 0 and [line.split()[:3] for line in lines_of(done)] == [['unit', '2', 'answers']], done
+        control, speed = asked[-1][2], asked[-1][4]
+        # A pseudo-terminal has no parity: it keeps the rest.
+        assert control & termios.CSTOPB == wanted & termios.CSTOPB and speed == getattr(termios, f'B{baud}'), (parity, stop, baud, control, speed)
+    serial.close()
+    wire.close()
+
+
+def test_each_refusal_of_a_unit_has_its_words():
+    """Exception N from unit N. 10 and 11 say that a unit behind a gateway is not there."""
+    refuses = Stand(lambda frame: frame[:4] + b'\0\3' + frame[6:7] + b'\x83' + frame[6:7])
+    done = run('scan', '--host', f'127.0.0.1:{refuses.port}', '--to', '12', '--timeout', '300')
+    words = {1: 'it cannot read holding registers', 2: 'it has no holding register 0', 3: 'it does not take this request', 4: 'it has a failure',
+             6: 'it is busy'}
+    wanted = [f'unit {n}: exception {n}: {words.get(n, "it refuses")}' for n in range(1, 13) if n not in (10, 11)]
+    assert [line.split(' answers')[0] + ': ' + line.split(': ', 1)[1] for line in lines_of(done)] == wanted and done.returncode == 0, done
+    done = run('scan', '--host', f'127.0.0.1:{refuses.port}', '--to', '12', '--timeout', '300', '--json')
+    assert [(it['unit'], it['exception']) for it in json.loads(done.stdout)['units']] == [(n, n) for n in range(1, 13) if n not in (10, 11)], done
+    refuses.close()
+    # An answer that fits the frame, but not the request; and several doubts in one object.
+    senseless = Stand(lambda frame: frame[:4] + b'\0\7' + frame[6:7] + b'\3\4\0\0\0\0')
+    done = run('scan', '--host', f'127.0.0.1:{senseless.port}', '--to', '2', '--timeout', '100')
+    assert [line.split(':')[0] for line in lines_of(done)] == ['unit 1', 'unit 2'] and done.returncode == 1, done
+    assert all('what it says is no answer to the request' in line for line in lines_of(done)), done
+    done = run('scan', '--host', f'127.0.0.1:{senseless.port}', '--to', '2', '--timeout', '100', '--json')
+    assert [it['at'] for it in json.loads(done.stdout)['doubts']] == [1, 2], done
+    senseless.close()
+
+
+def test_outputs_of_all_units_of_a_line():
+    """What is sent to unit 0 has no answer. Each of its outputs has its turn, though the line is too slow for them, and so have the others."""
+    wire = Wire()
+    wire.ended = True
+    wire.thread.join()
+    board = f'''BOARD "on a table"
+BUS rs485 modbus-rtu port={wire.ours} timeout=100ms
+%QW0 modbus bus=rs485 unit=0 holding-register=7 safe=0 refresh=100ms
+%QX10.0 modbus bus=rs485 unit=0 coil=3 safe=0 refresh=100ms
+%QD20 modbus bus=rs485 unit=0 holding-register=20 as=REAL safe=0 refresh=100ms
+%IW0 modbus bus=rs485 unit=2 input-register=0 poll=50ms stale=20s
+%IX10.0 sim
+%ID20 sim
+'''
+    frames, gone = [], threading.Event()
+
+    def serve():
+        """Unit 2 answers 5 for its register; each frame is kept."""
+        data = b''
+        while not gone.is_set():
+            if not far.select.select([wire.ends[0][0]], [], [], 0.03)[0]:
+                data = b''  # a frame ends with a silence
+                continue
+            data += os.read(wire.ends[0][0], 300)
+            if len(data) > 4 and crc(data[:-2]) == data[-2:]:
+                frames.append(data[:-2])
+                if data[0] == 2:
+                    answer = b'\2\4\2\0\5'
+                    os.write(wire.ends[0][0], answer + crc(answer))
+                data = b''
+
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.start()
+    with Board(COPY, board) as it:
+        wanted = [b'\0\6\0\7\0\5', b'\0\5\0\3\0\0', b'\0\x10\0\x14\0\2\4\0\0\0\0']
+        assert until(lambda: all(frames.count(frame) > 2 for frame in wanted)), (frames[-20:], it.status())
+        assert frames.count(b'\2\4\0\0\0\1') > 2 and 'rs485/2: answers' in it.status(), it.status()
+    gone.set()
+    thread.join()
+    wire.close()
+
+
+def test_a_second_gateway_waits_for_the_first():
+    port = free_port()
+    plant = Units([1]).tcp(port)
+    board = f'''BOARD "on a table"
+BUS plant modbus-tcp host=127.0.0.1:{port}
+%IW0 modbus bus=plant unit=1 input-register=0 poll=5ms
+%QW0 modbus bus=plant unit=1 holding-register=0 safe=0
+'''
+    with Board(COPY, board) as it:
+        plant.set(1, 'input-register', 0, 1)
+        assert until(lambda: plant.get(1, 'holding-register', 0) == 1), it.read('modbus.out')
+        first = it.modbus
+        it.start_modbus()
+        assert until(lambda: 'does no other ladder-modbus run?' in it.read('modbus.out')), it.read('modbus.out')
+        time.sleep(1.2)  # it asks again and again
+        assert it.read('modbus.out').count('ladderd refuses') == 1, it.read('modbus.out')
+        first.send_signal(signal.SIGTERM)
+        assert first.wait(60) == 0
+        plant.set(1, 'input-register', 0, 2)
+        assert until(lambda: plant.get(1, 'holding-register', 0) == 2), it.read('modbus.out')
+    plant.close()
+
+
 class Stand:
     """Takes connections of TCP and does with each request what `answer(frame)` says: bytes, None for nothing, or 'end'."""
 
