@@ -11,7 +11,7 @@
 
 #include <gtk/gtk.h>
 
-/** shrink_buttons - texts of buttons that are @root or below it now may end in an ellipsis;
+/** shrink_buttons - texts of buttons and drop-downs that are @root or below it now may end in an ellipsis;
  * except in popups. */
 void shrink_buttons(GtkWidget *root);
 

@@ -244,6 +244,24 @@ def columns(screen):
     editor.shot('looks-columns-back')
 
 
+def symbols(screen):
+    """1024x700, simulating: the buttons for the chosen symbol do not make the window wider than the screen"""
+    path = os.path.join(screen.home, 'ladders', 'garage-door.rung')
+    shutil.copytree(os.path.join(ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+m')
+    editor.find('Filter the variables')
+    editor.command('Symbols')
+    editor.click(until(lambda: [n for n in editor.all('ButtonDown') if n.box()[0] < 200 and n.box()[2] > 0], 'a symbol')[0])
+    access = until(lambda: [n for n in editor.all('Access for operators') if n.box()[2] > 0], 'the buttons for it')[0]
+    editor.place(access)
+    editor.shot('looks-symbols')
+    for node in editor.walk():
+        x, _, wide, _ = node.box() if node.widget else (0, 0, 0, 0)
+        assert x + wide <= 1024, (node.name, x, wide)
+
+
 def high(screen):
     """high contrast in the dark: the sheet is black, also outside of rungs"""
     editor = draw(screen, 'looks-high', ADW_DEBUG_COLOR_SCHEME='prefer-dark', ADW_DEBUG_HIGH_CONTRAST='1')
@@ -300,7 +318,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = french.size = '1024x700x24'
+small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = symbols.size = french.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, narrow, edge, beside, columns, last_tab, french, large_letters, large, sharp])
+main([light, dark, high, small, narrow, edge, beside, columns, symbols, last_tab, french, large_letters, large, sharp])
