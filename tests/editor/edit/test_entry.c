@@ -88,6 +88,17 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "P1.On", "NO P1.On" },
 	/* addresses */
 	{ "%IX0.0", "NO Start" }, { "I0.0", "NO Start" }, { "i0.1", "NO Stop" },
+	/* bits as other tools spell them; leading zeros and letters of any size are read */
+	{ "IX3.0", "NO %IX3.0" }, { "qx3.7", "NO %QX3.7" }, { "MX3.1", "NO %MX3.1" }, { "i3.07", "NO %IX3.7" },
+	{ "Q03.1", "NO %QX3.1" }, { "M3.2", "NO %MX3.2" }, { "V3.2", "NO %VX3.2" }, { "S3.2", "NO %SX3.2" },
+	{ "SM0.0", "NO %SMX0.0" }, { "SM0.1", "NO %SMX0.1" }, { "SM0.4", "NO %SMX0.4" }, { "%I27", "NO %IX3.3" },
+	{ "%Q27", "NO %QX3.3" }, { "%B27", "NO %MX3.3" }, { "M27", "NO %MX3.3" },
+	{ "I3.8", "! “I3.8” is not an address: the bits of a byte are 0 to 7" },
+	/* numbers */
+	{ "IW2 > 5", "[ %IW2 > 5 ]" }, { "MB3 > 5", "[ %MB3 > 5 ]" }, { "MW4 > 5", "[ %MW4 > 5 ]" },
+	{ "MD8 > 5", "[ %MD8 > 5 ]" }, { "VB3 > 5", "[ %VB3 > 5 ]" }, { "VW4 > 5", "[ %VW4 > 5 ]" },
+	{ "VD8 > 5", "[ %VD8 > 5 ]" }, { "AIW4 > 5", "[ %AIW4 > 5 ]" }, { "AQW4 > 5", "[ %AQW4 > 5 ]" },
+	{ "%W2 > 5", "[ %VD8 > 5 ]" },
 	{ "I3", "NO %IX0.3" }, { "E0.3", "NO %IX0.3" }, { ">A4.0", "COIL %QX4.0" },
 	{ "X5", "NO %IX0.5" }, { ">Y3", "COIL %QX0.3" }, { "I:1/3", "NO %IX2.3" },
 	{ "%TM0.Q", "NO TM0_Pause.Q" }, { "/%tm0.q", "NC TM0_Pause.Q" }, { "%X3.A", "NO X3" },
