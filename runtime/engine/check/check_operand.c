@@ -170,6 +170,8 @@ static const struct meaning *operand_find_for(struct operand_check *c, struct op
 		operand_report(c, DIAG_SFC_TRANSITION, at, project_text(c->project, id));
 	else
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
+	if (m && m->within)
+		uses_add_within(c->uses, m, write ? USE_WRITTEN : USE_READ);
 	if (m)
 		said_special(c, at, project_text(c->project, id), m);
 	return m;

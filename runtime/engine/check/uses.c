@@ -189,6 +189,18 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	return again;
 }
 
+void uses_add_within(struct uses *uses, const struct meaning *meaning, unsigned int use)
+{
+	const struct project *project = uses->project;
+
+	for (int i = 0; meaning->like && i < project->pou_count; i++) {
+		const struct var_table *table = &project->pou[i].vars;
+
+		if (meaning->like >= table->var && meaning->like < table->var + table->count)
+			uses->flags[uses->base[i + 1] + (meaning->like - table->var)] |= (uint8_t)use;
+	}
+}
+
 void uses_add_coil(struct uses *uses, const struct meaning *meaning, struct use_coil at)
 {
 	struct use_coil *kept;

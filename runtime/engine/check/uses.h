@@ -63,6 +63,9 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use);
 
+/** uses_add_within - a variable inside of a block is used from outside: its declaration is not
+ * unused. Scan-safe: yes. */
+void uses_add_within(struct uses *uses, const struct meaning *meaning, unsigned int use);
 /** uses_add_coil - the meaning is written by a coil at the place @at, whose next, number, first and
  * count are ignored. */
 void uses_add_coil(struct uses *uses, const struct meaning *meaning, struct use_coil at);

@@ -229,6 +229,19 @@ static bool chain_points(struct chain *c, struct value value)
 	return m && (m->address_of || (m->kind != MEANING_LITERAL && m->like && m->like->target));
 }
 
+/* Is a variable or a result in the expression an LREAL? A REAL and a DINT are computed as one, too. */
+static bool has_long(struct chain *c)
+{
+	for (int i = 0; i < c->expr->count; i++) {
+		const enum expr_op op = c->expr->node[i].op;
+
+		if ((op == EXPR_NAME || op == EXPR_INDEX || op == EXPR_CALL || op == EXPR_LITERAL) &&
+		    infer_type(&c->in, i) == IEC_LREAL)
+			return true;
+	}
+	return false;
+}
+
 /* A warning, unless a whole number becomes a REAL. */
 static void say_narrowed(struct chain *c, enum iec_type from, enum iec_type to)
 {
@@ -238,7 +251,8 @@ static void say_narrowed(struct chain *c, enum iec_type from, enum iec_type to)
 	struct diag place = { .id = DIAG_NARROWED, .file = unit->pou->file, .line = c->ld->line,
 			      .pou = project_text(translation->project, unit->pou->name) };
 
-	if (iec_type_row(to)->class == CLASS_REAL && iec_type_row(from)->class != CLASS_REAL)
+	if (iec_type_row(to)->class == CLASS_REAL &&
+	    (iec_type_row(from)->class != CLASS_REAL || !has_long(c)))
 		return;
 	if (at)
 		st_where(&translation->project->names, c->ld->item, at, &place.line, &place.column);
