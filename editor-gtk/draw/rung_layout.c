@@ -306,6 +306,7 @@ static void place_columns(struct rung_layout *layout, float width, struct shrink
 		x += layout->column_width[d];
 	}
 	layout->column_x[last] = layout->right - layout->column_width[last];
+	layout->whole_from = 0;
 }
 
 struct rung_layout *rung_layout_new(const struct drafting *drafting,
@@ -417,11 +418,14 @@ static bool element_ends(const struct drafting *drafting, const struct rung_layo
 	return true;
 }
 
-float rung_layout_whole(const struct drafting *drafting, const struct rung_layout *layout, float x)
+float rung_layout_whole(const struct drafting *drafting, struct rung_layout *layout, float x)
 {
 	const struct rung *rung = layout->rung;
+	const float from = x;
 	float left, right, before;
 
+	if (from == layout->whole_from && from > 0)
+		return layout->whole;
 	do {
 		before = x;
 		for (int i = 0; i < rung->rows * rung->cols; i++)
@@ -431,6 +435,8 @@ float rung_layout_whole(const struct drafting *drafting, const struct rung_layou
 					 &right) && left < x && x < right - 1)
 				x = left;
 	} while (x < before);
+	layout->whole_from = from;
+	layout->whole = x;
 	return x;
 }
 

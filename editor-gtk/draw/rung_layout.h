@@ -71,6 +71,7 @@ struct rung_layout {
 	float *column_x, *column_width; /* of the columns                       */
 	float *column_need;      /* width that the names in them need           */
 	struct rung_row *row;
+	float whole_from, whole; /* the last answer of rung_layout_whole(); from 0: none */
 };
 
 /** rung_layout_columns - columns that a rung needs on a sheet, at least RUNG_LEAST_COLUMNS. */
@@ -114,8 +115,9 @@ float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
  * the cursor, accessible children and popovers. */
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
 
-/** rung_layout_whole - the place at or left of @x where a line from top to bottom cuts no element. */
-float rung_layout_whole(const struct drafting *drafting, const struct rung_layout *layout, float x);
+/** rung_layout_whole - the place at or left of @x where a line from top to bottom cuts no element. A frame asks several
+ * times for one @x: the last answer is kept until the columns move. */
+float rung_layout_whole(const struct drafting *drafting, struct rung_layout *layout, float x);
 /** rung_layout_label - px: width of the texts above an element. */
 float rung_layout_label(const struct drafting *drafting, const struct cell *cell);
 

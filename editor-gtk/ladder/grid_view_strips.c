@@ -507,7 +507,7 @@ int strips_at(LadderGridView *view, float y)
 
 /* Outputs that are moved left by @by px of the widget cut no element: one that is in their way is
  * hidden wholly. px at 100 %. */
-static float pin_edge(LadderGridView *view, const struct rung_layout *layout, float by)
+static float pin_edge(LadderGridView *view, struct rung_layout *layout, float by)
 {
 	return rung_layout_whole(&view->drafting, layout, layout->column_x[layout->columns - 1] -
 							  by / (float)view->canvas->zoom);
@@ -518,7 +518,7 @@ float strips_pinned(LadderGridView *view, const struct strip *strip)
 	const float page = (float)gtk_widget_get_width(GTK_WIDGET(view));
 	const float x = (float)gtk_adjustment_get_value(view->canvas->adjustment[0]);
 	const float by = strips_width(view) * (float)view->canvas->zoom - x - page;
-	const struct rung_layout *layout = strip->layout;
+	struct rung_layout *layout = strip->layout;
 
 	return by > 0 && layout && !strip->fold &&
 	       (strips_width(view) - layout->column_x[layout->columns - 1]) *

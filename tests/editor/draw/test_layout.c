@@ -326,7 +326,7 @@ static void check_whole(const struct sheet *sheet)
 
 	for (int i = 0; i < sheet->count; i++)
 		for (float x = RUNG_LEFT; x < sheet->rung[i]->right; x += 3) {
-			const struct rung_layout *layout = sheet->rung[i];
+			struct rung_layout *layout = sheet->rung[i];
 			const float at = rung_layout_whole(&sheet->drafting, layout, x);
 
 			cut += cut_elements(sheet, layout, at);
@@ -336,6 +336,24 @@ static void check_whole(const struct sheet *sheet)
 				x - at > RUNG_CELL_WIDTH * 4);
 		}
 	CHECK_AS(cut == 0 && bad == 0 && moved > 100, "no element is cut at the edge of what is shown");
+}
+
+/* Nothing is measured again for the same place, until the columns have moved. */
+static void check_kept(const struct sheet *sheet)
+{
+	int kept = 0, stale = 0;
+
+	for (int i = 0; i < sheet->count; i++) {
+		struct rung_layout *layout = sheet->rung[i];
+		const float x = layout->column_x[layout->columns - 1] - RUNG_CELL_WIDTH / 2;
+		const float width = rung_layout_width(layout), at = rung_layout_whole(&sheet->drafting, layout, x);
+
+		layout->whole = -7;
+		kept += rung_layout_whole(&sheet->drafting, layout, x) == -7;
+		rung_layout_stretch(layout, width);
+		stale += rung_layout_whole(&sheet->drafting, layout, x) == -7 || at > x;
+	}
+	CHECK_AS(kept == sheet->count && kept > 0 && stale == 0, "the edge of a rung is measured once, and again when its columns move");
 }
 
 int main(void)
@@ -355,6 +373,7 @@ int main(void)
 	CHECK(bad_columns(sheet) == 0);
 	check_sheet(sheet);
 	check_whole(sheet);
+	check_kept(sheet);
 	check_clipping();
 	sheet_free(sheet);
 	ladder_free(ladder);
