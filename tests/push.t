@@ -91,6 +91,16 @@ sub identity {
 mkdir $_ for "$dir/board", $bin, $etc, "$dir/board/run";
 symlink "$build/ladderd", "$bin/ladderd" or die;
 symlink $run_script, "$bin/ladderd-run" or die;
+# A second of the board is shorter here: until ladderd has answered, or a third. Where a ladderd must be seen to stay, it is whole.
+put("$bin/sleep", <<"END", 0755);
+#!/bin/sh
+[ ! -e $dir/slowly ] || exec /bin/sleep "\$1"
+grep -q status /proc/\$PPID/cmdline || exec /bin/sleep 0.3
+for tenth in 1 2 3 4 5 6 7 8 9 10; do
+	/bin/sleep 0.1
+	[ ! -s $dir/board/run/ladderd.status ] || exec /bin/sleep 0.1
+done
+END
 put("$dir/board/default", "LADDERD_OPTIONS=\"--period 10ms\"\n");
 my $board_env = "LADDERD_FOLDER=$etc LADDERD_DEFAULT=$dir/board/default LADDERD_RUN=$dir/board/run";
 put("$etc/service", "#!/bin/sh\nexport $board_env\nexec ladderd-run \"\$@\"\n", 0755);
@@ -224,7 +234,9 @@ like($err, qr/^\Q$board\E: error LD012: /m, 'no folder: says so');
 # ---- a map of another board passes --check, which opens nothing, and does not start ----
 my $before = get("$etc/active");
 my $runs = identity(active());
+put('slowly', '');
 ($out, $err) = is_push(1, 'lines that are not there', $ssh, @to, 'one.rung', 'other.io', $board);
+unlink 'slowly';
 like($err, qr/^\Q$board\E: error LD014: .*the previous program runs again$/m, 'it went back, and says so');
 is(get("$etc/active"), $before, 'the old files stand again');
 like(ask(), qr/^state: RUN\n.*^program: $runs$/ms, 'the old program runs again');
