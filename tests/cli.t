@@ -13,7 +13,7 @@ use Test::More;
 use Time::HiRes qw(sleep time);
 use File::Basename qw(dirname);
 use lib abs_path(dirname(__FILE__));
-use Limit ();
+use Terminal;
 
 my $ladder = abs_path($ENV{LADDER} // 'build/ladder');
 my $root = abs_path('.');
@@ -504,11 +504,12 @@ for my $kind (qw(lines blocks parts)) { # in one program, in 100 blocks, in 1,00
 
 # ---- the live view when a program stops with a fault ----
 SKIP: {
-	skip 'no script(1) to make a terminal', 3 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
+	skip 'no script(1) to make a terminal', 3 unless has_terminal();
 	my $moving = 'AVeryLongNameForAMotorInTheBasement';
 	put('loop.rung', "RUNGBOARD 1\nVAR\n  $moving : BOOL;\nEND_VAR\nPROGRAM Main LD\nRUNG L\n  | NO I0 | S Q0 |\n  |      ^| S $moving |\nRUNG\n  | NO I0 | JMP L |\nEND_PROGRAM\n");
 	put('loop.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n");
-	my $screen = `(sleep 0.5; printf q; sleep 1) | TERM=xterm NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run loop.rung --io loop.io --set I0=1' /dev/null`;
+	my ($ended, $screen) = on_terminal(20, 60, "\Q$ladder\E run loop.rung --io loop.io --set I0=1",
+		qr/FAULT: instruction budget.*\* 1 %QX0\.1/s => 'q');
 	like($screen, qr/FAULT: instruction budget/, 'live: a fault is shown');
 	like($screen, qr/o 0 %QX0\.0.*\* 1 %QX0\.1/s, 'live: in a fault outputs have their safe values');
 	like($screen, qr/ AVeryLong\w+ = 1/, 'live: a long name leaves room for the value');
@@ -558,8 +559,9 @@ like($err, qr/^own\.script:1: rung 1 \(1,2\): error LD008: .*, in Main$/m, 'with
 is_run(2, 'run --rungs: none', ['run', 'own.rung', '--rungs', 'C', '--scans', '1']);
 is_run(0, 'run --rungs in a pipe', ['run', 'own.rung', '--rungs', 'A', '--scans', '1']);
 SKIP: {
-	skip 'no script(1) to make a terminal', 2 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
-	my $screen = `(sleep 0.5; printf 2; sleep 0.5; printf q; sleep 1) | TERM=xterm NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run own.rung --rungs Main.B' /dev/null`;
+	skip 'no script(1) to make a terminal', 2 unless has_terminal();
+	my ($ended, $screen) = on_terminal(20, 60, "\Q$ladder\E run own.rung --rungs Main.B",
+		qr/==\| \|-----\( \)-/ => '2', qr/==\| \|=====\( \)=/ => 'q');
 	like($screen, qr/FUNCTION_BLOCK Seal as B.*==\| \|-----\( \)-/s, 'live: rungs of an instance');
 	like($screen, qr/==\| \|=====\( \)=/, 'live: with their power when an input comes');
 }

@@ -91,23 +91,30 @@ check_room() { # room allowed…
 		return
 	fi
 	bad=
-	for file in "$room"/*.[ch] "$room"/*.def; do
-		[ -f "$file" ] || continue
-		for path in $(sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"\([^"]*\)".*/\1/p' "$file"); do
-			good=0
-			for may in "$@" "${room#runtime/}"; do
-				[ "${path%/*}" != "$may" ] && [ "$path" != "$may" ] || good=1
-			done
-			# Only the file of the facade is above all rooms of the engine.
-			case $room,$path in runtime/engine/*,engine/ladder.h) good=0;; esac
-			[ $good = 1 ] || bad="$bad
-$file includes $path"
-		done
-		for path in $(sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*<\([^>]*\)>.*/\1/p' "$file"); do
+	# One process for a room: a file, the kind of its include, and the path.
+	while read -r file kind path; do
+		[ -n "$file" ] || continue
+		if [ "$kind" = '<' ]; then
 			check_library "$file" "$path" || bad="$bad
 $file includes <$path>"
+			continue
+		fi
+		good=0
+		for may in "$@" "${room#runtime/}"; do
+			[ "${path%/*}" != "$may" ] && [ "$path" != "$may" ] || good=1
 		done
-	done
+		# Only the file of the facade is above all rooms of the engine.
+		case $room,$path in runtime/engine/*,engine/ladder.h) good=0;; esac
+		[ $good = 1 ] || bad="$bad
+$file includes $path"
+	done <<INCLUDES
+$(find "$room" -maxdepth 1 \( -name '*.[ch]' -o -name '*.def' \) -exec awk '
+	match($0, /^[ \t]*#[ \t]*include[ \t]*["<][^">]*[">]/) {
+		path = substr($0, RSTART, RLENGTH)
+		sub(/^[ \t]*#[ \t]*include[ \t]*/, "", path)
+		print FILENAME, substr(path, 1, 1), substr(path, 2, length(path) - 2)
+	}' {} + | LC_ALL=C sort -k1,1 -s)
+INCLUDES
 	[ -z "$bad" ]; say $? "$room includes only rooms below it" "$bad"
 }
 

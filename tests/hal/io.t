@@ -12,7 +12,7 @@ use JSON::PP;
 use Test::More;
 use File::Basename qw(dirname);
 use lib abs_path(dirname(__FILE__)) . '/..';
-use Limit ();
+use Terminal;
 
 my $build = abs_path($ENV{BUILD} // 'build');
 my $dir = tempdir(CLEANUP => 1);
@@ -202,13 +202,14 @@ END
 
 	# ---- live ----
 	SKIP: {
-		skip 'no script(1) to make a terminal', 4 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
+		skip 'no script(1) to make a terminal', 4 unless has_terminal();
 		unlink 'taken';
-		my $screen = `(sleep 1; touch taken; sleep 1.5; printf q; sleep 1) | NO_COLOR=1 TERM=xterm LC_ALL=C script -qec 'stty cols 100 rows 12; \Q$ladder\E io panel.io --program lamp.rung --live' /dev/null`;
-		is($? >> 8, 0, "$kind: live ends well with q");
+		my ($ended, $screen) = on_terminal(12, 100, "\Q$ladder\E io panel.io --program lamp.rung --live",
+			qr/Start +IN0 +gpiochip0 +0 .* free/s => sub { put('taken', '') }, qr/ladderd/ => 'q');
+		is($ended, 0, "$kind: live ends well with q");
 		like($screen, qr/Rungboard panel .*Start +IN0 +gpiochip0 +0 +input.* free.*Start +IN0 +gpiochip0 +0 +input +high +pull-up +ladderd/s,
 		     "$kind: live shows that somebody took the line");
-		$screen = `(sleep 0.7; printf ' '; sleep 0.7; printf q; sleep 1) | NO_COLOR=1 TERM=xterm LC_ALL=C script -qec 'stty cols 100 rows 6; \Q$ladder\E io --live' /dev/null`;
+		($ended, $screen) = on_terminal(6, 100, "\Q$ladder\E io --live", qr/1 to 3 of 6/ => ' ', qr/4 to 6 of 6/ => 'q');
 		like($screen, qr/1 to 3 of 6; space: next page.*4 to 6 of 6/s, "$kind: live turns pages");
 		unlike($screen, qr/levels: not told/, "$kind: live says nothing of levels when they are known");
 	}
