@@ -57,8 +57,9 @@ sub needs {
 sub run_test {
 	my ($test) = @_;
 	my ($file, @words) = split / /, $test;
-	my $command = $file =~ /\.py$/ ? "/usr/bin/python3 $test" : $file =~ m{^build/} ? $test :
-		slurp($file) =~ /^#!.*perl/ ? "perl $test" : "sh $test";
+	my $first = $file =~ m{^build/} ? '' : (split /\n/, slurp($file))[0];
+	my $command = $file =~ m{^build/} ? $test : $first =~ /python/ ? "/usr/bin/python3 $test" :
+		$first =~ /perl/ ? "perl $test" : "sh $test";
 	# A script that waits for windows may fail on a busy machine: it has found a fault if it fails twice.
 	for my $again ($file =~ /\.py$/ ? (0, 1) : 0) {
 		my $output = qx(cd $COPY && BUILD=build LADDER=build/ladder timeout $SECONDS $command 2>&1);
