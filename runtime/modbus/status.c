@@ -80,7 +80,7 @@ void status_strays(struct status_strays *strays, const struct masters *masters, 
 			told = bus_tell(&masters->of[i]->bus, u);
 			stray->is = told.silent && (was || told.counts.wrong != stray->wrong);
 			stray->wrong = told.counts.wrong;
-			snprintf(name, sizeof(name), "%.18s/%d", masters->of[i]->line.at->name, u);
+			snprintf(name, sizeof(name), "%.18s/%u", masters->of[i]->line.at->name, (unsigned)(uint8_t)u);
 			if (stray->is && !strays->first[0])
 				memcpy(strays->first, name, sizeof(name));
 			if (stray->is && !was)
