@@ -638,7 +638,7 @@ static int find_within(const struct word_row *row, const char *name, size_t len)
 	return -1;
 }
 
-/* `.Speed`. Inner variables of a block can be read from outside. */
+/* `.Speed`. Inner variables of a block of the project can be read from outside. */
 static bool step_into(struct path *path)
 {
 	struct meaning *m = &path->m;
@@ -658,7 +658,7 @@ static bool step_into(struct path *path)
 				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
 	index = m->kind == MEANING_INSTANCE && m->action ? -1 : word_pin_find(row, name, len);
-	if (index < 0 && !m->action)
+	if (index < 0 && !m->action && word_is_own(m->word))
 		index = find_within(row, name, len);
 	if (index < 0)
 		return step_action(path, row, name, len);

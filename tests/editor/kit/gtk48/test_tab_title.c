@@ -11,7 +11,7 @@
 
 #define TABS 4
 
-static const char *const titles[TABS] = { "Main", "Types de donn\xc3\xa9" "es", "Aper\xc3\xa7u avant",
+static const char *const titles[TABS] = { "Main", "Types de donn\303\251es", "Aper\303\247u avant",
 	"\xe6\x89\x93\xe5\x8d\xb0\xe9\xa2\x84\xe8\xa7\x88\xe5\x92\x8c\xe6\x89\x93\xe5\x8d\xb0\xe9\xa2\x84\xe8\xa7\x88" };
 
 static AdwTabBar *bar;
