@@ -82,8 +82,9 @@ for kind in small small-serial; do
 	(cd "$build/$kind" && find runtime/engine runtime/ladderd hal -name '*.o') | sed 's/o$/c/' >"$tmp/sources"
 	has_texts RUNGBOARD_SMALL "$kind: each message that it can give has its text" <"$tmp/sources"
 done
+# hal/buses.c is part of ladder and ladder-modbus alone.
 find runtime/ladderd hal runtime/engine/base runtime/engine/scan runtime/engine/model runtime/engine/text \
-	runtime/engine/check runtime/engine/translate runtime/engine/ladder.c -name '*.c' >"$tmp/sources"
+	runtime/engine/check runtime/engine/translate runtime/engine/ladder.c -name '*.c' ! -path hal/buses.c >"$tmp/sources"
 has_texts RUNGBOARD_BOARD 'so has each message of the whole ladderd' <"$tmp/sources"
 echo "1..$n"
 exit $failed

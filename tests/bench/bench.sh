@@ -91,7 +91,7 @@ echo '|---|---|---|---|---|'
 for of in 'lines:one program' 'blocks:blocks of 100 lines' 'parts:blocks of 10 lines'; do
 	perl "$(dirname "$0")/programs.pl" "${of%%:*}" 10000 >"$tmp/p.rung"
 	best=
-	for round in 1 2 3 4 5; do # the least, as other programs only add to it
+	for _ in 1 2 3 4 5; do # the least, as other programs only add to it
 		"$ladder" bench --json --scans 1 "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
 		now="$(field "$tmp/p.json" read_ns) $(field "$tmp/p.json" build_ns)"
 		best=$(echo "$now $best" | awk '{ print NF == 2 || $1 + $2 < $3 + $4 ? $1 " " $2 : $3 " " $4 }')
