@@ -52,6 +52,17 @@ static bool set(const struct column *column, LadderPanelRow *row, const char *te
 
 /* ---- an edit of a text ---- */
 
+#define TYPING "typing" /* data of a new row: what was typed into the one whose place it takes */
+
+/* It was set, or given up, or the cell has it. */
+static void drop_typing(GtkWidget *cell)
+{
+	GtkListItem *item = item_of(cell);
+
+	if (item && gtk_list_item_get_item(item))
+		g_object_set_data(gtk_list_item_get_item(item), TYPING, NULL);
+}
+
 /* The row keeps it while its cell shows another one. */
 static void keep(GtkWidget *cell, const char *refused, const char *why)
 {
@@ -69,13 +80,14 @@ static void mark(GtkWidget *cell, char *refused, char *why)
 {
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(cell));
 
+	drop_typing(cell);
 	keep(cell, refused, why);
 	if (refused) {
 		cells_refused(cell, why);
 	} else {
 		cells_refuse(cell, NULL);
 		tip_set(cell, text);
-		g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+		cells_shown(cell, text);
 	}
 	g_object_set_data_full(G_OBJECT(cell), "refused", refused, g_free);
 }
@@ -97,14 +109,11 @@ static char *edited(GtkWidget *cell, const LadderPanelRow *row)
 /* Keeps the text that is being typed. */
 static void show_text(GtkWidget *cell, const char *text)
 {
-	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
-	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
-
-	if (shown && strcmp(shown, now) != 0)
+	if (cells_is_typed(cell))
 		return;
-	if (strcmp(now, text) != 0)
+	if (strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)), text) != 0)
 		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+	cells_shown(cell, text);
 	tip_set(cell, text);
 }
 
@@ -277,6 +286,7 @@ static gpointer left(GtkWidget *cell, gpointer unused)
 			    !column_of(cell)->cells->later))
 		return NULL;
 	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	drop_typing(cell);
 	if (rest_of(cell))
 		show_rest(cell, -1);
 	text = edited(cell, row);
@@ -811,6 +821,60 @@ static void show_kept(GtkWidget *cell, LadderPanelRow *row)
 	g_object_set_data_full(G_OBJECT(cell), "refused", g_strdup(text), g_free);
 }
 
+/* ---- a row is made anew while somebody types ---- */
+
+struct typing {
+	int field, cursor;
+	char *text;
+};
+
+static void typing_free(gpointer data)
+{
+	struct typing *typing = data;
+
+	g_free(typing->text);
+	g_free(typing);
+}
+
+/* What is typed into the cell with the focus, and not yet set; NULL: nothing. */
+static struct typing *typing_in(GtkColumnView *view, int field)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	GtkWidget *cell = focus ? gtk_widget_get_ancestor(focus, GTK_TYPE_ENTRY) : NULL;
+	struct typing *typing;
+
+	if (!cell || !column_of(cell) || !cells_is_typed(cell))
+		return NULL;
+	typing = g_new(struct typing, 1);
+	*typing = (struct typing){ field, gtk_editable_get_position(GTK_EDITABLE(cell)),
+				   g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell))) };
+	return typing;
+}
+
+/* The new row of the same declaration gets it. */
+static void pass_typing(GPtrArray *rows, const LadderPanelRow *old, struct typing *typing)
+{
+	for (guint i = 0; i < rows->len; i++)
+		if (panel_row_is_like(rows->pdata[i], old)) {
+			g_object_set_data_full(rows->pdata[i], TYPING, typing, typing_free);
+			return;
+		}
+	typing_free(typing);
+}
+
+/* The cell shows it again; cells_enter() puts the cursor where it was. */
+static void show_typing(GtkWidget *cell, LadderPanelRow *row)
+{
+	const struct typing *typing = g_object_get_data(G_OBJECT(row), TYPING);
+
+	if (!typing || typing->field != column_of(cell)->field || is_check(column_of(cell)))
+		return;
+	gtk_editable_set_text(GTK_EDITABLE(cell), typing->text);
+	gtk_editable_set_position(GTK_EDITABLE(cell), typing->cursor);
+	cells_keep_cursor(GTK_ENTRY(cell), typing->cursor);
+}
+
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct column *column = data;
@@ -821,10 +885,11 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 	cells_refuse(cell, NULL);
 	cells_stand(cell, item, column->field);
 	g_object_set_data(G_OBJECT(cell), "refused", NULL);
-	g_object_set_data(G_OBJECT(cell), "shown", NULL);
+	cells_shown(cell, NULL);
 	show(row, item);
 	if (column->cells->keeps)
 		show_kept(cell, row);
+	show_typing(cell, row);
 	g_signal_connect(row, "changed", G_CALLBACK(show), item);
 	if (is_check(column))
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
@@ -873,9 +938,12 @@ void panel_cells_update(struct panel_list *list, GPtrArray *rows)
 	int field, now;
 	LadderPanelRow *row = cells_focused(list->view, &field);
 	LadderPanelRow *chosen = panel_list_row(list);
+	struct typing *typing = row ? typing_in(list->view, field) : NULL;
 
 	if (row)
 		g_object_ref(row);
+	if (typing)
+		pass_typing(rows, row, typing);
 	if (chosen)
 		g_object_ref(chosen);
 	panel_list_update(list, rows);

@@ -9,6 +9,8 @@
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
+#include <string.h>
+
 #define PLACE GTK_ENTRY_ICON_SECONDARY
 
 /* An empty icon would take up space. */
@@ -96,6 +98,7 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 /* ---- focus ---- */
 
 #define FRAMES_SEEN 3  /* tries until a new row can be scrolled to              */
+#define ENTERING "entering" /* data of a table: the callback that still waits */
 #define FRAMES_MOST 60 /* that a table may need to make the cell                */
 
 struct wanted {
@@ -119,12 +122,51 @@ static bool is_wanted(GtkWidget *cell, GtkListItem *item, const struct wanted *w
 	       GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
 }
 
+void cells_keep_cursor(GtkEntry *cell, int cursor)
+{
+	g_object_set_data(G_OBJECT(cell), "cursor", GINT_TO_POINTER(cursor + 1));
+}
+
+void cells_shown(GtkWidget *cell, const char *text)
+{
+	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+}
+
+bool cells_is_typed(GtkWidget *cell)
+{
+	const char *shown = GTK_IS_ENTRY(cell) ? g_object_get_data(G_OBJECT(cell), "shown") : NULL;
+
+	return shown && strcmp(shown, gtk_editable_get_text(GTK_EDITABLE(cell))) != 0;
+}
+
+static bool has_focus(GtkWidget *cell)
+{
+	GtkRoot *root = gtk_widget_get_root(cell);
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+
+	return focus && (focus == cell || gtk_widget_is_ancestor(focus, cell));
+}
+
+/* An entry selects its text when it gets the focus. When GTK has given it the focus already, somebody may be
+ * typing: the next letter would replace what is there. */
+static bool grab(GtkWidget *cell)
+{
+	const int cursor = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "cursor")) - 1;
+	const bool typed = has_focus(cell) && cells_is_typed(cell);
+	const bool has = typed || gtk_widget_grab_focus(cell);
+
+	if (!typed && cursor >= 0 && has)
+		gtk_editable_set_position(GTK_EDITABLE(cell), cursor);
+	g_object_set_data(G_OBJECT(cell), "cursor", NULL);
+	return has;
+}
+
 static bool enter(GtkWidget *within, const struct wanted *wanted)
 {
 	GtkListItem *item = g_object_get_data(G_OBJECT(within), "item");
 
 	if (item)
-		return is_wanted(within, item, wanted) && gtk_widget_grab_focus(within);
+		return is_wanted(within, item, wanted) && grab(within);
 	for (GtkWidget *child = gtk_widget_get_first_child(within); child;
 	     child = gtk_widget_get_next_sibling(child))
 		if (enter(child, wanted))
@@ -150,17 +192,24 @@ static gboolean enter_later(GtkWidget *table, GdkFrameClock *clock, gpointer dat
 		wanted->entered = enter(table, wanted);
 	scroll_to_selected(table);
 	wanted->frames++;
-	return wanted->frames < (wanted->entered ? FRAMES_SEEN : FRAMES_MOST) ?
-	       G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
+	if (wanted->frames < (wanted->entered ? FRAMES_SEEN : FRAMES_MOST))
+		return G_SOURCE_CONTINUE;
+	g_object_set_data(G_OBJECT(table), ENTERING, NULL);
+	return G_SOURCE_REMOVE;
 }
 
 void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field)
 {
+	const guint before = GPOINTER_TO_UINT(g_object_get_data(G_OBJECT(table), ENTERING));
 	struct wanted *wanted = g_new(struct wanted, 1);
 
+	/* An older one would take the focus back from this cell, and what is typed into it. */
+	if (before)
+		gtk_widget_remove_tick_callback(GTK_WIDGET(table), before);
 	*wanted = (struct wanted){ row->table, row->index, field, 0, false };
 	wanted->entered = enter(GTK_WIDGET(table), wanted);
-	gtk_widget_add_tick_callback(GTK_WIDGET(table), enter_later, wanted, g_free);
+	g_object_set_data(G_OBJECT(table), ENTERING, GUINT_TO_POINTER(
+		gtk_widget_add_tick_callback(GTK_WIDGET(table), enter_later, wanted, g_free)));
 }
 
 LadderPanelRow *cells_focused(GtkColumnView *table, int *field)

@@ -23,8 +23,16 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 /** cells_stand - sets the row (NULL: none) and the column of @cell. */
 void cells_stand(GtkWidget *cell, GtkListItem *item, int field);
 /** cells_enter - moves the focus to a cell of the selected row @row, selects its text and
- * scrolls to it; later, if the table has not made the cell yet. */
+ * scrolls to it; later, if the table has not made the cell yet. A later call takes the place of one that
+ * still waits. */
 void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field);
+/** cells_shown - the text of the row that @cell shows; NULL: none. */
+void cells_shown(GtkWidget *cell, const char *text);
+/** cells_is_typed - has somebody typed another text since? */
+bool cells_is_typed(GtkWidget *cell);
+/** cells_keep_cursor - somebody was typing in @cell: the next cells_enter() selects nothing and puts the cursor
+ * there, in characters. */
+void cells_keep_cursor(GtkEntry *cell, int cursor);
 /** cells_focused - the row and @field of the cell that has the focus; NULL: none. Borrowed. */
 LadderPanelRow *cells_focused(GtkColumnView *table, int *field);
 

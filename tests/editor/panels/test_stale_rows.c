@@ -126,6 +126,43 @@ static GtkWidget *open_dialog(LadderSymbolsView *view)
 	return dialog;
 }
 
+static GtkWidget *focused_entry(void)
+{
+	GListModel *windows = gtk_window_get_toplevels();
+	GtkWindow *window = g_list_model_get_item(windows, 0);
+	GtkWidget *focus = gtk_window_get_focus(window);
+
+	g_object_unref(window);
+	return focus ? gtk_widget_get_ancestor(focus, GTK_TYPE_ENTRY) : NULL;
+}
+
+/* Half of a name is typed when another symbol comes, by an undo or a check: the cell keeps it and the keys. */
+static void test_typing(LadderSymbolsView *view)
+{
+	GtkWidget *cell;
+	char *why = NULL;
+	bool good;
+
+	CHECK(symbol_delete(document, 0, 0, &why));
+	panel_settle();
+	cell = cell_with(GTK_WIDGET(view), "Spare");
+	gtk_widget_grab_focus(cell);
+	gtk_editable_set_text(GTK_EDITABLE(cell), "Sto");
+	gtk_editable_set_position(GTK_EDITABLE(cell), 2);
+	CHECK(ladder_document_undo(document));
+	panel_settle();
+	turn(0);
+	WAIT((cell = focused_entry()) && !strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)), "Sto"));
+	good = cell && !strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)), "Sto") &&
+	       gtk_editable_get_position(GTK_EDITABLE(cell)) == 2 &&
+	       !gtk_editable_get_selection_bounds(GTK_EDITABLE(cell), NULL, NULL);
+	CHECK_AS(good && !document_has(document, "Sto :"), "the text stands in the cell that has the keys");
+	if (cell)
+		type_into(cell, "Stock");
+	CHECK_AS(document_has(document, "Stock : INT;") && !document_has(document, "Spare"), "it goes to its declaration");
+	undo_all();
+}
+
 /* Another program adds a POU before Main, whose variable has the name, too. */
 static void test_new_pou(LadderSymbolsView *view)
 {
@@ -179,6 +216,8 @@ int main(void)
 	WAIT((cell = cell_with(GTK_WIDGET(view), "Spare")) != NULL);
 	CHECK(cell);
 	if (cell) {
+		test_typing(view);
+		WAIT((cell = cell_with(GTK_WIDGET(view), "Spare")) != NULL);
 		test_moved(cell);
 		test_gone(view, cell);
 		test_array(view);

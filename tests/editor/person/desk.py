@@ -143,6 +143,8 @@ class Editor(Finder):
     def type(self, text):
         """Types a text. Characters without a key are pasted into the line or text, as an input method would; waits
         until they are there."""
+        if not self.has_keys():
+            until(self.has_keys, 'a window for the keys')
         if text.isascii():
             sh('xdotool', 'type', '--delay', '15', '--', text)
             return
