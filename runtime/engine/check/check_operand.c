@@ -233,6 +233,8 @@ static enum diag_id write_fault(const struct meaning *m)
 		return m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE;
 	if (m->writable)
 		return DIAG_COUNT;
+	if (m->within)
+		return DIAG_STORE_WITHIN;
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 

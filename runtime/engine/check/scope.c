@@ -638,6 +638,13 @@ static int find_within(const struct word_row *row, const char *name, size_t len)
 	return -1;
 }
 
+/* Only plain IEC text stores into what is inside of a block. */
+static bool may_store(const struct path *path, enum pin_dir dir)
+{
+	return path->within || ((dir == PIN_IN || dir == PIN_VAR) &&
+				(!path->m.within || path->scope->project->words.own_first));
+}
+
 /* `.Speed`. Inner variables of a block of the project can be read from outside. */
 static bool step_into(struct path *path)
 {
@@ -664,9 +671,9 @@ static bool step_into(struct path *path)
 		return step_action(path, row, name, len);
 	if (path->pin < 0)
 		path->pin = index;
-	if (row->kind == WORD_FB)
-		m->writable = row->pin[index].dir == PIN_IN || row->pin[index].dir == PIN_VAR || path->within;
 	m->within |= row->kind == WORD_FB && row->pin[index].dir == PIN_VAR;
+	if (row->kind == WORD_FB)
+		m->writable = may_store(path, row->pin[index].dir);
 	if (row->overlaps && !step_overlapped(path))
 		return false;
 	m->like = declares(path->scope, m->word, index);
