@@ -96,8 +96,8 @@ for of in 'lines:one program' 'blocks:blocks of 100 lines' 'parts:blocks of 10 l
 		now="$(field "$tmp/p.json" read_ns) $(field "$tmp/p.json" build_ns)"
 		best=$(echo "$now $best" | awk '{ print NF == 2 || $1 + $2 < $3 + $4 ? $1 " " $2 : $3 " " $4 }')
 	done
-	read=${best% *} build=${best#* }
-	echo "| ${of#*:} | $(per "$read" 1000000 %.1f) | $(per "$build" 1000000 %.1f) | $(per "$((read + build))" 1000000 %.1f)" \
+	read=${best% *} translate=${best#* }
+	echo "| ${of#*:} | $(per "$read" 1000000 %.1f) | $(per "$translate" 1000000 %.1f) | $(per "$((read + translate))" 1000000 %.1f)" \
 		"| $(per "$(field "$tmp/p.json" load_bytes)" 1000000 %.1f) |"
 done
 # loop FILE ROUNDS TITLE: a program in ST beside the same in C, ns of one of its rounds.
