@@ -401,7 +401,8 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	control_trace_values(cycle);
 }
 
-/* Sleeps until @due_ns and serves requests. */
+/* Serves requests, and sleeps until @due_ns. What comes during the sleep waits for the next one, so that
+ * the scan begins at once. */
 static void wait_until(struct cycle *cycle, int64_t due_ns)
 {
 	for (;;) {
@@ -428,7 +429,7 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 			link_wake(cycle_link(cycle));
 		if (cycle->clock_error == EINTR)
 			cycle->clock_error = 0;
-		if (cycle->clock_error)
+		else if (cycle->clock_error || until_ns == due_ns)
 			return;
 	}
 }
