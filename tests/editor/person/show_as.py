@@ -3,6 +3,7 @@
 """A ladder is shown as a list and as Structured Text, with values, and converted; a refusal leads to its cell."""
 import os
 import subprocess
+import time
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -97,7 +98,8 @@ def shown(screen):
     editor.to_sheet()
     editor.keys('slash')
     until(lambda: editor.all('• new.rung'), 'the edit')
-    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down')  # the page was out of sight
+    time.sleep(1)  # the edit is checked while the page is out of sight: to come into sight must be enough
+    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down')
     until(lambda: [node for node in editor.all(role='table cell') if 'negated: Start' in node.name], 'the networks to follow')
     editor.keys('ctrl+Page_Up', 'ctrl+Page_Up')
     editor.to_sheet()
