@@ -166,6 +166,7 @@ if [ -x "$build/ladderd" ]; then
 	echo "ladderd, stripped: $(wc -c <"$tmp/ladderd") bytes."
 fi
 echo
-echo 'Seal-in rungs elsewhere, one 2-core x86 machine, fixed / random inputs, ns a rung'
-echo '(public sources of each project, built with their own tools): matiec and gcc -O2 0.83 / 5.7;'
-echo 'ClassicLadder 104.'
+echo 'Other tools, 1,000 rungs, ns a rung, inputs zero / fixed / random; a virtual machine with 2 AMD EPYC processors, gcc 12.2 -O2.'
+echo 'matiec 9d0e618 (2017-09-04), 2026-12-01, medians of 5 runs, alternately with Rungboard 0d81d673 (seal 0.53 in all cases, mixed 2.7):'
+echo 'seal as ST 1.21 / 1.66 / 7.7, as IL 2.8 in all cases, mixed as ST 2.6 / 2.7 / 7.9.'
+echo 'ClassicLadder cce0bb6 (2023-04-03, 0.9.114), 2026, before this project began, one input toggles: seal 104, mixed 123.'
