@@ -350,14 +350,14 @@ enum token_kind lex_next(struct lex *lex)
 	for (;;) {
 		const char *at = lex->at;
 
-		while (at != lex->end && class_at(at) == IS_BLANK)
+		while (at < lex->end && class_at(at) == IS_BLANK)
 			at++;
 		space |= at != lex->at;
 		lex->at = at;
 		token->text = at;
 		token->line = lex->line;
 		token->column = (int)(at - lex->line_start) + 1;
-		if (at == lex->end) {
+		if (at >= lex->end) { /* @end may have been set to before the present place */
 			token->kind = TOKEN_END;
 			break;
 		}

@@ -1530,7 +1530,7 @@ static bool is_st_action(const struct before *b, const char *text, size_t line)
 	if (lex_is(&lex, "RUNG") || op_find(lex.token.text, lex.token.len) == OP_LD)
 		return false;
 	lex.end = end.token.text;
-	return st_begins(lex) || (b->pou->st && b->pou->st->count > 0 && b->pou->il.count == 0);
+	return (end.token.text != lex.token.text && st_begins(lex)) || (b->pou->st && b->pou->st->count > 0 && b->pou->il.count == 0);
 }
 
 /* What is wanted in the line at @line of a chart, before @to; @bar: after its last bar, or

@@ -211,7 +211,8 @@ static void test_calls(void)
 		{ "  Level := Top((1 + ^", "|" }, { "  Level := Top(1); ^", "|" },
 		{ "  Level := Nothing(^", "|" }, { "  Level := ^", "|" },
 		{ ACTION "    Level := Top(3, ^);\n  END_ACTION", "Top(X : INT, How : Phase)|How : Phase" },
-		{ ACTION "    LD Top(^\n  END_ACTION", "|" },
+		{ ACTION "    LD Top(^\n  END_ACTION", "|" }, { ACTION "    ^\n  END_ACTION", "|" },
+		{ ACTION "^END_ACTION", "|" },
 	};
 	char *call;
 
@@ -219,6 +220,59 @@ static void test_calls(void)
 		st_at(cases[i].body, &call);
 		CHECK_TEXT(call, cases[i].call);
 		free(call);
+	}
+}
+
+static void nobody(void *context, const struct ladder_word *word)
+{
+	(void)word;
+	++*(int *)context;
+}
+
+/* @text after one more key, at each place: what is read is never beyond its end, which an allocation of its size
+ * lets a sanitizer see. @gone: bytes that the key deletes. */
+static int look_everywhere(struct ladder *ladder, const char *whole, size_t len, size_t gone)
+{
+	int seen = 0, line = 1, column = 1;
+
+	for (size_t i = 0; i + gone <= len; i++) {
+		const size_t left = len - gone;
+		char *now = malloc(left + 1);
+		struct ladder_place place = { 0 };
+		size_t from = 0, to = 0;
+
+		memcpy(now, whole, i);
+		memcpy(now + i, whole + i + gone, left - i);
+		now[left] = '\0';
+		ladder_complete(ladder, now, left, line, column, nobody, &seen, &place);
+		free(ladder_call_at(ladder, now, left, line, column, &from, &to));
+		column = whole[i] == '\n' ? 1 : column + 1;
+		line += whole[i] == '\n';
+		free(now);
+	}
+	return seen;
+}
+
+/* A chart with actions of each language, also empty ones, and a program of each. */
+static void test_everywhere(void)
+{
+	static const char *const action[] = { "", "    ;\n", "    Level := Top(3, Now);\n", "    LD Open\n    ST Open2\n",
+					      "    RUNG\n      | NO Open | COIL Open2 |\n" };
+
+	for (size_t i = 0; i < sizeof(action) / sizeof(*action); i++) {
+		char whole[3000];
+		struct ladder *ladder = ladder_new();
+		const int len = snprintf(whole, sizeof(whole), "%s  Level := 1;\n" ACTION "%s  END_ACTION\n  TRANSITION FROM A TO A := Open;\nEND_PROGRAM\n"
+					 "PROGRAM Rungs LD\nRUNG\n  | NO Open | COIL Open2 |\nEND_PROGRAM\n"
+					 "PROGRAM List IL\n  LD Open\nEND_PROGRAM\n"
+					 "PROGRAM Nets FBD\nNETWORK\n  Open2 := AND(Open, Open)\nEND_PROGRAM\n", head_st, action[i]);
+
+		CHECK((size_t)len < sizeof(whole));
+		ladder_load_text(ladder, "st.rung", whole, (size_t)len);
+		CHECK(look_everywhere(ladder, whole, (size_t)len, 0) > 0);
+		CHECK(look_everywhere(ladder, whole, (size_t)len, 1) > 0);
+		CHECK(look_everywhere(ladder, whole, (size_t)len, 9) > 0);
+		ladder_free(ladder);
 	}
 }
 
@@ -352,6 +406,7 @@ int main(void)
 	test_lists(ladder);
 	test_statements();
 	test_calls();
+	test_everywhere();
 	test_cells(ladder);
 	test_made(ladder);
 	test_places(ladder);
