@@ -828,12 +828,27 @@ static bool settle_ask(struct line_reader *line)
 	       complain(line->reader, DIAG_IO_ASK_MIXED, &word);
 }
 
+/* The only bus of peers need not be named. */
+static bool settle_peer(struct line_reader *line)
+{
+	struct io_channel *channel = &line->channel;
+	static const struct io_net none;
+	const struct io_net *net = line->reader->net ? &line->reader->net->net : &none;
+
+	if (channel->bus < 0)
+		channel->bus = only_peer_bus(net);
+	if (channel->bus < 0)
+		return complain_about(line->reader, DIAG_IO_BUS_NEEDS, &line->address, peer_bus_needed(net));
+	return !channel->device || peer_board_fits(line->reader, &line->address, channel->device,
+						   strlen(channel->device));
+}
+
 static void settle(struct line_reader *line)
 {
 	struct io_channel *channel = &line->channel;
 
-	if (line->point.driver == DRIVER_peer && channel->bus < 0 && line->reader->net)
-		channel->bus = only_peer_bus(&line->reader->net->net);
+	if (line->point.driver == DRIVER_peer && !settle_peer(line))
+		return;
 	if (!has_needs(line))
 		return;
 	if (line->point.driver == DRIVER_module) {

@@ -11,6 +11,8 @@
 #include "engine/base/name.h"
 #include "engine/scan/image.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -193,6 +195,15 @@ static bool set_timeout(struct reader *reader, struct bus_reader *out, const cha
 static bool set_host(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
 {
 	return read_host(reader, value, len, &out->bus->host, &out->bus->tcp_port);
+}
+
+/* Boards send to all who listen at a multicast address. */
+static bool set_group(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
+{
+	struct in_addr at;
+
+	return read_host(reader, value, len, &out->bus->host, &out->bus->tcp_port) &&
+	       inet_pton(AF_INET, out->bus->host, &at) == 1 && IN_MULTICAST(ntohl(at.s_addr));
 }
 
 static bool set_interface(struct reader *reader, struct bus_reader *out, const char *value, size_t len)
@@ -525,6 +536,25 @@ int only_peer_bus(const struct io_net *net)
 	return found;
 }
 
+const char *peer_bus_needed(const struct io_net *net)
+{
+	for (int i = 0; i < net->bus_count; i++)
+		if (net->bus[i].kind == BUS_PEER)
+			return "bus=";
+	return "a line BUS yard peer interface=eth0 above it";
+}
+
+bool peer_board_fits(struct reader *reader, const struct map_word *at, const char *text, size_t len)
+{
+	struct map_word name = *at;
+
+	if (len <= IO_PEER_BOARD)
+		return true;
+	name.text = text;
+	name.len = len;
+	return complain(reader, DIAG_IO_LONG_NAME, &name);
+}
+
 /* Names with commas between them, with or without blanks. */
 static bool read_names(struct reader *reader, struct io_publish *publish, const struct map_word *word)
 {
@@ -595,7 +625,7 @@ static void read_publish_line(struct reader *reader, const struct map_word *firs
 	struct map_word as;
 	const int before = reader->errors;
 
-	if (next_word(reader, &as))
+	if (next_word(reader, &as) && peer_board_fits(reader, &as, as.text, as.len))
 		publish.as = read_name(reader, as.text, as.len);
 	while (next_option(reader, &option))
 		read_publish_word(reader, &publish, &option);
@@ -604,7 +634,7 @@ static void read_publish_line(struct reader *reader, const struct map_word *firs
 	if (!publish.as || !publish.count) {
 		complain_form(reader, first, "PUBLISH pump-house Level, Running every=100ms");
 	} else if (publish.bus < 0 || net->bus[publish.bus].kind != BUS_PEER) {
-		complain_about(reader, DIAG_IO_BUS_NEEDS, first, "bus=yard");
+		complain_about(reader, DIAG_IO_BUS_NEEDS, first, peer_bus_needed(net));
 	} else {
 		kept = arena_push(reader->arena, &net->publish, &net->publish_count, sizeof(*kept));
 		if (kept)

@@ -57,6 +57,11 @@ struct net_reader *net_of(struct reader *reader);
 int find_bus(const struct io_net *net, const char *text, size_t len);
 /** only_peer_bus - the bus of lines that name none; -1: there is none of peers, or several. */
 int only_peer_bus(const struct io_net *net);
+enum { IO_PEER_BOARD = 63 }; /* bytes of the name of a board that a datagram carries */
+/** peer_bus_needed - what a line without one needs: the option, or a BUS line if there is none. A constant text. */
+const char *peer_bus_needed(const struct io_net *net);
+/** peer_board_fits - can a datagram carry this name of a board? False, and an error at @at. */
+bool peer_board_fits(struct reader *reader, const struct map_word *at, const char *text, size_t len);
 /** find_ask - its number, made with its first line; @channel and @output are of the present line. -1: no memory. */
 int find_ask(struct reader *reader, const char *text, size_t len);
 const struct module_type *find_module(const struct net_reader *net, const char *text, size_t len);

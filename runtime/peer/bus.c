@@ -116,6 +116,27 @@ bool bus_keep(struct bus *bus)
 	return !error;
 }
 
+const char *bus_problem(int error)
+{
+	switch (-error) {
+	case ENODEV:
+	case ENXIO:
+		return "no such network interface";
+	case EADDRNOTAVAIL:
+		return "the interface has no address";
+	case ENETUNREACH:
+	case ENETDOWN:
+		return "the interface is down";
+	case EADDRINUSE:
+		return "another program has this port";
+	case EPERM:
+	case EACCES:
+		return "a firewall or a right forbids";
+	default:
+		return strerror(-error);
+	}
+}
+
 bool bus_send(struct bus *bus, const uint8_t *bytes, size_t len)
 {
 	const struct sockaddr_in to = { .sin_family = AF_INET, .sin_port = htons(bus->port), .sin_addr = bus->group_at };

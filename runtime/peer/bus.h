@@ -32,6 +32,8 @@ void bus_init(struct bus *bus, const char *interface, const char *group, uint16_
 /** bus_keep - opens it, and opens it again if the interface has come back as another one. Every second or so.
  * Returns whether it is open; else bus->error. */
 bool bus_keep(struct bus *bus);
+/** bus_problem - why a bus is not open or does not send, from bus->error: at most 30 bytes. */
+const char *bus_problem(int error);
 void bus_close(struct bus *bus);
 /** bus_send - Fails: false; bus->error. */
 bool bus_send(struct bus *bus, const uint8_t *bytes, size_t len);

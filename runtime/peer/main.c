@@ -172,7 +172,7 @@ static void keep_buses(struct peer *peer)
 			continue;
 		peer->told[i] = bus->error;
 		fprintf(stderr, "ladder-peer: %s on %s: %s\n", bus->group, bus->interface,
-			bus->error ? strerror(-bus->error) : "ready");
+			bus->error ? bus_problem(bus->error) : "ready");
 	}
 }
 
@@ -241,7 +241,7 @@ static enum desk_end report(struct peer *peer)
 	for (int i = 0; i < peer->bus_count; i++) {
 		sent += peer->bus[i].sent;
 		strange += peer->bus[i].strange;
-		why = peer->bus[i].interface && peer->bus[i].error ? strerror(-peer->bus[i].error) : why;
+		why = peer->bus[i].interface && peer->bus[i].error ? bus_problem(peer->bus[i].error) : why;
 	}
 	for (int i = 0; i < peer->inbox.source_count; i++) {
 		const struct inbox_source *source = &peer->inbox.source[i];

@@ -4,6 +4,8 @@
  */
 #include "peer/outbox.h"
 
+#include "hal/iomap_net.h"
+
 #include "engine/base/name.h"
 
 #include <string.h>
@@ -77,17 +79,18 @@ static struct peer_value value_of(const struct outbox_value *value)
 	};
 }
 
+_Static_assert(IO_PEER_BOARD == PEER_BOARD, "the map admits what a datagram carries");
+
 bool outbox_write(struct outbox *outbox, struct outbox_line *line, uint8_t flags, uint32_t age_ms,
 		  struct peer_writer *out)
 {
 	const struct io_publish *publish = line->publish;
-	const size_t len = strlen(publish->as);
 
 	if (line->next >= (uint32_t)publish->count)
 		return false;
 	peer_begin(out, &(struct peer_head){
 		.flags = flags, .run = outbox->run, .sequence = ++outbox->line[line->counts].sequence, .age_ms = age_ms,
-		.board = publish->as, .board_len = (uint8_t)(len > PEER_BOARD ? PEER_BOARD : len),
+		.board = publish->as, .board_len = (uint8_t)strlen(publish->as),
 	});
 	for (; line->next < (uint32_t)publish->count; line->next++) {
 		const struct outbox_value *value = &outbox->value[line->first + line->next];

@@ -485,7 +485,58 @@ static void test_bad_devices(void)
 	BAD("PUBLISH me Level each=1s", "LD505");
 	BAD("PUBLISH me Level bus=a", "LD542");
 	BAD("PUBLISH me Level bus=z", "LD530");
-	BAD("BUS q peer interface=lo\nPUBLISH me Level", "LD542");
+	BAD("BUS q peer interface=lo\nPUBLISH me Level", "LD542: \"PUBLISH\" needs bus=");
+	BAD("BUS q peer interface=lo group=10.1.2.3", "LD505: \"group=10.1.2.3\" is not understood; write it like group=239.192.20.1:20020");
+	BAD("BUS q peer interface=lo group=tank", "LD505");
+	BAD("BUS q peer interface=lo group=240.0.0.1", "LD505");
+	BAD("BUS q peer interface=lo group=[ff02::1]:5", "LD505");
+}
+
+#define N10 "n123456789"
+#define N60 N10 N10 N10 N10 N10 N10
+#define N240 N60 N60 N60 N60
+
+static bool publishes(const char *line)
+{
+	struct bench b;
+	char text[800];
+	bool good;
+
+	snprintf(text, sizeof(text), "BOARD \"x\"\nBUS yard peer interface=eth0\n%s\n", line);
+	bench_begin(&b);
+	good = bench_map(&b, text) && b.map.net->publish_count == 1;
+	bench_end(&b);
+	return good;
+}
+
+/* What a datagram of boards cannot carry is an error of the map. */
+static void test_long_names(void)
+{
+	CHECK(publishes("PUBLISH " N60 "abc Level"));
+	CHECK(publishes("PUBLISH me " N240 N10 "abcde"));
+	BAD("PUBLISH " N60 "abcd Level", "\" is too long: the name of a board has at most 63 bytes");
+	BAD("PUBLISH me Level," N240 N10 "abcdef", "LD501");
+	BAD("%IW0 peer from=" N60 "abcd name=y", "test.io:5:1: error LD873");
+	BAD("%IW0 peer from=x name=" N240 N10 "abcdef", "LD505");
+	READS("%IW0 peer from=" N60 "abc name=y", "%IW0 peer INT " N60 "abc y bus2");
+}
+
+/* Lines of other boards in a map without their network: what to write. */
+static void test_no_network(void)
+{
+	static const char *const line[] = { "%IW120 peer from=pump-house name=Level", "PUBLISH me Level" };
+
+	for (int i = 0; i < 2; i++) {
+		struct bench b;
+		char text[200], got[400] = "";
+
+		snprintf(text, sizeof(text), "BOARD \"x\"\n%s\n", line[i]);
+		bench_begin(&b);
+		CHECK(!bench_map(&b, text) && b.diags.errors == 1);
+		diag_print(&b.diags.diag[0], got, sizeof(got));
+		CHECK_AS(strstr(got, "LD542") && strstr(got, "needs a line BUS yard peer interface=eth0 above it"), got);
+		bench_end(&b);
+	}
 }
 
 /* All lines are read, whatever is wrong with one; none of it is kept. */
@@ -550,6 +601,8 @@ int main(void)
 	test_bad_modules();
 	test_bad_nets();
 	test_bad_devices();
+	test_long_names();
+	test_no_network();
 	test_all_lines();
 	test_pieces();
 	return tap_done();
