@@ -408,6 +408,12 @@ static void draw_below(const struct pen *pen, int row, int col, float x, float r
 			 rung_element_comment(pen->drafting, cell, room), x, baseline);
 }
 
+/* A jump leads away from the row: a wire behind it would lead nowhere. */
+static bool leads_away(const struct word_row *word)
+{
+	return word->place == PLACE_LAST && word->operand != OPND_BOOL_W;
+}
+
 static void draw_shape(const struct pen *pen, int row, int col)
 {
 	const struct rung_layout *layout = pen->layout;
@@ -430,13 +436,14 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		glyph.half = framed.width / 2 + FRAMED_SIDE;
 		glyph.up = framed.up;
 	} else if (word->operand == OPND_NONE) {
-		glyph.inside = word->word;
+		glyph.inside = explain_inside(word);
 		glyph.letter = LETTER_TYPE;
 	}
 	put_line(pen, wire_of(pen, left), rung_layout_bar(layout, row, col), y,
-		 glyph.x - glyph.half, y);
-	put_line(pen, wire_of(pen, last ? left : live), glyph.x + glyph.half, y,
-		 rung_layout_bar(layout, row, col + 1), y);
+		 glyph_meets(&glyph), y);
+	if (!leads_away(word) || col != layout->row[row].output)
+		put_line(pen, wire_of(pen, last ? left : live), glyph.x + glyph.half, y,
+			 rung_layout_bar(layout, row, col + 1), y);
 	if (live & LIVE_FRESH)
 		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash,
 			     glyph.x - glyph.half - 4, y - glyph.up - 2,
@@ -1157,11 +1164,12 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 	else if (says)
 		lines = (struct word_lines){ { lettering_fit(lettering, LETTER_BADGE,
 			word->word, -1, room) }, 1, room };
-	float side = pointed ? 10 : lines.width + 8 > room ? 3 : EDGE;
+	float side = pointed ? 12 : lines.width + 8 > room ? 3 : EDGE;
 	if (says)
 		glyph.half = MAX(lines.width / 2 + side, 14);
-	put_line(&pen, wire, 0, glyph.y, glyph.x - glyph.half, glyph.y);
-	put_line(&pen, wire, glyph.x + glyph.half, glyph.y, width, glyph.y);
+	put_line(&pen, wire, 0, glyph.y, glyph_meets(&glyph), glyph.y);
+	if (!leads_away(word))
+		put_line(&pen, wire, glyph.x + glyph.half, glyph.y, width, glyph.y);
 	if (says)
 		draw_word(&pen, &glyph, box, &lines);
 	else

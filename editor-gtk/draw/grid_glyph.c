@@ -3,7 +3,8 @@
  * grid_glyph - the three characters of an element as strokes.
  *
  * It knows characters and no elements: `|` is a bar, `(` and `)` are arcs, `[` `]`
- * brackets, `<` `>` arrows; in the middle `/` is a slanting line, a letter is a letter.
+ * brackets, `<` `>` arrows, a blank is nothing; in the middle `/` is a slanting line, `>` a second
+ * arrow behind the left one, a letter is a letter.
  */
 #include "editor-gtk/draw/grid_glyph.h"
 
@@ -14,6 +15,7 @@
 #define COIL_HALF   13
 #define COIL_RADIUS 18
 #define TIP         7     /* of a bracket, an arrow                             */
+#define SECOND      6     /* from an arrow to the second one                    */
 
 static void shape_line(const struct nib *nib, const struct glyph *glyph, float x1,
 		       float y1, float x2, float y2)
@@ -30,6 +32,8 @@ static void side_stroke(const struct nib *nib, const struct glyph *glyph, char s
 	float opening = side < 0 ? (float)G_PI : 0;
 
 	switch (stroke) {
+	case ' ':
+		return;
 	case '|':
 		shape_line(nib, glyph, x, -up, x, up);
 		return;
@@ -78,13 +82,14 @@ static void fill(const struct nib *nib, const struct glyph *glyph)
 
 static void lines_inside(const struct nib *nib, const struct glyph *glyph)
 {
+	const float behind = glyph->strokes[1] == '>' ? SECOND : 0;
 	float y = glyph->y + 4.5f - (float)(glyph->framed->lines - 1) * FRAMED_LINE / 2;
 
 	for (int i = 0; i < glyph->framed->lines; i++) {
 		const struct lettered *line = &glyph->framed->line[i];
 		const float aside = glyph->framed->left ? (line->width - glyph->framed->width) / 2 : 0;
 
-		centred(nib, nib->ink, LETTER_OPERAND, *line, glyph->x + aside,
+		centred(nib, nib->ink, LETTER_OPERAND, *line, glyph->x + aside + behind,
 			y + (float)(i * FRAMED_LINE));
 	}
 }
@@ -110,8 +115,13 @@ static void middle(const struct nib *nib, const struct glyph *glyph)
 
 void glyph_outline(const struct nib *nib, const struct glyph *glyph)
 {
+	struct glyph second = *glyph;
+
 	side_stroke(nib, glyph, glyph->strokes[0], -1);
 	side_stroke(nib, glyph, glyph->strokes[2], 1);
+	second.x += SECOND;
+	if (glyph->strokes[1] == '>')
+		side_stroke(nib, &second, '>', -1);
 }
 
 void glyph_draw(const struct nib *nib, const struct glyph *glyph)
@@ -123,6 +133,11 @@ void glyph_draw(const struct nib *nib, const struct glyph *glyph)
 		lines_inside(nib, glyph);
 	else
 		middle(nib, glyph);
+}
+
+float glyph_meets(const struct glyph *glyph)
+{
+	return glyph->x - glyph->half + (glyph->strokes[0] == '>' ? TIP : 0);
 }
 
 float glyph_half(const struct word_row *word)

@@ -32,6 +32,8 @@ struct glyph {
 void glyph_draw(const struct nib *nib, const struct glyph *glyph);
 /** glyph_outline - only its left and right stroke. */
 void glyph_outline(const struct nib *nib, const struct glyph *glyph);
+/** glyph_meets - x where the wire at the left ends: at the tip of an arrow, else at the left stroke. */
+float glyph_meets(const struct glyph *glyph);
 /** glyph_half - px from the middle of a word's glyph to its outer strokes. */
 float glyph_half(const struct word_row *word);
 

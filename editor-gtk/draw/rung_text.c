@@ -152,7 +152,7 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 		return statements(drafting, cell);
 	if (!says_word && !is_word)
 		return in_lines(drafting, operand);
-	text = g_strdup_printf("%s%s%s", word->word, is_word ? "" : " ",
+	text = g_strdup_printf("%s%s%s", explain_inside(word), is_word ? "" : " ",
 			       is_word ? "" : operand);
 	framed = in_lines(drafting, text);
 	g_free(text);

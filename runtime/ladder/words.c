@@ -376,8 +376,19 @@ static void example(const struct words_entry *entry, enum words_form form,
 	sink_memory_free(&memory);
 }
 
+const char *words_symbol(const struct words_entry *entry, char out[WORDS_SYMBOL])
+{
+	size_t len = (size_t)snprintf(out, WORDS_SYMBOL, "%s", explain_glyph(entry->row));
+
+	while (len > 0 && out[len - 1] == ' ')
+		out[--len] = 0;
+	return out;
+}
+
 static void one_word(const struct words_entry *entry, const struct sink *sink)
 {
+	char symbol[WORDS_SYMBOL];
+
 	sink_printf(sink, "%s: %s", entry->word, words_kind(entry->kind));
 	if (entry->family)
 		sink_printf(sink, " (%s)", entry->family);
@@ -385,7 +396,7 @@ static void one_word(const struct words_entry *entry, const struct sink *sink)
 		sink_printf(sink, ": %s", entry->doc);
 	sink_text(sink, "\n");
 	if (entry->kind == WORDS_ELEMENT)
-		sink_printf(sink, "  symbol %s\n", explain_glyph(entry->row));
+		sink_printf(sink, "  symbol %s\n", words_symbol(entry, symbol));
 	if (entry->kind != WORDS_BLOCK) {
 		sink_text(sink, "  ");
 		words_note(entry, sink);

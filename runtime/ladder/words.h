@@ -61,6 +61,9 @@ enum words_form { WORDS_AS_FILE, WORDS_AS_PICTURE, WORDS_AS_LIST };
  * Fails: false if the word has no example of this form, or memory is out. */
 bool words_example(const struct words_entry *entry, enum words_form form,
 		   const struct sink *sink);
+#define WORDS_SYMBOL 4
+/** words_symbol - the strokes of an element, without blanks behind them: ">>". Returns @out. */
+const char *words_symbol(const struct words_entry *entry, char out[WORDS_SYMBOL]);
 /** words_note - prints the facts of a word, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 

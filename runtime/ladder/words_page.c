@@ -134,11 +134,13 @@ static void box(const struct words_entry *entry, const struct sink *sink)
 
 static void table_line(const struct words_entry *entry, const struct sink *sink)
 {
+	char symbol[WORDS_SYMBOL];
+
 	sink_text(sink, "| ");
 	code(sink, entry->word);
 	if (entry->kind == WORDS_ELEMENT) {
 		sink_text(sink, " | ");
-		code(sink, explain_glyph(entry->row));
+		code(sink, words_symbol(entry, symbol));
 		sink_printf(sink, " | %s",
 			    entry->family ? entry->family : "");
 	}

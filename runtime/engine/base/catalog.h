@@ -278,6 +278,9 @@ const struct sys_row *sys_row(enum sys_id id);
 const char *explain_id(const struct word_row *row);
 /** explain_family - of the palette: "Contacts"; "Own" of a word of a project; "": none. */
 const char *explain_family(const struct word_row *row);
+/** explain_inside - what is drawn between the strokes of an element without an operand: "RETURN", "NOT"; of
+ * the others their word. */
+const char *explain_inside(const struct word_row *row);
 /** explain_glyph - three characters, its strokes; "" of a box. */
 const char *explain_glyph(const struct word_row *row);
 /** explain_word - what a word does; "" of a word of a project. */

@@ -98,6 +98,13 @@ const char *explain_glyph(const struct word_row *row)
 	return row->kind == WORD_ELEM ? glyphs[row->number] : "";
 }
 
+const char *explain_inside(const struct word_row *row)
+{
+	const bool alone = row->operand == OPND_NONE || row->operand == OPND_LOOP_END;
+
+	return row->kind == WORD_ELEM && alone ? ids[row->number] : row->word;
+}
+
 const char *explain_word(const struct word_row *row)
 {
 	return row->number < WORD_COUNT ? words[row->number] : "";

@@ -61,8 +61,7 @@ static enum form form_at(const struct draw *draw, int row, int col)
 		return col > draw->trail[row] ? FORM_WIRE : FORM_EMPTY;
 	if (word->place == PLACE_WIRE)
 		return FORM_WIRE;
-	if (word->operand == OPND_BOOL_R || word->operand == OPND_BOOL_W ||
-	    (word->operand == OPND_NONE && word->place == PLACE_SERIES))
+	if (word->operand == OPND_BOOL_R || word->operand == OPND_BOOL_W)
 		return FORM_GLYPH;
 	return FORM_TEXT;
 }
@@ -140,13 +139,21 @@ static int trail_of(const struct draw *draw, int row)
 	return coil || box ? col : LIMIT_COLS;
 }
 
-/* ---- elements drawn as one line of text: [ a > b ], >>Label, <RET> ---- */
+/* ---- elements drawn as one line of text: [ a > b ], >>Label, <RETURN>, |NOT| ---- */
 
 struct framed {
 	const char *text;
-	char before[16], after[4];
+	char before[16], after[8];
 	int width;
 };
+
+static void set_stroke(const struct draw *draw, char stroke, bool left, char out[8])
+{
+	if (stroke == '|')
+		snprintf(out, 8, "%s", left ? draw->strokes->open : draw->strokes->close);
+	else
+		out[0] = stroke;
+}
 
 static struct framed framed_at(const struct draw *draw, int row, int col)
 {
@@ -175,9 +182,9 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 		break;
 	case OPND_LOOP_END:
 	case OPND_NONE:
-		framed.text = word->word;
-		framed.before[0] = explain_glyph(word)[0];
-		framed.after[0] = explain_glyph(word)[2];
+		framed.text = explain_inside(word);
+		set_stroke(draw, explain_glyph(word)[0], true, framed.before);
+		set_stroke(draw, explain_glyph(word)[2], false, framed.after);
 		break;
 	case OPND_BOOL_R:
 	case OPND_BOOL_W:
@@ -188,9 +195,9 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 		framed.before[0] = word->word[0];
 		break;
 	}
-	framed.width = (int)(strlen(framed.before) + strlen(framed.after)) +
-		       draw_clipped(framed.text, strlen(framed.text),
-				    DRAW_CLIP_TEXT);
+	framed.width = draw_clipped(framed.before, strlen(framed.before), DRAW_CLIP_TEXT) +
+		       draw_clipped(framed.text, strlen(framed.text), DRAW_CLIP_TEXT) +
+		       draw_clipped(framed.after, strlen(framed.after), DRAW_CLIP_TEXT);
 	return framed;
 }
 
@@ -228,11 +235,10 @@ static int glyph_start(const struct draw *draw, int row, int col)
 
 static void glyph_stroke(const struct draw *draw, char stroke, bool left)
 {
-	if (stroke == '|')
-		sink_text(draw->sink, left ? draw->strokes->open :
-					     draw->strokes->close);
-	else
-		sink_write(draw->sink, &stroke, 1);
+	char text[8] = "";
+
+	set_stroke(draw, stroke, left, text);
+	sink_text(draw->sink, text);
 }
 
 static void draw_glyph(struct draw *draw, int row, int col)

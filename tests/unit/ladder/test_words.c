@@ -105,7 +105,7 @@ static void test_one(void)
 	CHECK_TEXT(facts("JMP", &count) + strlen(
 		   "JMP: element (Flow): jumps to the label of a rung "
 		   "while powered\n"
-		   "  symbol >>>\n  a label, last in its row\n"),
+		   "  symbol >>\n  a label, last in its row\n"),
 		   "JMP: IL operator: jumps to a label; "
 		   "C: if TRUE; CN: if FALSE\n"
 		   "  JMP JMPC JMPCN\n");
