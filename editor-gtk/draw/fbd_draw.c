@@ -437,8 +437,7 @@ static void draw_frame(const struct pen *pen, unsigned int marks, const graphene
 {
 	static const struct { unsigned int mark; enum token token; enum stroke_style style; } frames[] = {
 		{ MARK_CURSOR, TOKEN_ACCENT, STROKE_SOLID }, { MARK_DROP, TOKEN_ACCENT, STROKE_DASHED },
-		{ MARK_ILLEGAL, TOKEN_ERROR, STROKE_SOLID }, { MARK_BLOCKS, TOKEN_BLOCKS, STROKE_SOLID },
-		{ MARK_CHANGED, TOKEN_FORCE, STROKE_DOTTED },
+		{ MARK_BLOCKS, TOKEN_BLOCKS, STROKE_SOLID }, { MARK_CHANGED, TOKEN_FORCE, STROKE_DOTTED },
 	};
 	float x = r->origin.x;
 
@@ -458,8 +457,6 @@ static void draw_frame(const struct pen *pen, unsigned int marks, const graphene
 		badge(pen, TOKEN_FORCE, "2\xc3\x97", x, r->origin.y + 2);
 	if (marks & MARK_FAILED)
 		badge(pen, TOKEN_ERROR, "!", x, r->origin.y + 16);
-	if (marks & MARK_ILLEGAL)
-		badge(pen, TOKEN_ERROR, "\xc3\x97", r->origin.x + 1, r->origin.y + r->size.height - 14);
 	if (marks & MARK_CHANGED)
 		badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r->origin.x + 1, r->origin.y + r->size.height - 14);
 }

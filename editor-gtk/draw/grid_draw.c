@@ -704,7 +704,6 @@ unsigned int grid_mark_of(const struct diag *diag)
 #define FORCED "F"
 #define TWICE  "2\xc3\x97"
 #define FAILED "!"
-#define REFUSED "\xc3\x97"
 
 static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
 {
@@ -820,9 +819,6 @@ static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
 	if (mark->marks & MARK_DROP)
 		picture_frame(pen->nib.picture, TOKEN_ACCENT, STROKE_DASHED, 1.5f,
 			      r->origin.x, r->origin.y, r->size.width, r->size.height);
-	if (mark->marks & MARK_ILLEGAL)
-		picture_frame(pen->nib.picture, TOKEN_ERROR, STROKE_SOLID, 1.5f, r->origin.x,
-			      r->origin.y, r->size.width, r->size.height);
 	if (mark->marks & MARK_BLOCKS)
 		picture_frame(pen->nib.picture, TOKEN_BLOCKS, STROKE_SOLID, 2, r->origin.x,
 			      r->origin.y, r->size.width, r->size.height);
@@ -862,9 +858,6 @@ static void draw_marks(const struct pen *pen)
 			mark_element(pen, mark->marks, mark->row, col, &r);
 		if (mark->marks & MARK_CHANGED)
 			badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r.origin.x + 1,
-			      r.origin.y + r.size.height - 14);
-		if (mark->marks & MARK_ILLEGAL)
-			badge(pen, TOKEN_ERROR, REFUSED, r.origin.x + 1,
 			      r.origin.y + r.size.height - 14);
 		if (note_of(pen, mark->row, mark->column))
 			draw_note(pen, mark, &r);

@@ -41,7 +41,6 @@ enum mark {
 	MARK_CURSOR = 1,
 	MARK_SELECTED = 2,
 	MARK_DROP = 4,       /* the dragged element may be dropped here         */
-	MARK_ILLEGAL = 8,    /* it may not be dropped here                      */
 	MARK_ERROR = 16,
 	MARK_WARNING = 32,
 	MARK_FORCED = 64,

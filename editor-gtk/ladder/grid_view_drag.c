@@ -8,6 +8,7 @@
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/draw/ghost.h"
+#include "editor-gtk/draw/rung_fold.h"
 
 #include "engine/base/name.h"
 
@@ -190,9 +191,69 @@ static void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool 
 	if (rung >= 0) /* the message stays after a refused drop */
 		canvas_tell(LADDER_CANVAS(view), legal ? "" : why_not(view, rung, row, col));
 	if (before >= 0)
-		strips_dirty(view, before);
+		strips_redraw(view, before);
 	if (rung >= 0)
-		strips_dirty(view, rung); /* may show one more row */
+		strips_redraw(view, rung);
+}
+
+/* ---- a row that is not there yet: a slot below the last row of the rung, or of a line of a folded
+ * one. The rung keeps its height, so nothing runs away from the pointer. ---- */
+
+#define DROP_BELOW  18 /* px under the wire where the row below begins          */
+#define DROP_BEYOND 14 /* px of the slot in the head of the next rung           */
+
+/* The bottom of the slots below a rung, px at 100 %. */
+static float slots_end(LadderGridView *view, int rung)
+{
+	const struct strip *strip = strips_get(view, rung);
+
+	return strip->y + strip->height + (rung + 1 < sheet_rungs(view) ? DROP_BEYOND : RUNG_CELL_HEIGHT);
+}
+
+/* False: the target is a row that is shown, or none. @slot: px at 100 %. */
+static bool drop_slot(LadderGridView *view, graphene_rect_t *slot)
+{
+	const struct grid_cursor *at = &view->drop.at;
+	const struct strip *strip = sheet_rung(view, at->rung) ? strips_get(view, at->rung) : NULL;
+	float x, top, bottom;
+	int rows, line;
+
+	if (!strip || at->row < 1 || at->col >= strip->layout->columns || at->row > strip->layout->rows)
+		return false;
+	x = strip->layout->column_x[at->col] + strip->layout->column_width[at->col] / 2;
+	line = strip->fold ? rung_fold_line_at(strip->fold, x) : 0;
+	rows = strip->fold ? strip->fold->line[line].rows : strip->layout->rows;
+	if (at->row < rows)
+		return false;
+	top = strip_shown(view, strip, x, strip->layout->row[at->row - 1].wire + DROP_BELOW).y;
+	bottom = strip->fold && line + 1 < strip->fold->lines ? strip->y + strip->fold->line[line + 1].y :
+								 slots_end(view, at->rung);
+	*slot = strip_box(view, strip, at->row - 1, at->col);
+	*slot = GRAPHENE_RECT_INIT(slot->origin.x + 1, top, slot->size.width - 2, bottom - top);
+	return true;
+}
+
+/* The rung whose slots are at a point, px of the widget; -1: none. @hit: its last row there. */
+static int slots_at(LadderGridView *view, double x, double y, struct rung_hit *hit)
+{
+	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+	int rung = strips_at(view, at.y);
+	const struct rung_row *last;
+	const struct strip *strip;
+	graphene_point_t laid;
+
+	if (rung > 0 && at.y < strips_get(view, rung)->y + DROP_BEYOND)
+		rung--;
+	if (rung < 0 || at.y >= slots_end(view, rung))
+		return -1;
+	strip = strips_get(view, rung);
+	laid = strip_laid(view, strip, at);
+	last = &strip->layout->row[strip->layout->rows - 1];
+	if (at.y < strip->y + strip->height && laid.y < last->y + last->height)
+		return -1;
+	laid.y = MIN(laid.y, last->y + last->height - 1);
+	*hit = rung_layout_hit(&view->drafting, strip->layout, laid.x, laid.y);
+	return hit_is_cell(hit) ? rung : -1;
 }
 
 bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout)
@@ -212,9 +273,8 @@ bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layou
 
 void drop_mark(LadderGridView *view, int rung, GArray *marks)
 {
-	if (rung == view->drop.at.rung)
-		mark_push(marks, view->drop.at.row, view->drop.at.col,
-			  view->drop.legal ? MARK_DROP : MARK_ILLEGAL);
+	if (rung == view->drop.at.rung && view->drop.legal)
+		mark_push(marks, view->drop.at.row, view->drop.at.col, MARK_DROP);
 }
 
 /* ---- a rung ---- */
@@ -246,7 +306,27 @@ static void fill(GtkSnapshot *snapshot, const struct theme *theme, float x, floa
 				  &GRAPHENE_RECT_INIT(x, y, width, height));
 }
 
-void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)
+#define FRAME 1.5f /* px thick; as that of a cell that takes the drop             */
+#define DASH  5    /* px                                                          */
+
+static void snapshot_slot(GtkSnapshot *snapshot, const struct theme *theme, const graphene_rect_t *r)
+{
+	const float x = r->origin.x, y = r->origin.y, width = r->size.width, height = r->size.height;
+	GdkRGBA wash = theme->color[TOKEN_ACCENT];
+
+	wash.alpha = theme->wash;
+	gtk_snapshot_append_color(snapshot, &wash, r);
+	for (float at = 0; at < width; at += 2 * DASH) {
+		fill(snapshot, theme, x + at, y, MIN(DASH, width - at), FRAME);
+		fill(snapshot, theme, x + at, y + height - FRAME, MIN(DASH, width - at), FRAME);
+	}
+	for (float at = 0; at < height; at += 2 * DASH) {
+		fill(snapshot, theme, x, y + at, FRAME, MIN(DASH, height - at));
+		fill(snapshot, theme, x + width - FRAME, y + at, FRAME, MIN(DASH, height - at));
+	}
+}
+
+static void snapshot_line(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)
 {
 	const float width = (float)gtk_widget_get_width(GTK_WIDGET(view));
 	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
@@ -260,6 +340,17 @@ void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct the
 	fill(snapshot, theme, 0, y - LINE / 2, width, LINE);
 	fill(snapshot, theme, 0, y - KNOB / 2, KNOB, KNOB);
 	fill(snapshot, theme, width - KNOB, y - KNOB / 2, KNOB, KNOB);
+}
+
+void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)
+{
+	graphene_rect_t slot;
+
+	snapshot_line(view, snapshot, theme);
+	if (view->drop.legal && drop_slot(view, &slot)) {
+		slot = canvas_rect(LADDER_CANVAS(view), slot);
+		snapshot_slot(snapshot, theme, &slot);
+	}
 }
 
 static void drop_rung_ghost(LadderGridView *view, GtkDragSource *source, int rung)
@@ -370,8 +461,6 @@ unset:
 
 /* ---- dropping ---- */
 
-#define DROP_BELOW 18 /* px under the wire where the row below begins          */
-
 static const struct ladder_drag *dragged(GtkDropTarget *target)
 {
 	const GValue *value = gtk_drop_target_get_value(target);
@@ -389,28 +478,26 @@ static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit,
 }
 
 /* The target cell: below an element the free cell of a new branch; below the last row a new
- * row. */
+ * row, in the slot that drop_slot() draws. */
 static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
 		   enum word word)
 {
-	const double shift = RUNG_CELL_HEIGHT * view->canvas->zoom;
 	int rung = sheet_point(view, x, y, hit);
 	const bool inside = rung >= 0 && hit_is_cell(hit);
 	enum grid_drop how;
 
 	if (inside && !is_below(view, rung, hit, x, y))
 		return rung;
-	if (!inside) {
-		const int above = sheet_point(view, x, y - shift, hit);
-
-		if (above < 0 || !hit_is_cell(hit) || (rung >= 0 && rung != above))
-			return -1;
-		rung = above;
-	}
+	if (!inside)
+		rung = slots_at(view, x, y, hit);
+	if (rung < 0)
+		return -1;
 	how = grid_can_drop(sheet_rung(view, rung), view->columns, hit->row + 1,
 			    hit->column, word);
 	if (how == GRID_DROP_BELOW || (!inside && how != GRID_DROP_NOT))
 		hit->row++;
+	else if (!inside)
+		return -1;
 	return rung;
 }
 

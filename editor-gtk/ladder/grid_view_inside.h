@@ -155,7 +155,7 @@ graphene_point_t strip_shown(LadderGridView *view, const struct strip *strip, fl
 graphene_point_t strip_laid(LadderGridView *view, const struct strip *strip, graphene_point_t shown);
 /** strip_box - a cell as shown, px at 100 %: where it is folded or pinned. */
 graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column);
-/** strip_follow - after the cursor, a drag or a wire came or went: a folded rung shows the rows that they need. */
+/** strip_follow - after the cursor or a wire came or went: a folded rung shows the rows that they need. */
 void strip_follow(LadderGridView *view, int rung);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
@@ -296,7 +296,7 @@ void drag_init(LadderGridView *view);
 bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout);
 /** drop_mark - adds the mark of the target cell. */
 void drop_mark(LadderGridView *view, int rung, GArray *marks);
-/** drop_snapshot - draws the line where a dragged rung would go. */
+/** drop_snapshot - draws the line where a dragged rung would go, or the place of an element below a rung. */
 void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
 
 /* ---- grid_view_tell.c ---- */

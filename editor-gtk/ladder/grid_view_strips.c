@@ -385,16 +385,14 @@ static void widen(LadderGridView *view)
 
 /* ---- folding ---- */
 
-/* Shows the rows where the cursor is, where a drag would drop, where a wire may end. */
+/* Shows the rows where the cursor is, where a wire may end. */
 static bool place_fold(LadderGridView *view, struct strip *strip, int rung)
 {
-	struct rung_fold_wish wish[3];
+	struct rung_fold_wish wish[2];
 	int wishes = 0;
 
 	if (rung == view->cursor.at.rung)
 		wish[wishes++] = (struct rung_fold_wish){ view->cursor.at.row, view->cursor.at.col };
-	if (rung == view->drop.at.rung)
-		wish[wishes++] = (struct rung_fold_wish){ view->drop.at.row, view->drop.at.col };
 	if (rung == view->wire.rung && view->wire.drawing)
 		wish[wishes++] = (struct rung_fold_wish){ view->wire.rows - 1, -1 };
 	return rung_fold_place(strip->fold, strip->layout, wish, wishes);
@@ -458,8 +456,6 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		return strip;
 	if (rung == view->cursor.at.rung)
 		rows = view->cursor.at.row + 1;
-	if (rung == view->drop.at.rung)
-		rows = MAX(rows, view->drop.at.row + 1);
 	if (rung == view->wire.rung && view->wire.drawing)
 		rows = MAX(rows, view->wire.rows); /* the wire may end in a new row */
 	lay_out(view, strip, rung, rows);

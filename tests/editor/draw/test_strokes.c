@@ -178,7 +178,7 @@ static void draw_marks(struct sheet *sheet)
 		{ 0, 0, MARK_ERROR | MARK_FORCED }, { 0, 1, MARK_CURSOR },
 		{ 0, 2, MARK_DROP }, { 0, 3, MARK_SELECTED | MARK_WARNING },
 		{ 0, 5, MARK_TWICE }, { 1, 0, MARK_FOUND | MARK_CHANGED },
-		{ 1, 1, MARK_FOUND | MARK_FOUND_NOW }, { 1, 1, MARK_FOUND }, { 1, 4, MARK_ILLEGAL }, { 7, 0, MARK_CURSOR }, { 0, 70, MARK_ERROR },
+		{ 1, 1, MARK_FOUND | MARK_FOUND_NOW }, { 1, 1, MARK_FOUND }, { 7, 0, MARK_CURSOR }, { 0, 70, MARK_ERROR },
 	};
 	struct grid_scene scene = { .mark = mark, .mark_count = G_N_ELEMENTS(mark),
 				    .state = RUNG_CURRENT | RUNG_EDITED | RUNG_FOUND };

@@ -6,6 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from screen import pixels, pointer_name  # noqa: E402
 from projects import TWO_RUNGS  # noqa: E402
 
 
@@ -255,16 +256,74 @@ def far(screen):
     assert lines(path, '@print %s\nStart=1\nStop=1\n' % coil) == [coil + '=1', coil + '=0']
 
 
+ACCENT, ERROR = (0x1a, 0x5f, 0xb4), (0xc0, 0x1c, 0x28)
+HEAD, ROW, RUNG = 36, 84, 36 + 84 + 9  # px of a rung with a title: above its row, its row, all
+
+
+def framed(editor, column):
+    """From where to where the frame of the target reaches in a column, px below the top of the sheet; None: there is none."""
+    x, y, _, _ = editor.place(editor.sheet())
+    high = 3 * RUNG
+    edge = pixels(x + 61 + 98 * column + 1, y, 1, high)
+    found = [at for at in range(high) if edge[at] == ACCENT]
+    return (found[0], found[-1]) if found else None
+
+
+def aims(screen):
+    """an element goes where the frame is drawn, at each height between two rungs and below the last; the sheet stays still"""
+    path = new_file(screen, TWO_RUNGS)
+    before = rung_lines(path)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    tile = editor.tile('closed while FALSE')
+    still = [editor.place(node) for node in editor.elements()]
+    seen = set()
+    x, top = editor.grid(0, 0)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'End')  # the frame of the cursor is in another column
+    for at in list(range(HEAD + 46, RUNG + HEAD + 40, 9)) + [2 * RUNG - 4, 2 * RUNG + 40, 2 * RUNG + 80, 2 * RUNG + 100]:
+        frame = []
+
+        def held():
+            frame[:] = [framed(editor, 0)]
+            return [editor.place(node) for node in editor.elements()] == still
+        editor.drag(tile, (x, top + at), ready=held, look='drag-slot' if at == HEAD + 46 + 4 * 9 else None)
+        first, last = frame[0] or (-1, -1)
+        if first < 0:
+            assert HEAD + ROW + 9 + 14 <= at <= RUNG + HEAD or at > 2 * RUNG + ROW, 'no frame at %d' % at
+            saved(editor, path, lambda rows: rows == before)
+            seen.add('none')
+            continue
+        assert first <= at <= last + 6, (at, frame)
+        rung, how = int(first >= RUNG), 'below' if first % RUNG == HEAD + 46 + 18 else 'beside'
+        seen.add((rung, how))
+        editor.opened()
+        editor.entry('Lamp')
+        rows = [plain(row) for row in (editor.save(path), rung_lines(path))[1]]
+        own = rows[rows.index('RUNG"two"'):] if rung else rows[:rows.index('RUNG"two"')]
+        assert 'NCLamp' in ''.join(own) and ('^' in ''.join(own)) == (how == 'below'), (at, frame, rows)
+        editor.keys('ctrl+z', 'ctrl+Home', 'End')
+        saved(editor, path, lambda rows: rows == before)
+    assert seen == {'none', (0, 'beside'), (0, 'below'), (1, 'beside'), (1, 'below')}, seen
+
+
 def not_there(screen):
     """a coil dragged onto a contact is refused with the reason while it is held; nothing changes"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     told = 'an output can only stand in the last column'
-    editor.drag(editor.tile('TRUE while powered'), editor.grid(80, 0), ready=lambda: editor.all(told, 'label'))
+    x, y = editor.grid(80, 0)
+    pointer, marks = [], []
+    editor.drag(editor.tile('TRUE while powered'), (x, y), look='drag-refused',
+                ready=lambda: editor.all(told, 'label') and (pointer.append(pointer_name()) or marks.append(
+                    pixels(x - 49, y - 46, 98, 84).count(ERROR)) or True))
+    # The pointer says it: nothing is marked there.
+    assert marks[-1] == 0, 'a mark in the colour of errors'
+    assert pointer[-1] in ('no-drop', 'not-allowed', 'dnd-none', 'dnd-no-drop'), pointer
     until(lambda: editor.all(told, 'label'), 'the reason, still')
     assert len(editor.cells()) == 5 and not editor.all('\u2022 new')
     as_before(path)
 
 
-main([elements, rungs, branch, wires, at_node, quick, refused, by_menu, far, not_there])
+main([elements, rungs, branch, wires, at_node, quick, refused, by_menu, far, aims, not_there])

@@ -7,7 +7,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, until  # noqa: E402
-from screen import urge  # noqa: E402
+from screen import pixels, urge  # noqa: E402
 
 NAMES = ['Gate%d' % i for i in range(14)]
 PROJECT = '''RUNGBOARD 1
@@ -27,6 +27,7 @@ END_PROGRAM
 ''' % (''.join('  %s AT %%IX%d.%d : BOOL;\n' % (name, i // 8, i % 8) for i, name in enumerate(NAMES)),
        ' | '.join('NO ' + name for name in NAMES))
 COLUMNS = 'ABCDEFGHIJKLMN'
+ACCENT = (0x1a, 0x5f, 0xb4)
 
 
 def opened(screen, **env):
@@ -76,7 +77,6 @@ def moves(screen):
         editor.keys('Right')
     editor.says('Rung 1 · column O')
     editor.keys('Left', 'Left')
-    import time; time.sleep(1); editor.shot("x4")
     editor.says('Rung 1 · column M')
     boxes = places(editor)
     second = next(i for i, box in enumerate(boxes) if box[1] > boxes[0][1])
@@ -130,6 +130,32 @@ def edits(screen):
     check(path)
 
 
+def beneath(screen):
+    """in a later line, an element that is dropped into the frame below a contact comes in parallel to it; no line moves before"""
+    editor, path = opened(screen)
+    boxes = places(editor)
+    before = editor.save(path)
+    lines = sorted({y for _, y, _, _ in boxes})
+    tried = [next(i for i in reversed(range(len(NAMES))) if boxes[i][1] == y) for y in lines[1:] if y != boxes[-1][1]]
+    tried.append(len(NAMES) - 1)  # in the last line, with the coil
+    for number in tried:
+        editor.keys('ctrl+Home')
+        x, y = editor.middle(gate(editor, NAMES[number]))
+        still = places(editor)
+        accent = []
+
+        def held():
+            accent[:] = [pixels(x - 49, y + 18, 98, 1).count(ACCENT)]
+            return accent[0] >= 20 and places(editor) == still
+        editor.drag(editor.tile('closed while FALSE'), (x, y + 24), ready=held, look='folded-beneath-%d' % number)
+        editor.opened()
+        editor.entry('Lamp')
+        saved = [''.join(line.split()) for line in editor.save(path).splitlines()]
+        assert any('NCLamp^' in line and 'NO' + NAMES[number] not in line for line in saved), saved
+        editor.keys('ctrl+z')
+        until(lambda: editor.save(path) == before, 'the rung as before')
+
+
 def runs(screen):
     """while simulating, a click in a later line toggles its contact, power goes on there, hits of a search are shown"""
     editor, _ = opened(screen)
@@ -181,6 +207,6 @@ def follows(screen):
     until(lambda: len(tops(editor)) == 1, 'one line')
 
 
-moves.size = edits.size = runs.size = follows.size = '1024x700x24'
+moves.size = edits.size = beneath.size = runs.size = follows.size = '1024x700x24'
 moves.quick = 'editor-gtk/ladder'
-main([moves, edits, runs, follows])
+main([moves, edits, beneath, runs, follows])

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: MIT
 """ghost - what is drawn while an element or a rung is dragged: light, dark, with high contrast."""
 import os
-import re
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, trace, until  # noqa: E402
 from projects import TWO_RUNGS  # noqa: E402
+from screen import pixels  # noqa: E402
 
 ROW = 36  # px from the top of a rung with a title to that of its first row
 RUNG = ROW + 84 + 9
@@ -19,14 +18,6 @@ THEMES = {'light': ({}, (0x1a, 0x5f, 0xb4)),
                             (0x99, 0xc9, 0xff))}
 COLUMNS = range(6)
 RUN = '@print Motor Lamp\nStart=1\nStop=1\nStart=0\n'
-
-
-def pixels(x, y, width, height):
-    """The colours of an area of the screen, line by line."""
-    picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
-                              '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
-    body = picture[len(re.match(rb'P6\s+\d+\s+\d+\s+\d+\s', picture)[0]):]
-    return [tuple(body[i:i + 3]) for i in range(0, len(body), 3)]
 
 
 def marked(editor, rung_y, accent, row=0):

@@ -5,6 +5,7 @@ finder.py and desk.py use it.
 """
 import ctypes
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -123,6 +124,30 @@ class Focus:
         window, revert = ctypes.c_ulong(), ctypes.c_int()
         self.x.XGetInputFocus(self.display, ctypes.byref(window), ctypes.byref(revert))
         return window.value >> 21
+
+
+def pixels(x, y, width, height):
+    """The colours of an area of the screen, line by line."""
+    picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
+                              '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
+    body = picture[len(re.match(rb'P6\s+\d+\s+\d+\s+\d+\s', picture)[0]):]
+    return [tuple(body[i:i + 3]) for i in range(0, len(body), 3)]
+
+
+def pointer_name():
+    """The name of the shape that the pointer has; '': a shape without a name."""
+    class Image(ctypes.Structure):
+        _fields_ = [('x', ctypes.c_short), ('y', ctypes.c_short), ('width', ctypes.c_ushort), ('height', ctypes.c_ushort),
+                    ('xhot', ctypes.c_ushort), ('yhot', ctypes.c_ushort), ('serial', ctypes.c_ulong),
+                    ('pixels', ctypes.c_void_p), ('atom', ctypes.c_ulong), ('name', ctypes.c_char_p)]
+    x, display = open_display()
+    fixes = ctypes.CDLL('libXfixes.so.3')
+    fixes.XFixesGetCursorImage.restype, fixes.XFixesGetCursorImage.argtypes = ctypes.POINTER(Image), [ctypes.c_void_p]
+    fixes.XFixesQueryExtension.argtypes = [ctypes.c_void_p, ctypes.POINTER(ctypes.c_int), ctypes.POINTER(ctypes.c_int)]
+    fixes.XFixesQueryExtension(display, ctypes.byref(ctypes.c_int()), ctypes.byref(ctypes.c_int()))
+    name = fixes.XFixesGetCursorImage(display).contents.name.decode()
+    x.XCloseDisplay(display)
+    return name
 
 
 class Screen:
