@@ -916,7 +916,6 @@ void grid_draw(const struct grid_scene *scene, struct picture *picture)
 
 /* ---- a folded rung: the pieces of its drawing, and what stands between them ---- */
 
-#define ARROW     12  /* px of the end of a cut wire                            */
 #define HEAD      5   /* px of its tip                                          */
 #define PART_LINE 14  /* baseline of "2/3" at a later line                      */
 
@@ -936,7 +935,7 @@ static struct wire cut_wire(const struct pen *pen, int line, int row)
 /* An arrow from @x to the right; @number is at its end without a wire. */
 static void draw_arrow(const struct pen *pen, struct wire wire, int number, float x, float y, bool ends)
 {
-	const float to = x + ARROW, tip = to - HEAD;
+	const float to = x + FOLD_END, tip = to - HEAD;
 	char text[16];
 
 	g_snprintf(text, sizeof(text), "%d", number);
@@ -961,7 +960,7 @@ static int draw_arrows(const struct pen *pen, int line, int number)
 			continue;
 		wire = cut_wire(pen, line, row);
 		draw_arrow(pen, wire, ++number, above->to - above->from + above->x, above->y + down, true);
-		draw_arrow(pen, wire, number, below->x - ARROW, below->y + down, false);
+		draw_arrow(pen, wire, number, below->x - FOLD_END, below->y + down, false);
 	}
 	return number;
 }

@@ -110,7 +110,7 @@ static int rows_of(const struct rung_layout *layout, const struct rung_fold_line
 	while (rows > 1 && !is_used(layout, rows - 1, line->first, line->last))
 		rows--;
 	for (int i = 0; i < wishes; i++)
-		if (wish[i].column < 0 || (wish[i].column >= line->first && wish[i].column < line->last))
+		if (wish[i].column < line->last && (wish[i].on || wish[i].column >= line->first))
 			rows = MAX(rows, MIN(wish[i].row + 1, layout->rows));
 	return rows;
 }

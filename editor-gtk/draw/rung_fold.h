@@ -16,6 +16,7 @@
 #define FOLD_LEFT  78 /* x where later lines begin, behind the ends of cut wires */
 #define FOLD_RIGHT 8  /* free before the place of the right rail: the ends of cut wires */
 #define FOLD_GAP   8  /* between lines                                          */
+#define FOLD_END   12 /* of a cut wire, to the tip of its arrow                 */
 
 struct rung_fold_line {
 	float from, to;   /* x as laid out                                      */
@@ -33,7 +34,7 @@ struct rung_fold {
 };
 
 /* A cell that is to be shown, although nothing may be there. */
-struct rung_fold_wish { int row, column; /* -1: in each line               */ };
+struct rung_fold_wish { int row, column; bool on; /* in the later lines, too  */ };
 
 /** rung_fold_room - px from rail to rail that a rung needs to be folded: its widest column fits. */
 float rung_fold_room(const struct rung_layout *layout);

@@ -53,6 +53,9 @@ struct sheet_wire {
 	bool pressed, drawing;      /* the button is down; the pointer moved    */
 	bool erase, along;
 	struct grid_end from, to;
+	bool from_ends, to_ends;    /* shown at the end of a line of a folded rung, not where the next begins */
+	int line;                   /* lines of a folded rung from this one on show all rows: none above the pointer
+				       grows, so that nothing moves below it */
 	enum grid_course course;
 	bool *legal;                /* rows * columns of the sheet: may it end there? */
 	int rows;

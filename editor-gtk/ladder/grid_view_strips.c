@@ -372,7 +372,8 @@ static void widen(LadderGridView *view)
 	const float rail = MAX(view->natural, MIN((float)floor(page) - RUNG_LEFT - RUNG_AFTER,
 						  RUNG_WIDE));
 
-	if (rail == view->rail)
+	/* The row for a wire may make a scrollbar appear: nothing may be folded anew below the pointer. */
+	if (rail == view->rail || (view->wire.drawing && view->rail > 0 && rail >= view->natural))
 		return;
 	view->rail = rail;
 	for (guint i = 0; i < view->strips->len; i++)
@@ -392,9 +393,10 @@ static bool place_fold(LadderGridView *view, struct strip *strip, int rung)
 	int wishes = 0;
 
 	if (rung == view->cursor.at.rung)
-		wish[wishes++] = (struct rung_fold_wish){ view->cursor.at.row, view->cursor.at.col };
+		wish[wishes++] = (struct rung_fold_wish){ view->cursor.at.row, view->cursor.at.col, false };
 	if (rung == view->wire.rung && view->wire.drawing)
-		wish[wishes++] = (struct rung_fold_wish){ view->wire.rows - 1, -1 };
+		wish[wishes++] = (struct rung_fold_wish){ view->wire.rows - 1,
+							  strip->fold->line[view->wire.line].first, true };
 	return rung_fold_place(strip->fold, strip->layout, wish, wishes);
 }
 

@@ -17,19 +17,46 @@
 #define GHOST  3   /* px; width of the drawn wire                              */
 #define DASH   7   /* px; dashes of a wire that erases or is refused           */
 #define ASIDE  50  /* px from a wire to the branch below it                     */
+#define JUST   0.2f /* px from the end of a line to the beginning of the next   */
 
 /* ---- where ---- */
 
-static graphene_point_t place_of(LadderGridView *view, struct grid_end end)
+/* A point of the layout, px of the widget. */
+static graphene_point_t shown(LadderGridView *view, graphene_point_t at)
 {
-	const struct strip *strip = strips_get(view, view->wire.rung);
-	const struct rung_layout *layout = strip->layout;
+	return canvas_rect(LADDER_CANVAS(view), (graphene_rect_t){
+		.origin = strip_shown(view, strips_get(view, view->wire.rung), at.x, at.y) }).origin;
+}
+
+/* An end of a wire, as laid out. @ends: it is shown at the end of a line. */
+static graphene_point_t laid_of(LadderGridView *view, struct grid_end end, bool ends)
+{
+	const struct rung_layout *layout = strips_get(view, view->wire.rung)->layout;
 	const int row = MIN(end.row, layout->rows - 1);
 	const float below = end.row > row ? RUNG_CELL_HEIGHT : 0;
 
-	return canvas_rect(LADDER_CANVAS(view), (graphene_rect_t){
-		.origin = strip_shown(view, strip, rung_layout_end_x(layout, end.bar),
-				      layout->row[row].wire + below) }).origin;
+	return GRAPHENE_POINT_INIT(rung_layout_end_x(layout, end.bar) - (ends ? JUST : 0),
+				   layout->row[row].wire + below);
+}
+
+static graphene_point_t place_of(LadderGridView *view, struct grid_end end, bool ends)
+{
+	return shown(view, laid_of(view, end, ends));
+}
+
+static int line_at(LadderGridView *view, int rung, float x)
+{
+	const struct rung_fold *fold = strips_get(view, rung)->fold;
+
+	return fold ? rung_fold_line_at(fold, x) : 0;
+}
+
+/* Is the pointer, at @x as laid out, in the line before the one that begins with @bar? */
+static bool is_before(LadderGridView *view, int rung, float x, int bar)
+{
+	const float end = rung_layout_end_x(strips_get(view, rung)->layout, bar);
+
+	return line_at(view, rung, x) < line_at(view, rung, end) && line_at(view, rung, x) == line_at(view, rung, end - JUST);
 }
 
 /* A point of the widget as one of the layout of @rung. */
@@ -39,7 +66,7 @@ static graphene_point_t in_strip(LadderGridView *view, int rung, double x, doubl
 }
 
 /* Rung and cell end where a wire can begin; -1: none near. */
-static int begin_at(LadderGridView *view, double x, double y, struct grid_end *end)
+static int begin_at(LadderGridView *view, double x, double y, struct grid_end *end, bool *ends)
 {
 	struct rung_hit hit;
 	const bool drawn = !view->canvas->entry && !ladder_document_is_fixed(view->canvas->document);
@@ -49,11 +76,13 @@ static int begin_at(LadderGridView *view, double x, double y, struct grid_end *e
 	if (rung < 0)
 		return -1;
 	at = in_strip(view, rung, x, y);
-	return rung_layout_end(&view->drafting, strips_get(view, rung)->layout, at.x, at.y,
-			       &end->row, &end->bar) ? rung : -1;
+	if (!rung_layout_end(&view->drafting, strips_get(view, rung)->layout, at.x, at.y, &end->row, &end->bar))
+		return -1;
+	*ends = is_before(view, rung, at.x, end->bar);
+	return rung;
 }
 
-/* The end of a stroke for a pointer at (@x, @y). */
+/* The end of a stroke for a pointer at (@x, @y). Its line shows all rows from now on. */
 static struct grid_end end_at(LadderGridView *view, double x, double y)
 {
 	const struct rung_layout *layout = strips_get(view, view->wire.rung)->layout;
@@ -62,6 +91,11 @@ static struct grid_end end_at(LadderGridView *view, double x, double y)
 
 	rung_layout_nearest(layout, at.x, at.y, &end.row, &end.bar);
 	end.row = MIN(end.row, layout->rung->rows);
+	view->wire.to_ends = is_before(view, view->wire.rung, at.x, end.bar);
+	if (line_at(view, view->wire.rung, at.x) < view->wire.line) {
+		view->wire.line = line_at(view, view->wire.rung, at.x);
+		strip_follow(view, view->wire.rung);
+	}
 	return end;
 }
 
@@ -75,12 +109,14 @@ static void set_pointer(LadderGridView *view, const char *name)
 static void hover(LadderGridView *view, double x, double y)
 {
 	struct grid_end end = { -1, -1 };
-	const int rung = view->preview ? -1 : begin_at(view, x, y, &end);
+	bool ends = false;
+	const int rung = view->preview ? -1 : begin_at(view, x, y, &end, &ends);
 
 	/* The pointer may move far before the stroke begins. */
-	if (view->wire.pressed || (rung == view->wire.hover &&
+	if (view->wire.pressed || (rung == view->wire.hover && ends == view->wire.from_ends &&
 	    end.row == view->wire.from.row && end.bar == view->wire.from.bar))
 		return;
+	view->wire.from_ends = ends;
 	view->wire.hover = view->wire.rung = rung;
 	view->wire.from = end;
 	set_pointer(view, rung < 0 ? NULL : "crosshair");
@@ -106,13 +142,15 @@ static void left(GtkEventControllerMotion *motion, LadderGridView *view)
 bool wire_press(LadderGridView *view, double x, double y)
 {
 	struct grid_end end;
-	const int rung = begin_at(view, x, y, &end);
+	bool ends = false;
+	const int rung = begin_at(view, x, y, &end, &ends);
 
 	view->wire.pressed = rung >= 0;
 	if (rung < 0)
 		return false;
 	view->wire.rung = rung;
 	view->wire.from = view->wire.to = end;
+	view->wire.from_ends = view->wire.to_ends = ends;
 	return true;
 }
 
@@ -121,6 +159,7 @@ static void begin(LadderGridView *view, const struct rung *rung)
 {
 	view->wire.drawing = true;
 	view->wire.rows = MIN(rung->rows + 1, LIMIT_ROWS);
+	view->wire.line = line_at(view, view->wire.rung, laid_of(view, view->wire.from, view->wire.from_ends).x);
 	view->wire.legal = g_new0(bool, view->wire.rows * view->columns);
 	grid_wire_ends(rung, view->columns, view->wire.from, view->wire.rows,
 		       view->wire.legal);
@@ -256,32 +295,67 @@ static void frame(const struct brush *brush, graphene_point_t at, float half)
 	fill(brush, at.x + half - line, at.y - half, line, 2 * half);
 }
 
-static void draw_legal(LadderGridView *view, const struct brush *brush)
-{
-	for (int row = 0; row < view->wire.rows; row++)
-		for (int bar = 0; bar < view->columns; bar++)
-			if (view->wire.legal[row * view->columns + bar])
-				square(brush, place_of(view, (struct grid_end){ row, bar }),
-				       DOT);
-}
-
-/* Are both ends in the same line of a folded rung? */
-static bool is_in_one_line(LadderGridView *view)
+/* Does a folded rung show an end? */
+static bool is_shown(LadderGridView *view, struct grid_end end)
 {
 	const struct strip *strip = strips_get(view, view->wire.rung);
 
 	return !strip->fold ||
-	       rung_fold_line_at(strip->fold, rung_layout_end_x(strip->layout, view->wire.from.bar)) ==
-	       rung_fold_line_at(strip->fold, rung_layout_end_x(strip->layout, view->wire.to.bar));
+	       end.row < strip->fold->line[rung_fold_line_at(strip->fold, rung_layout_end_x(strip->layout, end.bar))].rows;
+}
+
+static void draw_legal(LadderGridView *view, const struct brush *brush)
+{
+	for (int row = 0; row < view->wire.rows; row++)
+		for (int bar = 0; bar < view->columns; bar++) {
+			const struct grid_end end = { row, bar };
+
+			if (view->wire.legal[row * view->columns + bar] && is_shown(view, end))
+				square(brush, place_of(view, end, false), DOT);
+		}
+}
+
+/* A part of the way in one line of a folded rung. */
+static void stroke_line(LadderGridView *view, const struct brush *brush, const struct rung_fold *fold, int line,
+			graphene_point_t a, graphene_point_t b)
+{
+	const struct rung_fold_line *part = &fold->line[line];
+	const float zoom = (float)view->canvas->zoom, last = part->to - 0.1f;
+	const bool before = a.x < part->from, behind = b.x > last;
+	graphene_point_t from = shown(view, GRAPHENE_POINT_INIT(MAX(a.x, part->from), a.y));
+	graphene_point_t to = shown(view, GRAPHENE_POINT_INIT(MIN(b.x, last), b.y));
+
+	from.x -= before ? FOLD_END * zoom : 0;
+	to.x += behind ? FOLD_END * zoom : 0;
+	stroke(brush, from, to);
+}
+
+/* A part of the way, upright or level, as laid out. A level one goes on in the next lines of a folded rung. */
+static void stroke_laid(LadderGridView *view, const struct brush *brush, graphene_point_t a, graphene_point_t b)
+{
+	const struct rung_fold *fold = strips_get(view, view->wire.rung)->fold;
+
+	if (!fold) {
+		stroke(brush, shown(view, a), shown(view, b));
+		return;
+	}
+	if (a.x > b.x) {
+		const graphene_point_t other = a;
+
+		a = b;
+		b = other;
+	}
+	for (int line = rung_fold_line_at(fold, a.x); line <= rung_fold_line_at(fold, b.x); line++)
+		stroke_line(view, brush, fold, line, a, b);
 }
 
 /* Over one corner, or around the elements between its ends. */
 static void draw_way(LadderGridView *view, const struct brush *brush)
 {
 	const enum grid_course course = view->wire.course;
-	const graphene_point_t a = place_of(view, view->wire.from);
-	const graphene_point_t b = place_of(view, view->wire.to);
-	const float aside = ASIDE * (float)view->canvas->zoom * (course == GRID_OVER ? -0.8f : 1);
+	const graphene_point_t a = laid_of(view, view->wire.from, view->wire.from_ends);
+	const graphene_point_t b = laid_of(view, view->wire.to, view->wire.to_ends);
+	const float aside = course == GRID_OVER ? -0.8f * ASIDE : ASIDE;
 	graphene_point_t first = { b.x, a.y }, second;
 
 	if (course == GRID_ALONG)
@@ -291,14 +365,10 @@ static void draw_way(LadderGridView *view, const struct brush *brush)
 		first = (graphene_point_t){ a.x, a.y + aside };
 		second = (graphene_point_t){ b.x, b.y + aside };
 	}
-	square(brush, b, RING);
-	if (!is_in_one_line(view)) {
-		square(brush, a, RING);
-		return;
-	}
-	stroke(brush, a, first);
-	stroke(brush, first, second);
-	stroke(brush, second, b);
+	square(brush, shown(view, b), RING);
+	stroke_laid(view, brush, a, first);
+	stroke_laid(view, brush, first, second);
+	stroke_laid(view, brush, second, b);
 }
 
 void wire_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)
@@ -311,7 +381,7 @@ void wire_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct the
 		return;
 	if (!view->wire.drawing) {
 		if (view->wire.hover >= 0)
-			frame(&brush, place_of(view, view->wire.from), RING);
+			frame(&brush, place_of(view, view->wire.from, view->wire.from_ends), RING);
 		return;
 	}
 	if (!view->wire.erase)

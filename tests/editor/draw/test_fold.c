@@ -308,7 +308,8 @@ static void check_rows(void)
 		one += fold->line[i].rows == 1;
 	CHECK_AS(one > 0 && one < fold->lines, "only lines with a branch show its row");
 	for (int i = 0; i < fold->lines; i++) {
-		const struct rung_fold_wish wish = { 1, fold->line[i].first };
+		const struct rung_fold_wish wish = { 1, fold->line[i].first, false };
+		const struct rung_fold_wish on = { 1, fold->line[i].first, true };
 
 		rung_fold_place(fold, layout, &wish, 1);
 		int two = 0;
@@ -316,8 +317,16 @@ static void check_rows(void)
 			two += fold->line[other].rows == 2;
 		CHECK_AS(fold->line[i].rows == 2 && two <= fold->lines - one + 1,
 			 "a line shows the row of the cursor, the others do not");
+		rung_fold_place(fold, layout, NULL, 0);
+		const float stays = fold->line[i].y;
+		rung_fold_place(fold, layout, &on, 1);
+		bool later = true;
+		for (int other = i; other < fold->lines; other++)
+			later &= fold->line[other].rows == 2;
+		CHECK_AS(later, "a line and all later ones show the row of a wire");
+		CHECK_AS(fold->line[i].y == stays, "a line stays where it is when it shows one more row");
 	}
-	const struct rung_fold_wish all = { 1, -1 };
+	const struct rung_fold_wish all = { 1, 0, true };
 	rung_fold_place(fold, layout, &all, 1);
 	for (int i = 0; i < fold->lines; i++)
 		CHECK(fold->line[i].rows == 2);

@@ -6,7 +6,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, sh, until  # noqa: E402
 from screen import pixels, urge  # noqa: E402
 
 NAMES = ['Gate%d' % i for i in range(14)]
@@ -153,7 +153,67 @@ def beneath(screen):
         saved = [''.join(line.split()) for line in editor.save(path).splitlines()]
         assert any('NCLamp^' in line and 'NO' + NAMES[number] not in line for line in saved), saved
         editor.keys('ctrl+z')
-        until(lambda: editor.save(path) == before, 'the rung as before')
+        assert editor.save(path) == before
+
+
+def drawn(points):
+    """Which of these points of the screen are in the wire that is being drawn: 3 px wide, in the colour of the accent."""
+    return [any(color == ACCENT for color in pixels(x - 1, y - 1, 3, 3)) for x, y in points]
+
+
+def wires(screen):
+    """a wire is seen wholly while it is drawn: within a later line, and across a fold; the line below the pointer stays"""
+    editor, path = opened(screen)
+    before = editor.save(path)  # as this program writes it
+    boxes = places(editor)
+    wire = [(x + wide // 2, y + 46) for x, y, wide, _ in boxes]
+    second = next(i for i, box in enumerate(boxes) if box[1] > boxes[0][1])
+    third = next(i for i, box in enumerate(boxes) if box[1] > boxes[second][1])
+    for way_of, first, last in (('within', second + 1, second + 3), ('across', third - 3, third)):
+        x0, y0, x1 = boxes[first][0] - 1, wire[first][1], boxes[last][0] + boxes[last][2]
+        grown = 0 if boxes[first][1] == boxes[last][1] else 2 * 84  # all rows, and one more
+        to = (x1, boxes[last][1] + grown + 84 + 46)  # the new row of the line
+        sh('xdotool', 'mousemove', str(x0), str(y0), 'sleep', '0.2', 'mousedown', '1', 'mousemove', str(x0), str(y0 + 9), 'sleep', '0.2',
+           'mousemove', str(x0), str(y0 + 30), 'sleep', '0.2')
+        assert editor.place(gate(editor, NAMES[first]))[1] == boxes[first][1], 'the line moved below the pointer'
+        way = [(x0, y0 + 20), (x0, y0 + 60), (x0 + 40, y0 + 84)]
+        if boxes[first][1] == boxes[last][1]:
+            way += [((x0 + x1) // 2, y0 + 84), (x1 - 20, y0 + 84)]
+        else:  # on to the fold, and from it
+            last_of = max(i for i in range(len(NAMES)) if boxes[i][1] == boxes[first][1])
+            right = boxes[last_of][0] + boxes[last_of][2]
+            way += [(right - 10, y0 + 84), (right + 5, y0 + 84), (boxes[third][0] - 8, to[1]), (boxes[third][0] + 20, to[1]), (x1 - 20, to[1])]
+
+        def whole():
+            sh('xdotool', 'mousemove', str(to[0] - 4), str(to[1]), 'sleep', '0.05', 'mousemove', str(to[0]), str(to[1]), 'sleep', '0.1')
+            return all(drawn(way))
+        until(whole, 'the whole wire ' + way_of)
+        editor.shot('folded-wire-' + way_of)
+        sh('xdotool', 'mouseup', '1')
+        assert editor.save(path).count('^') == 2
+        editor.keys('ctrl+z')
+        assert editor.save(path) == before
+
+
+def line_end(screen):
+    """a wire that begins at the end of a line is drawn there, not where the next line begins"""
+    editor, path = opened(screen)
+    boxes = places(editor)
+    second = next(i for i, box in enumerate(boxes) if box[1] > boxes[0][1])
+    last = max(i for i in range(len(NAMES)) if boxes[i][1] == boxes[second][1])
+    right, y0 = boxes[last][0] + boxes[last][2], boxes[last][1] + 46
+    x1 = boxes[last - 1][0]
+    sh('xdotool', 'mousemove', str(right - 4), str(y0), 'sleep', '0.2', 'mousedown', '1', 'mousemove', str(right - 4), str(y0 + 20),
+       'sleep', '0.2', 'mousemove', str(right - 4), str(y0 + 60), 'sleep', '0.2')
+
+    def whole():
+        sh('xdotool', 'mousemove', str(x1 + 3), str(y0 + 80), 'sleep', '0.05', 'mousemove', str(x1), str(y0 + 84), 'sleep', '0.1')
+        return all(drawn([(right, y0 + 20), (right, y0 + 60), (right - 40, y0 + 84), (x1 + 20, y0 + 84)]))
+    until(whole, 'the whole wire')
+    editor.shot('folded-wire-end')
+    sh('xdotool', 'mouseup', '1')
+    cells = [line for line in editor.save(path).splitlines() if line.startswith('  |')][1].split('|')[1:-1]
+    assert cells[-1].split() == ['---', '^'] and len(cells) == last + 1, cells
 
 
 def runs(screen):
@@ -208,5 +268,6 @@ def follows(screen):
 
 
 moves.size = edits.size = beneath.size = runs.size = follows.size = '1024x700x24'
+wires.size = line_end.size = '1024x900x24'
 moves.quick = 'editor-gtk/ladder'
-main([moves, edits, beneath, runs, follows])
+main([moves, edits, beneath, wires, line_end, runs, follows])
