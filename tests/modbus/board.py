@@ -18,8 +18,8 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def until(what, seconds=20):
-    """Waits until what() is true. Returns its last value."""
+def until(what, seconds=60):
+    """Waits until what() is true. Returns its last value. Only a hang takes so long."""
     end = time.monotonic() + seconds
     while True:
         value = what()

@@ -423,7 +423,7 @@ def way_out(way, draw, devices):
         it.cells = its
         way.act(it)
         assert until(lambda: not it.differ(lambda cell: wanted_after(way, cell))), it.differ(lambda cell: wanted_after(way, cell))
-        assert until(lambda: it.units.is_quiet() != way.refreshed, 10), 'refreshed' if not way.refreshed else 'not refreshed'
+        assert until(lambda: it.units.is_quiet() != way.refreshed), 'refreshed' if not way.refreshed else 'not refreshed'
         assert not it.differ(lambda cell: wanted_after(way, cell)), it.differ(lambda cell: wanted_after(way, cell))
         if way.state:
             assert until(lambda: f'mode: {way.state}' in it.command('status')), it.command('status')
