@@ -793,14 +793,22 @@ static INLINE const uint32_t *run_few(uint8_t *m, const uint32_t *pc, uint32_t n
 	return pc;
 }
 
+static inline void look_up_four(uint8_t *m, const uint32_t *pc)
+{
+	look_up(m, pc);
+	look_up(m, pc + 4);
+	look_up(m, pc + 8);
+	look_up(m, pc + 12);
+}
+
 static SELDOM const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
-	for (; n >= 4; n -= 4, pc += 16) {
-		look_up(m, pc);
-		look_up(m, pc + 4);
-		look_up(m, pc + 8);
-		look_up(m, pc + 12);
+	for (; HAS_OFTEN && n >= 8; n -= 8, pc += 32) {
+		look_up_four(m, pc);
+		look_up_four(m, pc + 16);
 	}
+	for (; n >= 4; n -= 4, pc += 16)
+		look_up_four(m, pc);
 	return run_few(m, pc, n);
 }
 
