@@ -1020,6 +1020,18 @@ static void operand_expression(struct operand_check *c, struct operand_spot at, 
 	use_expression(c, at, c->expr);
 }
 
+/* R Parts: other tools reset a timer or counter so. */
+static bool said_block(struct operand_check *c, struct operand_spot at, uint32_t id)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
+
+	if (!m || m->kind != MEANING_INSTANCE)
+		return false;
+	operand_refuse(c, DIAG_BLOCK_RESET, at, id, m);
+	return true;
+}
+
 static void check_element(struct operand_check *c, struct operand_spot at,
 			  const struct cell *cell)
 {
@@ -1037,6 +1049,8 @@ static void check_element(struct operand_check *c, struct operand_spot at,
 			   operand_read(c, at, cell->operand));
 		break;
 	case OPND_BOOL_W:
+		if (said_block(c, at, cell->operand))
+			break;
 		check_bool(c, at, cell->operand,
 			   operand_write(c, at, cell->operand,
 				      row->next == OP_ST));

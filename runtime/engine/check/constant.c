@@ -112,6 +112,10 @@ bool il_report_constant(struct fn_check *c, const struct il_line *line,
 			 row->word, number);
 		return il_report(c, line, DIAG_WRONG_CONSTANT, text);
 	}
+	if (to == IEC_BOOL && line->kind == IL_FN && line->word >= FN_GT && line->word <= FN_NE) {
+		snprintf(text, sizeof(text), "%s", number);
+		return il_report(c, line, DIAG_COMPARED_TWICE, text);
+	}
 	while (!(kind[k].class & row->class))
 		k++;
 	snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", number, row->word,

@@ -535,6 +535,10 @@ static enum diag_id say_dialect(const char *wanted, char *out, size_t size)
 	struct dialect found;
 	char addr[40], other[40] = "";
 
+	if (dialect_is_data_block(wanted, strlen(wanted))) {
+		snprintf(out, size, "%s", wanted);
+		return DIAG_DATA_BLOCK;
+	}
 	if (!dialect_find(wanted, strlen(wanted), 0, &found))
 		return DIAG_COUNT;
 	iec_addr_print(found.addr, addr, sizeof(addr));

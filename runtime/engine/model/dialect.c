@@ -315,6 +315,34 @@ bool dialect_find(const char *text, size_t len, int index, struct dialect *out)
 	return false;
 }
 
+bool dialect_is_data_block(const char *text, size_t len)
+{
+	const char *at = text, *end = text + len;
+
+	if (len < 7 || !ascii_same(at, "DB", 2))
+		return false;
+	at += 2;
+	if (number(&at, end, 10) < 0 || end - at < 5 || !ascii_same(at, ".DB", 3) || !strchr("XBWDxbwd", at[3]))
+		return false;
+	at += 4;
+	if (number(&at, end, 10) < 0)
+		return false;
+	return at == end || (*at++ == '.' && number(&at, end, 10) >= 0 && at == end);
+}
+
+const char *dialect_pin(const char *text, size_t len, int index)
+{
+	static const struct { const char *theirs, *ours; } pins[] = {
+		{ "DN", "Q" }, { "DONE", "Q" }, { "ACC", "ET" }, { "ACC", "CV" }, { "PRE", "PT" }, { "PRE", "PV" },
+		{ "EN", "IN" }, { "EN", "CU" }, { "EN", "CD" }, { "RES", "R" }, { "RESET", "R" }, { "CNT", "CV" }, { "TT", "" }, { "UN", "" }, { "OV", "" },
+	};
+
+	for (size_t i = 0; i < COUNT(pins); i++)
+		if (ascii_is(pins[i].theirs, text, len) && index-- == 0)
+			return pins[i].ours;
+	return NULL;
+}
+
 static bool is_word(char c)
 {
 	return ascii_digit(c) || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') || c == '_';

@@ -79,6 +79,29 @@ static bool refuse(struct parser *parser, enum diag_id id)
 			(int)(len < LIMIT_ARG ? len : LIMIT_ARG), token->text);
 }
 
+/* What the last bracket that is open stands for. */
+static int innermost(const struct parser *parser)
+{
+	for (int i = parser->pending_count - 1; i >= 0; i--)
+		if (parser->pending[i] <= OPERATOR_CALL)
+			return parser->pending[i];
+	return -1;
+}
+
+/* ( is not closed before the present token. */
+static bool refuse_open(struct parser *parser)
+{
+	const struct token *token = &parser->lex->token;
+	const size_t len = token->kind == TOKEN_NEWLINE ? 0 : token->len;
+	struct diag place = *parser->place;
+
+	place.id = DIAG_BAD_EXPRESSION;
+	if (parser->shift >= 0)
+		place.column = token->column + parser->shift;
+	return diag_add(parser->diags, place, "%.*s" DIAG_AND ")", (int)(len < LIMIT_ARG / 2 ? len : LIMIT_ARG / 2),
+			token->text);
+}
+
 static bool add_node(struct parser *parser, struct expr_node node)
 {
 	struct expr *out = parser->out;
@@ -691,6 +714,8 @@ static bool parse(struct parser *parser)
 		    !push(parser, which))
 			return false;
 	}
+	if (parser->opened && innermost(parser) == OPERATOR_PAREN)
+		return refuse_open(parser);
 	if (parser->opened || (!parser->alone && lex_is(parser->lex, "(")))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (!reduce_to(parser, 1))

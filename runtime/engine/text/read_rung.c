@@ -7,6 +7,7 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 #include "engine/model/loop.h"
 
@@ -279,6 +280,8 @@ static bool read_word(struct reader *r, struct cell *cell)
 
 	const struct word_row *row = words_row(&r->project->words, word);
 
+	if (word == WORD_COUNT && (ascii_is("RES", token.text, token.len) || ascii_is("RST", token.text, token.len)))
+		return reader_fail_token(r, DIAG_BLOCK_RESET);
 	if (word == WORD_COUNT || row->kind == WORD_STRUCT)
 		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
 
