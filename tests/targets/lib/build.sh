@@ -275,6 +275,28 @@ values_modules() { # ABI BASE KARCH CROSS
 	depmod -b "$PWD" "$1"
 }
 
+# modules ARCH FLAVOUR MODULE... : modules of the kernel of `stock`, numbered in the order of loading.
+modules() {
+	debs "$1" bookworm "$dest/tree"
+	[ ! -s "$dest/.lacking" ] || return 0
+	abi=$(APT_CONFIG=$apt/conf apt-cache show "linux-image-$2" |
+		sed -n 's/^Depends: .*linux-image-\([^ ,]*\).*/\1/p' | sort -V | tail -n 1)
+	debs "$1" bookworm "$dest/tree" "linux-image-$abi" || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	depmod -b "$dest/tree" "$abi" || return
+	shift 2
+	mkdir "$dest/modules"
+	n=50
+	for module in $(for wanted; do
+			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
+		done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }'); do
+		cp "$module" "$dest/modules/$n-$(basename "$module")" || return
+		n=$((n + 1))
+	done
+	rm -r "$dest/tree"
+	[ "$n" -gt 50 ]
+}
+
 # iio ARCH TRIPLET : libiio with its header, and in guest/lib what it is linked with.
 iio() {
 	debs "$1" bookworm "$dest/tree" libiio-dev libiio0 libusb-1.0-0 libudev1 libavahi-client3 libavahi-common3 \
