@@ -737,11 +737,14 @@ tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
 DEB_ARCH ?= amd64 arm64 armhf
 deb: ## packages of Debian in build/deb/: rungboard-runtime and rungboard-editor for amd64, arm64 and armhf
 	packaging/deb.sh $(BUILD)/deb $(DEB_ARCH)
-# A second time, for the hashes; then into a clean system, which mmdebstrap loads once.
+# A second time, for the hashes; then into a clean system, which mmdebstrap loads once. It boots without a
+# network, so it has the libraries that the runtime needs.
+DEB_ROOT = openssh-server,systemd-sysv,udev,libavahi-client3,libmodbus5,libxml2
+check-deb: root = $(BUILD)/deb/root-$(firstword $(shell echo $(DEB_ROOT) | cksum)).tar
 check-deb: deb $(BUILD)/ladder ## build the packages twice, compare, lintian, boot a clean system, install, connect over ssh from the editor, upgrade, remove; needs root and a network
 	packaging/deb.sh $(BUILD)/deb/again $(DEB_ARCH)
-	test -f $(BUILD)/deb/root.tar || mmdebstrap --variant=minbase --include=openssh-server,systemd-sysv,libavahi-client3,udev bookworm $(BUILD)/deb/root.tar
-	BUILD=$(BUILD) DEB_ARCH='$(DEB_ARCH)' tests/deb/check.py $(BUILD)/deb $(BUILD)/deb/again $(BUILD)/deb/root.tar
+	test -f $(root) || mmdebstrap --variant=minbase --include=$(DEB_ROOT) bookworm $(root)
+	BUILD=$(BUILD) DEB_ARCH='$(DEB_ARCH)' tests/deb/check.py $(BUILD)/deb $(BUILD)/deb/again $(root)
 .PHONY: deb check-deb
 bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh

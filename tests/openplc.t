@@ -148,6 +148,21 @@ def ladders(folder):
     ok(status == 0, 'the result is a program', wrong)
     status, said, _ = run('check', os.path.join(where, 'project.json'))
     ok(status == 0, 'project.json stands for its folder', said)
+    alone = os.path.join(where, 'pous/programs/main.ld')
+    said = trace(alone, '@print Motor', '.', 'Start=1', 'Start=0', 'Stop=1')
+    ok(said.split() == '1 t=10 Motor=0 2 t=20 Motor=1 3 t=30 Motor=1 4 t=40 Motor=0'.split(), 'the file of a ladder runs alone', said)
+    status, said, wrong = run('import', alone, '-o', out)
+    ok(status == 0 and 'open the folder with project.json' in said, 'the report says what it lacks', said + wrong)
+    long = VARIABLES.replace('VAR\n', 'VAR\n' + ''.join(f'\tSpare{i} : INT;\n' for i in range(400)), 1)
+    where = project(folder, {'pous/programs/main.ld': ladder(long, [MOTOR])})
+    status, said, wrong = run('import', os.path.join(where, 'pous/programs/main.ld'), '-o', out)
+    ok(status == 0 and 'POUs: 1, variables: 403' in said, 'also with many variables', said + wrong)
+    with open(alone, encoding='utf-8') as text:
+        source = text.read()
+    with open(alone, 'w', encoding='utf-8') as text:
+        text.write(source[:source.rindex(']')])
+    status, said, wrong = run('check', alone)
+    ok(status == 1 and wrong.count('error') == 1 and 'LD106' not in wrong, 'damaged, it has one message', said + wrong)
 
 
 def texts(folder):

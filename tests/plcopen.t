@@ -169,6 +169,14 @@ trace_is('charts', "\@print One.Runs One.Fast One.Nr1 One.Nr25 Two.Runs\n.\nGo=1
 	"2 t=20 One.Runs=1 One.Nr1=1 One.Nr25=1\n", "3 t=30 One.Nr1=2 One.Nr25=2\n", "4 t=40 One.Nr1=3 One.Nr25=3\n", "5 t=50 One.Fast=1 One.Nr1=4 One.Nr25=4\n",
 	"6 t=60 One.Runs=0 One.Nr1=5 One.Nr25=5\n", "10 t=100 One.Runs=1 One.Nr1=6 One.Nr25=6\n", "11 t=110 One.Nr1=7 One.Nr25=7\n");
 
+# CODESYS declares all flags at once: one that no body names is no news.
+(my $flags = $block) =~ s{(<inputVars>)}{$1 . variable('SFCInit', 'BOOL')}e;
+(undef, $said) = imported('flags', project('', $flags . $plant));
+unlike($said, qr/SFCInit does nothing/, 'SFCInit beside SFCReset, which nothing stores into, is not in the report');
+(my $stored = $plant) =~ s/One\.Move\(SFCReset := TRUE\)/One.Move(SFCReset := TRUE, SFCInit := TRUE)/;
+(undef, $said) = imported('flags', project('', $flags . $stored));
+like($said, qr/lost: Pump_Move: SFCInit does nothing beside SFCReset/, 'one that a body stores into is');
+
 # ---- what Beremiz and OpenPLC have in another way ----
 my $own = '<localVars>' . join('', map { variable(@$_) } ['Loop', 'PID'], ['Out', 'REAL'], ['Held', 'REAL'], ['Long', 'DINT'], ['Wait', 'TIME'], ['Half', 'TIME'], ['Two', 'INT'], ['Wet', 'HYSTERESIS'], ['Slow', 'RAMP']) . '</localVars>';
 my $lines = "Loop(AUTO := TRUE, PV := 3.0, SP := 1.0, X0 := 0.0, KP := 2.0, TR := 10.0, TD := 0.0, CYCLE := T#500ms);\nOut := Loop.XOUT;\nHeld := TIME_TO_REAL(T#1500ms);\n"

@@ -75,11 +75,20 @@ struct canvas_input {
 	char *composed;         /* text so far; NULL: none                     */
 };
 
+/* What the pointer zooms about, until the next allocation. */
+struct canvas_anchor {
+	bool on;
+	double x, y;            /* px of the widget                            */
+	struct canvas_hold hold;
+};
+
 struct canvas_own {
 	struct canvas_state state;
+	struct canvas_anchor anchor;
 	GtkScrollablePolicy policy[2];
 	bool allocating;
 	bool reveal;            /* scroll to the cursor at the next allocation  */
+	double pinched_from;    /* the zoom when two fingers came; 0: there are none */
 	const struct theme *theme; /* NULL: to be looked up                    */
 	struct xref *xref;      /* NULL: not needed since the last change       */
 	struct canvas_question question; /* of the open entry                   */
@@ -288,26 +297,75 @@ void ladder_canvas_set_zoom(LadderCanvas *canvas, double zoom)
 		class_of(canvas)->reveal(canvas);
 }
 
+/* What is at (@x, @y), px of the widget, stays there. */
+static void zoom_about(LadderCanvas *canvas, double zoom, double x, double y)
+{
+	struct canvas_anchor *anchor = &own_of(canvas)->anchor;
+	const graphene_point_t at = canvas_point(canvas, x, y);
+
+	/* Several steps before the sheet is laid out have one meaning. */
+	if (!anchor->on || fabs(anchor->x - x) > 1 || fabs(anchor->y - y) > 1)
+		*anchor = (struct canvas_anchor){ true, x, y, class_of(canvas)->hold ?
+			class_of(canvas)->hold(canvas, at) : (struct canvas_hold){ -1, -1, at.x, at.y } };
+	zoom_to(canvas, zoom);
+}
+
+static void keep_anchor(LadderCanvas *canvas)
+{
+	const struct canvas_anchor *anchor = &own_of(canvas)->anchor;
+	const struct canvas_hold *hold = &anchor->hold;
+	const double zoom = state_of(canvas)->zoom;
+	const graphene_point_t at = class_of(canvas)->held ? class_of(canvas)->held(canvas, hold) :
+				    GRAPHENE_POINT_INIT(hold->x, hold->y);
+
+	gtk_adjustment_set_value(state_of(canvas)->adjustment[0], (double)at.x * zoom - anchor->x);
+	gtk_adjustment_set_value(state_of(canvas)->adjustment[1], (double)at.y * zoom - anchor->y);
+}
+
 static gboolean wheel(GtkEventControllerScroll *controller, double dx, double dy,
 		      LadderCanvas *canvas)
 {
-	const GdkModifierType state = gtk_event_controller_get_current_event_state(
-		GTK_EVENT_CONTROLLER(controller));
+	GtkEventController *any = GTK_EVENT_CONTROLLER(controller);
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(any);
+	GtkNative *native = gtk_widget_get_native(GTK_WIDGET(canvas));
+	double x = 0, y = 0, left, top;
 
 	(void)dx;
 	if (!(state & GDK_CONTROL_MASK))
 		return FALSE;
-	zoom_to(canvas, state_of(canvas)->zoom * (dy < 0 ? 1.1 : 1 / 1.1));
+	/* The event has no position, and its own device none that may be asked for. */
+	gdk_surface_get_device_position(gtk_native_get_surface(native), gdk_seat_get_pointer(
+		gdk_display_get_default_seat(gtk_widget_get_display(GTK_WIDGET(canvas)))), &x, &y, NULL);
+	gtk_native_get_surface_transform(native, &left, &top);
+	gtk_widget_translate_coordinates(GTK_WIDGET(native), GTK_WIDGET(canvas), x - left, y - top, &x, &y);
+	zoom_about(canvas, state_of(canvas)->zoom * (dy < 0 ? 1.1 : 1 / 1.1), x, y);
 	return TRUE;
 }
 
+static void pinch_ended(GtkGesture *gesture, GdkEventSequence *sequence, LadderCanvas *canvas)
+{
+	(void)gesture;
+	(void)sequence;
+	own_of(canvas)->pinched_from = 0;
+}
+
+/* @scale: since the fingers came. */
 static void pinched(GtkGestureZoom *gesture, double scale, LadderCanvas *canvas)
 {
 	static const double least = 0.05;
-	const double to = state_of(canvas)->zoom * scale;
+	struct canvas_own *own = own_of(canvas);
+	const double now = own->state.zoom;
+	double x, y, to;
 
-	(void)gesture;
-	if (to > state_of(canvas)->zoom * (1 + least) || to < state_of(canvas)->zoom * (1 - least))
+	if (own->pinched_from <= 0)
+		own->pinched_from = now;
+	to = own->pinched_from * scale;
+	if (to <= now * (1 + least) && to >= now * (1 - least))
+		return;
+	if (gtk_gesture_is_active(GTK_GESTURE(gesture)) &&
+	    gtk_gesture_get_bounding_box_center(GTK_GESTURE(gesture), &x, &y))
+		zoom_about(canvas, to, x, y);
+	else
 		zoom_to(canvas, to);
 }
 
@@ -564,6 +622,12 @@ static void ladder_canvas_size_allocate(GtkWidget *widget, int width, int height
 		lay_out(canvas, height);
 		class_of(canvas)->reveal(canvas); /* rungs above may have grown */
 	}
+	if (own->anchor.on) {
+		keep_anchor(canvas);
+		lay_out(canvas, height);
+		keep_anchor(canvas);
+	}
+	own->anchor.on = false;
 	if (height != own->cells.height)
 		canvas_cells_later(canvas);
 	own->cells.height = height;
@@ -1157,6 +1221,7 @@ static void add_pointer(LadderCanvas *canvas)
 	g_signal_connect(scroll, "scroll", G_CALLBACK(wheel), canvas);
 	gtk_event_controller_set_propagation_phase(scroll, GTK_PHASE_CAPTURE);
 	gtk_widget_add_controller(widget, scroll);
+	g_signal_connect(pinch, "end", G_CALLBACK(pinch_ended), canvas);
 	g_signal_connect(pinch, "scale-changed", G_CALLBACK(pinched), canvas);
 	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(pinch));
 	gtk_widget_set_has_tooltip(widget, TRUE);

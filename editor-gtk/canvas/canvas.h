@@ -46,6 +46,12 @@ struct canvas_spot {
 	int number, row, col;
 };
 
+/* A point of the sheet that keeps its meaning while the zoom changes the layout. */
+struct canvas_hold {
+	int number, column;       /* of the subclass; -1: none                    */
+	float x, y;               /* px at 100 % there; with a column x is a part of its width */
+};
+
 struct _LadderCanvasClass {
 	GtkWidgetClass parent_class;
 	double least_zoom;
@@ -57,6 +63,9 @@ struct _LadderCanvasClass {
 	graphene_size_t (*size)(LadderCanvas *canvas);
 	/** Lays out a page of @page px. NULL: the size is always known. */
 	void (*lay_out)(LadderCanvas *canvas, double page);
+	/** What is at a point, px at 100 %, and where that is now. NULL: the zoom changes no layout. */
+	struct canvas_hold (*hold)(LadderCanvas *canvas, graphene_point_t at);
+	graphene_point_t (*held)(LadderCanvas *canvas, const struct canvas_hold *hold);
 	/** After scrolling and before drawing. NULL: nothing to do. */
 	void (*scrolled)(LadderCanvas *canvas);
 	void (*paint)(LadderCanvas *canvas, GtkSnapshot *snapshot, const struct theme *theme);

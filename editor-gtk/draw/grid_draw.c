@@ -24,6 +24,7 @@
 #define HATCH 9 /* px from line to line                      */
 #define CORNER 7 /* px of a side of a marked corner           */
 #define CORNER_INSET 3 /* px inside other frames              */
+#define GRID_STROKE 5 /* px                                       */
 
 struct pen {
 	struct nib nib;
@@ -666,6 +667,29 @@ static void draw_found(const struct pen *pen, bool now)
 	}
 }
 
+/* Paper, with just enough to count the columns. */
+static void draw_grid(const struct pen *pen)
+{
+	const struct rung_layout *layout = pen->layout;
+
+	for (int row = 0; pen->scene->state & RUNG_GRID && row < layout->rows; row++)
+		for (int column = 1; column < layout->columns; column++)
+			picture_fill(pen->nib.picture, TOKEN_LINE, 1, layout->column_x[column],
+				     layout->row[row].y + layout->row[row].height - GRID_STROKE, 1, GRID_STROKE);
+}
+
+/* A cell may have several marks: its ground is washed once. */
+static bool is_washed(const struct pen *pen, int mark)
+{
+	const unsigned int washes = MARK_CURSOR | MARK_SELECTED | MARK_DROP;
+	const struct grid_mark *of = pen->scene->mark;
+
+	for (int i = 0; i < mark; i++)
+		if (of[i].row == of[mark].row && of[i].column == of[mark].column && of[i].marks & washes)
+			return false;
+	return of[mark].marks & washes;
+}
+
 static void draw_grounds(const struct pen *pen)
 {
 	for (int i = 0; i < pen->scene->mark_count; i++) {
@@ -676,7 +700,7 @@ static void draw_grounds(const struct pen *pen)
 		graphene_rect_t r = place_of(pen, mark);
 		if (mark->marks & MARK_BLOCKS)
 			draw_hatch(pen, &r);
-		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
+		if (is_washed(pen, i))
 			picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash,
 				     r.origin.x, r.origin.y, r.size.width, r.size.height);
 	}
@@ -880,6 +904,7 @@ static struct pen pen_of(const struct grid_scene *scene, struct picture *picture
 /* All but the ground. */
 static void draw_rung(const struct pen *pen)
 {
+	draw_grid(pen);
 	draw_grounds(pen);
 	draw_found(pen, false);
 	draw_found(pen, true);

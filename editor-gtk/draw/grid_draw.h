@@ -66,6 +66,7 @@ enum rung_state {
 	RUNG_MISSING = 1024, /* the board runs without it                       */
 	RUNG_FOUND = 2048, RUNG_FOUND_NOW = 4096, /* the heading, by a search     */
 	RUNG_ON_GUTTER = 512, /* a sheet, which draws the gutter itself           */
+	RUNG_GRID = 8192,    /* faint strokes where cells meet                  */
 };
 
 struct grid_scene {

@@ -64,6 +64,7 @@ static GArray *marks_of(LadderFbdView *view, int network)
 		push_at(marks, network, found->at, found->marks);
 	}
 	push_at(marks, network, view->link, MARK_SELECTED);
+	push_at(marks, network, view->drop, MARK_DROP);
 	push_at(marks, network, view->cursor, MARK_CURSOR);
 	if (view->stroke.drawn && view->stroke.from.pin >= 0)
 		push_at(marks, network, view->stroke.to, MARK_DROP);
@@ -87,12 +88,13 @@ static unsigned int found_state(LadderFbdView *view, int network)
 static void paint_strip(LadderFbdView *view, GtkSnapshot *snapshot, const struct theme *theme, int network)
 {
 	const struct fbd_strip *strip = &view->strip[network];
+	const int current = view->drop.network >= 0 ? view->drop.network : view->cursor.network;
 	GArray *marks = marks_of(view, network);
 	struct fbd_live live;
 	struct fbd_scene scene = {
 		.layout = strip->layout, .theme = theme,
 		.mark = (const struct fbd_mark *)(void *)marks->data, .mark_count = (int)marks->len,
-		.state = (view->cursor.network == network ? RUNG_CURRENT : 0u) | found_state(view, network) |
+		.state = (current == network ? RUNG_CURRENT : 0u) | found_state(view, network) |
 			 (ladder_document_is_bookmarked(view->canvas->document, view->canvas->pou, network) ?
 			  RUNG_MARKED : 0u),
 		.width = MAX(view->width, canvas_page(LADDER_CANVAS(view)).size.width),
@@ -917,19 +919,30 @@ GdkContentProvider *ladder_fbd_view_drag(int word)
 	return gdk_content_provider_new_typed(LADDER_TYPE_BOX_WORD, &word);
 }
 
+static void drop_at(LadderFbdView *view, struct fbd_pos at)
+{
+	if (fbd_is_same(at, view->drop))
+		return;
+	view->drop = at;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
 static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y, LadderFbdView *view)
 {
 	enum fbd_part part;
-	struct fbd_pos at;
 
 	(void)target;
 	fbd_fresh(view);
 	if (!fbd_pou(view) || ladder_document_is_fixed(view->canvas->document))
 		return 0;
-	at = at_point(view, x, y, &part);
-	if (at.network >= 0 && !fbd_is_same(at, view->cursor))
-		fbd_go(view, at, false);
-	return at.network >= 0 || view->count == 0 ? GDK_ACTION_COPY : 0;
+	drop_at(view, at_point(view, x, y, &part));
+	return view->drop.network >= 0 || view->count == 0 ? GDK_ACTION_COPY : 0;
+}
+
+static void drop_leave(GtkDropTarget *target, LadderFbdView *view)
+{
+	(void)target;
+	drop_at(view, FBD_NOWHERE);
 }
 
 static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y, LadderFbdView *view)
@@ -938,6 +951,9 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 
 	if (!drop_motion(target, x, y, view))
 		return FALSE;
+	if (view->drop.network >= 0)
+		fbd_go(view, view->drop, false);
+	drop_at(view, FBD_NOWHERE);
 	ladder_fbd_view_put(view, (enum word)word);
 	return TRUE;
 }
@@ -947,6 +963,7 @@ static void take_drops(LadderFbdView *view)
 	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_BOX_WORD, GDK_ACTION_COPY);
 
 	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
+	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);
 	g_signal_connect(target, "drop", G_CALLBACK(dropped), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(target));
 }
@@ -1162,7 +1179,7 @@ static void ladder_fbd_view_init(LadderFbdView *view)
 {
 	view->canvas = canvas_state(LADDER_CANVAS(view));
 	view->found = g_array_new(FALSE, FALSE, sizeof(struct fbd_problem));
-	view->cursor = view->link = FBD_NOWHERE;
+	view->cursor = view->link = view->drop = FBD_NOWHERE;
 	view->stroke = (struct fbd_stroke){ .from = FBD_NOWHERE, .to = FBD_NOWHERE };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct fbd_problem));
 	take_drops(view);

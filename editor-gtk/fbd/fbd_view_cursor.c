@@ -91,7 +91,7 @@ void fbd_make_sheet(LadderFbdView *view)
 	view->of = ladder_document_ladder(view->canvas->document);
 	lay_out_all(view);
 	g_array_set_size(view->found, 0);
-	view->link = view->stroke.from = view->stroke.to = FBD_NOWHERE;
+	view->link = view->drop = view->stroke.from = view->stroke.to = FBD_NOWHERE;
 	view->stroke.drawn = false;
 	g_array_set_size(view->marks, 0);
 	view->cursor = fitted(view, view->cursor);

@@ -47,6 +47,7 @@ struct _LadderFbdView {
 	GArray *marks;           /* struct fbd_problem                          */
 	GArray *found;           /* struct fbd_problem: hits of a search         */
 	struct fbd_pos link;      /* a pin that waits for another one            */
+	struct fbd_pos drop;      /* where a word of the palette would go          */
 	struct fbd_stroke stroke;
 	struct live_map *map;    /* of the running program; NULL: none           */
 	LadderSim *results;      /* of a board: has those that no variable has; NULL: none */

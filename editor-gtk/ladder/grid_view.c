@@ -21,6 +21,38 @@ static guint statements_wanted;
 #define HIDDEN_DOT   3  /* px of a dot for hidden elements                       */
 #define HIDDEN_ABOVE 12 /* px from the wire up to the dots                       */
 
+/* Rails and columns follow the width of the page, a folded rung has other lines: a cell keeps its meaning. */
+static struct canvas_hold hold(LadderCanvas *canvas, graphene_point_t at)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const int rung = strips_at(view, at.y);
+	const struct strip *strip = rung < 0 ? NULL : strips_get(view, rung);
+	const struct rung_layout *layout = strip ? strip->layout : NULL;
+	const graphene_point_t laid = layout ? strip_laid(view, strip, at) : at;
+	int column = 0;
+
+	if (!layout || laid.x < RUNG_LEFT || laid.y > layout->height)
+		return (struct canvas_hold){ layout ? rung : -1, -1, laid.x, laid.y };
+	while (column + 1 < layout->columns && laid.x >= layout->column_x[column + 1])
+		column++;
+	return (struct canvas_hold){ rung, column, (laid.x - layout->column_x[column]) / layout->column_width[column],
+				     laid.y };
+}
+
+static graphene_point_t held(LadderCanvas *canvas, const struct canvas_hold *hold)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const struct strip *strip = hold->number >= 0 && hold->number < sheet_rungs(view) ?
+				    strips_get(view, hold->number) : NULL;
+	float x = hold->x;
+
+	if (!strip || !strip->layout)
+		return GRAPHENE_POINT_INIT(hold->x, hold->y);
+	if (hold->column >= 0 && hold->column < strip->layout->columns)
+		x = strip->layout->column_x[hold->column] + hold->x * strip->layout->column_width[hold->column];
+	return strip->fold ? strip_shown(view, strip, x, hold->y) : GRAPHENE_POINT_INIT(x, strip->y + hold->y);
+}
+
 static graphene_size_t size(LadderCanvas *canvas)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
@@ -120,7 +152,7 @@ static unsigned int marks_state(LadderGridView *view, int rung)
 	int first, last;
 
 	if (rung == view->cursor.at.rung)
-		state |= RUNG_CURRENT;
+		state |= RUNG_CURRENT | (view->cursor.moved ? RUNG_GRID : 0u);
 	if (cursor_rungs(view, &first, &last) && rung >= first && rung <= last)
 		state |= RUNG_SELECTED;
 	return state;
@@ -683,6 +715,7 @@ static void press_on(LadderGridView *view, int rung, const struct rung_hit *hit,
 	int here;
 	const graphene_point_t at = sheet_where(view, view->press.x, view->press.y, &here);
 
+	view->cursor.moved = true;
 	if (hit_is_cell(hit)) {
 		cursor_set(view, (struct grid_cursor){ rung, hit->row, hit->column },
 			   state & GDK_SHIFT_MASK);
@@ -1000,6 +1033,8 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->name = N_("Sheet");
 	canvas->size = size;
 	canvas->lay_out = strips_lay_out;
+	canvas->hold = hold;
+	canvas->held = held;
 	canvas->scrolled = draw_ahead_later;
 	canvas->paint = paint;
 	canvas->restyle = restyle;

@@ -381,6 +381,7 @@ bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 	else if (control || !((state & GDK_SHIFT_MASK && step_rungs(view, key, &to)) ||
 			      step(view, key, &to)))
 		return false;
+	view->cursor.moved = true;
 	cursor_set(view, to, state & GDK_SHIFT_MASK);
 	cursor_reveal_head(view);
 	return true;

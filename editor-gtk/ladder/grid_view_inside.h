@@ -26,6 +26,7 @@ struct strip {
 struct sheet_cursor {
 	struct grid_cursor at;
 	struct grid_cursor anchor;  /* other corner of the selection           */
+	bool moved;                 /* by a person: the grid of its rung is drawn */
 	bool selecting;             /* from anchor to at; several rungs: whole ones */
 	guint64 came;               /* place in the history when the cursor came */
 	int came_rung;              /* to this rung; -1: unknown                */

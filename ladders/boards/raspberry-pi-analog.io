@@ -26,8 +26,10 @@ BOARD "Raspberry Pi with converters and expanders"
 %AQW2  pwm  chip=pca9685-pwm channel=0 period=20ms  safe=0
 %AQW4  pwm  chip=pca9685-pwm channel=1 period=20ms  safe=0
 
-# MCP23017 on I2C, sixteen lines
-%IX20.0  gpio  chip=mcp23017 offset=0  pull-up active-low
+# MCP23017 on I2C, sixteen lines. The kernel switches none of its pull-ups on: here a contact closes to 3.3 V, and 10 kOhm
+# lead to ground. So the input is off when a wire breaks, and also when the chip has gone. An output that must become safe
+# is better at a line of the board: docs/field.md
+%IX20.0  gpio  chip=mcp23017 offset=0
 %QX20.0  gpio  chip=mcp23017 offset=8  safe=0
 
 # PCF8574 on I2C, eight lines; an input is one that is written high

@@ -17,6 +17,8 @@
 static const struct import_format *const formats[] = { &ldmicro_format, &openplc_format, &plcopen_format };
 #define FORMATS (sizeof(formats) / sizeof(*formats))
 
+enum { HEAD_MOST = 65536 };
+
 struct other_foreign {
 	struct foreign foreign;   /* first: the pointers are equal             */
 	struct arena arena;
@@ -176,15 +178,18 @@ static size_t read_head(const char *path, char *head, size_t size)
 const char *ladder_import_format(const char *path)
 {
 	const struct import_format *format = format_of(path, NULL, 0);
-	char head[512];
-	size_t len;
+	char *head;
 
 	if (format)
 		return format->name;
 	if (ladder_is_classic(path))
 		return "ClassicLadder";
-	len = read_head(path, head, sizeof(head));
-	format = format_of(path, head, len);
+	/* Declarations may stand before what tells the format. */
+	head = malloc(HEAD_MOST);
+	if (!head)
+		return NULL;
+	format = format_of(path, head, read_head(path, head, HEAD_MOST));
+	free(head);
 	return format ? format->name : NULL;
 }
 

@@ -209,8 +209,13 @@ def test_the_page_of_boards_begins_with_what_works(machine):
     assert DROP_IN in page
     machine.write('/etc/ssh/sshd_config.d/ladder.conf', machine.read(DROP_IN))
     machine.do('systemctl', 'reload', 'ssh')
-    until(lambda: 'a shell' not in subprocess.run([*shlex.split(desk.ssh), 'pi@127.0.0.1', 'echo', 'a shell'], text=True,
-                                                  capture_output=True, check=False, stdin=subprocess.DEVNULL).stdout)
+
+    def no_shell():
+        """While sshd reads its configuration, it takes no connection."""
+        done = subprocess.run([*shlex.split(desk.ssh), 'pi@127.0.0.1', 'echo', 'a shell'], text=True, capture_output=True, check=False,
+                              stdin=subprocess.DEVNULL)
+        return 'a shell' not in done.stdout and 'ssh: connect to host' not in done.stderr
+    until(no_shell, 'no shell')
     assert 'mode: RUN' in shown(status)
 
 
@@ -236,14 +241,17 @@ def test_the_unit_runs_in_its_sandbox(machine):
     install(machine, package('runtime'))
     desk = users(machine)
     desk.push(garage(), 'garage-door')
-    confined(machine.says('cat', f'/proc/{machine.unit("MainPID")}/status'))
-    # The same unit runs the probe.
+    both = machine.says('cat', f'/sys/fs/cgroup{machine.unit("ControlGroup")}/cgroup.procs').split()
+    assert len(both) == 2 and machine.unit('MainPID') in both, both
+    for process in both:
+        confined(machine.says('cat', f'/proc/{process}/status'))
+    # The same unit runs the probe, in place of ladder-guard, from whom systemd hears that the unit has started.
     run('cc', '-std=gnu11', '-static', '-o', machine.path('/usr/bin/probe'), HERE + '/tests/deb/probe.c')
     machine.do('mknod', '-m', '666', '/dev/probe-tun', 'c', '10', '200')
     machine.do('sh', '-c', ': </dev/probe-tun')
     machine.do('systemctl', 'stop', 'ladderd')
-    os.rename(machine.path('/usr/bin/ladderd'), machine.path('/usr/bin/ladderd.kept'))
-    os.rename(machine.path('/usr/bin/probe'), machine.path('/usr/bin/ladderd'))
+    os.rename(machine.path('/usr/bin/ladder-guard'), machine.path('/usr/bin/ladder-guard.kept'))
+    os.rename(machine.path('/usr/bin/probe'), machine.path('/usr/bin/ladder-guard'))
     begin = len(machine.journal())
     machine.do('systemctl', 'start', 'ladderd')
     said = machine.journal()[begin:]

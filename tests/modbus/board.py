@@ -90,6 +90,6 @@ class Board:
             process.send_signal(signal.SIGTERM)
             process.wait(60)
         if kind:
-            for name in ('ladderd.out', 'modbus.out'):
+            for name in filter(lambda it: os.path.exists(f'{self.folder}/{it}'), ('ladderd.out', 'modbus.out')):
                 print(f'# {name}:\n# ' + self.read(name)[-1500:].replace('\n', '\n# '))
         shutil.rmtree(self.folder)

@@ -1007,6 +1007,8 @@ static enum diag_id judge_use(const struct var *var, unsigned int use,
 		     (var->at.area != AREA_NONE &&
 		      iec_area_row(var->at.area)->access == ACCESS_READ);
 
+	if (use & USE_PASSED)
+		use |= USE_WRITTEN;
 	if (use & USE_CALLED || var_is_nameless(var))
 		return DIAG_COUNT;
 	if (!use)

@@ -222,6 +222,12 @@ static const struct meaning *operand_read(struct operand_check *c, struct operan
 	return m;
 }
 
+/* A VAR_IN_OUT may leave alone what it gets: the body itself stores nothing there. */
+static unsigned int use_written(const struct operand_check *c)
+{
+	return c->passing ? USE_PASSED : USE_WRITTEN;
+}
+
 /* Why a program cannot write here; DIAG_COUNT: it can. */
 static enum diag_id write_fault(const struct meaning *m)
 {
@@ -262,7 +268,7 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 			.pou = c->pou, .name = id, .line = place.line, .column = place.column,
 			.rung = place.rung, .row = place.row, .col = place.col });
 	} else {
-		uses_add(c->uses, m, USE_WRITTEN);
+		uses_add(c->uses, m, use_written(c));
 	}
 	return m;
 }
@@ -283,7 +289,7 @@ static void operand_write_array(struct operand_check *c, struct operand_spot at,
 		operand_refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
 		       at, id, m);
 	else
-		uses_add(c->uses, m, USE_WRITTEN);
+		uses_add(c->uses, m, use_written(c));
 }
 
 /* FOR I := 1 TO 10 BY 2: the sign of a constant BY gives the direction. */
@@ -359,8 +365,12 @@ static void operand_change(struct operand_check *c, struct operand_spot at, uint
 
 	if (m && m->kind == MEANING_INSTANCE)
 		uses_add(c->uses, m, USE_READ | USE_WRITTEN);
-	else if (m && operand_write(c, at, id, false))
-		uses_add(c->uses, m, USE_READ);
+	else if (m) {
+		c->passing = true;
+		if (operand_write(c, at, id, false))
+			uses_add(c->uses, m, USE_READ);
+		c->passing = false;
+	}
 }
 
 static void use_whole_array(struct operand_check *c, struct operand_spot at, uint32_t id,
@@ -377,8 +387,7 @@ static void use_whole_array(struct operand_check *c, struct operand_spot at, uin
 		operand_refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
 		       at, id, m);
 	else
-		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) |
-				     (arg->output ? 0u : USE_READ));
+		uses_add(c->uses, m, arg->output ? USE_WRITTEN : in_out ? USE_PASSED | USE_READ : USE_READ);
 }
 
 static void check_args(struct operand_check *c, struct operand_spot at,
@@ -603,7 +612,7 @@ static void use_element(struct operand_check *c, struct operand_spot at, uint32_
 	else if (write && !m->writable)
 		operand_refuse(c, DIAG_WRITE_INPUT, at, id, m);
 	else
-		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
+		uses_add(c->uses, m, write ? use_written(c) : USE_READ);
 }
 
 /* A value, or if @whole an array, too, and if @instance an instance. */
@@ -769,8 +778,11 @@ static void note_place(struct operand_check *c, struct operand_spot at, const st
 			       DIAG_WRONG_TYPE, at, pin->name);
 	else if (value->op == EXPR_NAME && pin->dir == PIN_IN_OUT && !pin->elements)
 		operand_change(c, at, operand_intern(c, value->text, value->len));
-	else if (value->op == EXPR_NAME && pin->dir == PIN_IN_OUT)
+	else if (value->op == EXPR_NAME && pin->dir == PIN_IN_OUT) {
+		c->passing = true;
 		operand_write_array(c, at, operand_intern(c, value->text, value->len));
+		c->passing = false;
+	}
 }
 
 /* A variable or element that a => of a call writes. */
@@ -1188,7 +1200,9 @@ bool check_part(struct operand_check *c, struct expr *expr, enum operand_use use
 	if (use == OPERAND_CALLED) {
 		use_called(c, expr);
 	} else if (use == OPERAND_WRITTEN || use == OPERAND_STORED || use == OPERAND_CHANGED) {
+		c->passing = use == OPERAND_CHANGED;
 		use_place(c, expr, use);
+		c->passing = false;
 	} else {
 		root->whole |= use == OPERAND_WHOLE;
 		use_expression(c, (struct operand_spot){ 0, 0 }, expr);

@@ -28,6 +28,7 @@ struct operand_check {
 	struct diag place;        /* file and POU of statements               */
 	bool condition;           /* of a transition: its coil is TRANSITION   */
 	bool statement;           /* expressions are those of Structured Text  */
+	bool passing;             /* to a VAR_IN_OUT: what is written is USE_PASSED */
 	bool good;                /* false after an error in this rung */
 };
 

@@ -95,7 +95,7 @@ static void map_add(struct uses *uses, struct span at, unsigned int use)
 {
 	if (use & USE_READ)
 		map_set(uses->map.read, at);
-	if (use & USE_WRITTEN)
+	if (use & (USE_WRITTEN | USE_PASSED))
 		map_set(uses->map.written, at);
 }
 
@@ -173,8 +173,8 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
 	/* A member of a union is in the variable itself. */
-	if (meaning->through && use & USE_WRITTEN)
-		use = (meaning->var && meaning->var->target ? use & ~(unsigned)USE_WRITTEN : use) | USE_READ;
+	if (meaning->through && use & (USE_WRITTEN | USE_PASSED))
+		use = (meaning->var && meaning->var->target ? use & ~(unsigned)(USE_WRITTEN | USE_PASSED) : use) | USE_READ;
 	if (meaning->addr.area != AREA_NONE)
 		map_add(uses, span_of(uses, meaning->addr, meaning_reach(meaning)), use);
 	if (!meaning->var)

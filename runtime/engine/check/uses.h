@@ -13,6 +13,7 @@
 enum use {
 	USE_READ = 1,
 	USE_WRITTEN = 2,
+	USE_PASSED = 4,  /* given to a VAR_IN_OUT, which may store into it    */
 	USE_CALLED = 8,
 	USE_TWICE = 16,  /* USE_CALLED a second time                          */
 };
@@ -56,7 +57,7 @@ bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena
 
 /**
  * uses_add - notes one use
- * @use: USE_READ, USE_WRITTEN, USE_CALLED. A write through a pointer only reads the pointer.
+ * @use: USE_READ, USE_WRITTEN, USE_PASSED, USE_CALLED. A write through a pointer only reads the pointer.
  *
  * True when this is the second call of the same instance; later ones are not reported.
  */

@@ -1257,7 +1257,8 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 	if (infer_is_whole_power(&c->in, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
 		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
 	if (!word_is_own(word) && word_is_test(ld_row(c->ld, word)) &&
-	    (args.count > ld_row(c->ld, word)->most_inputs || (c->ld->fbd && !args.more && tests_plain(c, word, &args))))
+	    (args.count > ld_row(c->ld, word)->most_inputs ||
+	     (c->ld->fbd && args.count > 1 && !args.more && tests_plain(c, word, &args))))
 		return call_tests(c, word, &args);
 	if (c->ld->fbd && !args.more && logic_of(word) != OP_COUNT &&
 	    infer_shared(&c->in, ld_row(c->ld, word), &args) == IEC_BOOL)

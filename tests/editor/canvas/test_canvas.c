@@ -9,6 +9,7 @@
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
+#include <math.h>
 #include <string.h>
 
 static const char sample[] =
@@ -59,6 +60,29 @@ static void test_zoom(LadderCanvas *canvas, double least)
 	ladder_canvas_set_zoom(canvas, 1);
 	ladder_canvas_set_zoom(canvas, 1);
 	CHECK(zoomed == 3);
+}
+
+/* The scale of two fingers counts from when they came, however often it is told. */
+static void test_pinch(LadderCanvas *canvas)
+{
+	GListModel *all = gtk_widget_observe_controllers(GTK_WIDGET(canvas));
+	bool pinches = false;
+
+	ladder_canvas_set_zoom(canvas, 1);
+	for (guint i = 0; i < g_list_model_get_n_items(all); i++) {
+		GObject *one = g_list_model_get_item(all, i);
+
+		if (GTK_IS_GESTURE_ZOOM(one)) {
+			pinches = true;
+			for (int step = 1; step <= 10; step++)
+				g_signal_emit_by_name(one, "scale-changed", 1 + 0.1 * step);
+			CHECK(fabs(ladder_canvas_zoom(canvas) - 2) < 0.11);
+		}
+		g_object_unref(one);
+	}
+	CHECK(pinches);
+	g_object_unref(all);
+	ladder_canvas_set_zoom(canvas, 1);
 }
 
 /* The program is exchanged while the entry is open. */
@@ -125,6 +149,7 @@ static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least,
 	WAIT(gtk_widget_get_width(sheet) > 0 && gtk_widget_grab_focus(sheet));
 	CHECK(pango_context_get_base_dir(gtk_widget_get_pango_context(sheet)) == PANGO_DIRECTION_LTR);
 	test_zoom(canvas, least);
+	test_pinch(canvas);
 	test_menu(canvas);
 	test_change(canvas, document, verb);
 }

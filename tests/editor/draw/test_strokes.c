@@ -176,7 +176,7 @@ static void draw_marks(struct sheet *sheet)
 {
 	static const struct grid_mark mark[] = {
 		{ 0, 0, MARK_ERROR | MARK_FORCED }, { 0, 1, MARK_CURSOR },
-		{ 0, 2, MARK_DROP }, { 0, 3, MARK_SELECTED | MARK_WARNING },
+		{ 0, 1, MARK_SELECTED }, { 0, 2, MARK_DROP }, { 0, 3, MARK_SELECTED | MARK_WARNING },
 		{ 0, 5, MARK_TWICE }, { 1, 0, MARK_FOUND | MARK_CHANGED },
 		{ 1, 1, MARK_FOUND | MARK_FOUND_NOW }, { 1, 1, MARK_FOUND }, { 7, 0, MARK_CURSOR }, { 0, 70, MARK_ERROR },
 	};
@@ -187,6 +187,7 @@ static void draw_marks(struct sheet *sheet)
 	draw(sheet, 0, scene, "marks");
 	takes[sheet->rung[0]->columns + 2] = true; /* second row, third column */
 	draw(sheet, 0, (struct grid_scene){ .takes = takes }, "takes");
+	draw(sheet, 0, (struct grid_scene){ .state = RUNG_GRID }, "grid");
 }
 
 /* What is marked may be forced, written twice and wrong at run time: its badges have room between

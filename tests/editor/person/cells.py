@@ -6,6 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from screen import pixels  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -177,5 +178,25 @@ def back(screen):
     editor.shot('cells-back')
 
 
+def paper(screen):
+    """a sheet has no grid until the cursor moves: by a key, or by a click; then the rung of the cursor has a faint one"""
+    faint = (0xe4, 0xe4, 0xe6)
+
+    def seen(editor, rung_y, rows):
+        x, y, _, _ = editor.place(editor.sheet())
+        return [pixels(x + 61 + 98 * column, y + rung_y + 36 + 84 * rows - 4, 1, 3) == [faint] * 3 for column in (2, 3, 4)]
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    two = 36 + 2 * 84 + 9
+    assert not any(seen(editor, 0, 2) + seen(editor, two, 1))
+    editor.keys('Right')
+    until(lambda: all(seen(editor, 0, 2)), 'the grid of rung 1')
+    assert not any(seen(editor, two, 1))
+    editor.click(editor.grid(two + 36 + 46, 0))
+    until(lambda: all(seen(editor, two, 1)), 'the grid of rung 2')
+    assert not any(seen(editor, 0, 2))
+    editor.shot('cells-grid')
+
+
 on_a_coil.quick = 'editor-gtk/edit'
-main([coil, on_a_coil, branch, dragged, back])
+main([coil, on_a_coil, branch, dragged, back, paper])

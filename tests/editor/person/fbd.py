@@ -6,7 +6,8 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, sh, until  # noqa: E402
+from screen import pixels  # noqa: E402
 
 HEAD = '''RUNGBOARD 1
 
@@ -145,6 +146,36 @@ def menu(editor, node, verb):
     """By its accessible action: the places of rows of a menu are not known."""
     editor.click(node, button=3)
     until(lambda: editor.all(verb, 'menu item'), 'the menu')[0].press()
+
+
+def aims(screen):
+    """while a word of the palette is dragged, a dashed frame shows its place; the cursor stays where it is until the drop"""
+    accent = (0x1a, 0x5f, 0xb4)
+    text = FILL.replace(' Fill "Fill the tank while there is room"', '').replace(' "Not used yet"', '')
+    editor = Editor(screen, new_file(screen, text))
+    box = until(lambda: [node for node in editor.all('TON Delay, executed', role='table cell')], 'the timer')[0]
+    editor.click(part(editor, 'Network 2'))
+    at(editor, 'Network 2')
+    x, y, width, height = editor.place(box)
+    edge = lambda: pixels(x - 12, y, 24, height).count(accent)
+
+    def held():
+        return part(editor, 'Network 2').has(23) and edge() >= 8
+    editor.drag(editor.tile('TOF: '), (x + width // 2, y + height - 8), look='fbd-aims', ready=held)
+    until(lambda: [node for node in editor.all('TOF Delay', role='table cell')], 'the box')
+    editor.keys('ctrl+z')
+    until(lambda: not editor.all('TOF Delay', role='table cell'), 'the box to be gone')
+    # Beside the sheet the drop means nothing, and nothing stays marked.
+    editor.click(part(editor, 'Network 2'))
+    at(editor, 'Network 2')
+    start = editor.centre(editor.tile('TOF: '))
+    sh('xdotool', 'mousemove', str(start[0]), str(start[1]), 'mousedown', '1', 'mousemove', str(start[0] + 30), str(start[1]), 'sleep', '0.2',
+       'mousemove', str(x + width // 2), str(y + height - 9), 'sleep', '0.2', 'mousemove', str(x + width // 2), str(y + height - 8))
+    until(held, 'the frame')
+    sh('xdotool', 'mousemove', str(start[0] + 40), str(start[1]), 'sleep', '0.2', 'mousemove', str(start[0] + 41), str(start[1]), 'sleep', '0.2', 'mouseup', '1')
+    until(lambda: edge() == 0, 'the frame to be gone')
+    at(editor, 'Network 2')
+    assert not editor.all('TOF Delay', role='table cell')
 
 
 def by_pointer(screen):
@@ -433,4 +464,4 @@ def left(screen):
 
 
 if __name__ == '__main__':
-    main([by_keyboard, by_pointer, changes, shown, renamed, pasted, completed, left])
+    main([by_keyboard, by_pointer, aims, changes, shown, renamed, pasted, completed, left])

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until, urge  # noqa: E402
+from desk import Editor, main, new_file, sh, until, urge  # noqa: E402
 
 RUNG = '''RUNG "Pump %d"
 (* It runs while its input is on, and from then on by itself.
@@ -80,6 +80,42 @@ def zoomed(screen):
     editor.says('125 %')
     editor.shot('scroll-zoomed-elsewhere')
     until(lambda: not editor.all('Rung 1, NO') and editor.all('Rung 4, NO'), 'rung 4 to stay')
+
+
+WIDE = '''RUNGBOARD 1
+
+PROGRAM Main LD
+%sEND_PROGRAM
+''' % ''.join('RUNG "%d"\n  | %s | COIL %%QX%d.0 |\n' % (rung, ' | '.join('NO %%IX%d.%d' % (rung, bit) for bit in range(8)) + ' | ' +
+                                                    ' | '.join('NO %%MX%d.%d' % (rung, bit) for bit in range(8)), rung)
+            for rung in range(1, 9))
+
+
+def pointed(screen):
+    """zooming by the wheel keeps what is below the pointer there: in long rungs, and in folded ones"""
+    editor = Editor(screen, new_file(screen, WIDE))
+    editor.to_sheet()
+    for fold in (), ('alt+z',):
+        editor.keys(*fold, 'ctrl+Home')
+        until(lambda: editor.all('Rung 2, NO', 'table cell'), 'rung 2')
+        name = '%IX2.4'
+        at = editor.middle(editor.element('Rung 2, NO', name))
+        sh('xdotool', 'mousemove', str(at[0]), str(at[1]), 'sleep', '0.2')
+
+        def stays():
+            found = [node for node in editor.all('Rung 2, NO', 'table cell') if name in node.name]
+            if not found:
+                return False
+            x, y, width, height = editor.place(found[0])
+            # The wire is 46 px of 84 below the top. Folded rungs are as wide as the sheet, whatever the zoom.
+            return (bool(fold) or abs(x + width / 2 - at[0]) <= 3) and abs(y + height * 46 / 84 - at[1]) <= 3
+        for button, zoom in (4, '110 %'), (4, '121 %'), (4, '133 %'), (5, '121 %'), (5, '110 %'):
+            sh('xdotool', 'keydown', 'ctrl', 'click', str(button), 'keyup', 'ctrl')
+            editor.says(zoom)
+            until(stays, 'the element to be below the pointer at ' + zoom)
+            editor.shot('scroll-pointed-' + zoom[:3] + '-'.join(fold))
+        editor.keys('ctrl+0')
+        editor.says('100 %')
 
 
 def head(screen):
@@ -177,4 +213,4 @@ def seen(editor):
     return min(numbers) if numbers else None
 
 
-main([again, zoomed, head, long])
+main([again, zoomed, pointed, head, long])

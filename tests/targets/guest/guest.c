@@ -284,6 +284,7 @@ static const struct {
 	{ 13, "a guard, and a ladderd that dies or freezes", test_guard },
 	{ 14, "starts, and how long they take", test_starts },
 	{ 15, "values by drivers of the kernel", test_values },
+	{ 16, "chips of a shipped map by drivers of the kernel", test_chips },
 };
 
 static void run_all(const char *ladderd)

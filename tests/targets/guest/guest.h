@@ -72,4 +72,5 @@ void test_serial(void);
 void test_guard(void);
 void test_starts(void);
 void test_values(void);
+void test_chips(void);
 #endif

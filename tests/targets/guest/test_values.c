@@ -36,7 +36,7 @@ static const char program[] =
 static const char map[] =
 	"BOARD \"chips\"\n"
 	"%AIW0 hwmon device=lm75 channel=temp1 poll=20ms stale=200ms substitute=1000\n"
-	"%AIW2 w1 sensor=28-0000a1b2c3d4 stale=3s substitute=5000\n"
+	"%AIW2 w1 sensor=28-000005e2fdc3 stale=3s substitute=5000\n"
 	"%AQW0 pwm chip=pca9685-pwm channel=0 period=20ms range=0..10000 at 0%..100% safe=7500\n"
 	"%AQW2 pwm chip=pca9685-pwm channel=9 period=20ms range=0..10000 at 0%..100% safe=hold\n";
 

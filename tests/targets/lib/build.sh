@@ -135,6 +135,18 @@ kernel() {
 	# shellcheck disable=SC2086
 	"$@" -j"$jobs" $targets && (cd "$dest/build" && mv $files ..) && rm -r "$dest/build"
 }
+# um_kernel FRAGMENT FRAGMENT SOURCE... : User Mode Linux with drivers of the tests, built in a tree of links.
+um_kernel() {
+	mkdir -p "$dest/tree/linux" && cp -al "$cache/linux/." "$dest/tree/linux/" || return
+	fragments="$1 $2" masters=$dest/tree/linux/drivers/w1/masters
+	shift 2
+	cp "$@" "$masters/" && sed -i '$a obj-y += w1-sim.o chips-sim.o' "$masters/Makefile" || return
+	# shellcheck disable=SC2030,SC2086
+	(cache=$dest/tree && kernel um '' linux linux $fragments) && rm -r "$dest/tree"
+}
+# drivers of the tests: a bus of 1-wire, and buses of I2C and SPI
+# shellcheck disable=SC2034
+sims='tests/targets/guest/values/w1-sim.c tests/targets/guest/values/chips-sim.c'
 # what a build of a kernel needs here
 # shellcheck disable=SC2034
 KERNEL_NEEDS='gcc=gcc make=make flex=flex bison=bison bc=bc xz=xz-utils perl=perl
@@ -207,8 +219,8 @@ stock_gpio_sim() { # ABI BASE KARCH CROSS
 	depmod -b "$PWD" "$1"
 }
 
-# values ARCH FLAVOUR KARCH CROSS MODULE : drivers of values for the kernel of `stock`: those that Debian builds, and
-# from its source chips on I2C and the memory that stands for them. MODULE is a source of the tests.
+# values ARCH FLAVOUR KARCH CROSS MODULE... : drivers of values for the kernel of `stock`: those that Debian builds, and
+# from its source chips on I2C and the memory that stands for them. A MODULE is a source of the tests.
 values() {
 	debs "$1" bookworm "$dest/tree"
 	[ ! -s "$dest/.lacking" ] || return 0
@@ -219,27 +231,30 @@ values() {
 	[ ! -s "$dest/.lacking" ] || return 0
 	debs "$(dpkg --print-architecture)" bookworm "$dest/tree" linux-kbuild-6.1 || return
 	[ ! -s "$dest/.lacking" ] || return 0
-	cp "$5" "$dest/tree/w1-sim.c"
-	(cd "$dest/tree" && values_modules "$abi" "${abi%-"$2"}" "$3" "$4") || return
+	flavour=$2 karch=$3 cross=$4
+	shift 4
+	mkdir "$dest/tree/chips" && cp "$@" "$dest/tree/chips" || return
+	(cd "$dest/tree" && values_modules "$abi" "${abi%-"$flavour"}" "$karch" "$cross") || return
 	mkdir "$dest/modules"
 	n=30
-	for module in $(for wanted in i2c-dev i2c-stub pwm-pca9685 lm75 w1_therm w1-sim ti-ads1015 iio-dummy; do
+	for module in $(for wanted in i2c-dev i2c-stub pwm-pca9685 lm75 w1_therm w1-sim ti-ads1015 iio-dummy chips-sim tmp102 mcp320x mcp4725 \
+			pinctrl-mcp23s08_i2c gpio-pcf857x; do
 			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
 		done | awk '$1 == "insmod" && $2 !~ "/configfs.ko" && !seen[$2]++ { print $2 }'); do
 		cp "$module" "$dest/modules/$n-$(basename "$module")" || return
 		n=$((n + 1))
 	done
 	rm -r "$dest/tree"
-	ls "$dest/modules"/*-w1-sim.ko
+	ls "$dest/modules"/*-w1-sim.ko "$dest/modules"/*-chips-sim.ko "$dest/modules"/*-mcp4725.ko
 }
 values_modules() { # ABI BASE KARCH CROSS
 	headers=$PWD/usr/src/linux-headers-$1
-	mkdir chips
 	tar -xJf usr/src/linux-source-6.1.tar.xz -C chips --transform 's|.*/||' \
 		linux-source-6.1/drivers/i2c/i2c-stub.c linux-source-6.1/drivers/pwm/pwm-pca9685.c \
 		linux-source-6.1/drivers/iio/industrialio-sw-device.c linux-source-6.1/drivers/iio/industrialio-configfs.c \
-		linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.c linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.h || return
-	mv w1-sim.c chips/
+		linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.c linux-source-6.1/drivers/iio/dummy/iio_simple_dummy.h \
+		linux-source-6.1/drivers/gpio/gpio-pcf857x.c linux-source-6.1/drivers/pinctrl/pinctrl-mcp23s08.c \
+		linux-source-6.1/drivers/pinctrl/pinctrl-mcp23s08.h linux-source-6.1/drivers/pinctrl/pinctrl-mcp23s08_i2c.c || return
 	sed -i "s|^include /usr/src/|include $PWD/usr/src/|" "$headers/Makefile"
 	for folder in scripts tools; do
 		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "$headers/$folder"
@@ -251,12 +266,35 @@ values_modules() { # ABI BASE KARCH CROSS
 	sed -i '/^static int iio_dummy_write_raw/,/^}/s/if (chan->output == 0)/if (!chan->output) { st->single_ended_adc_val = val; return 0; } if (0)/' \
 		chips/iio_simple_dummy.c
 	mv chips/iio_simple_dummy.c chips/iio-dummy.c
-	printf '%s\n' 'obj-m := i2c-stub.o pwm-pca9685.o w1-sim.o industrialio-sw-device.o industrialio-configfs.o iio-dummy.o' \
+	printf '%s\n' 'obj-m := i2c-stub.o pwm-pca9685.o w1-sim.o industrialio-sw-device.o industrialio-configfs.o iio-dummy.o \
+			chips-sim.o gpio-pcf857x.o pinctrl-mcp23s08.o pinctrl-mcp23s08_i2c.o' \
 		'ccflags-y := -DCONFIG_CONFIGFS_FS' >chips/Kbuild
 	make -s -C "$headers" M="$PWD/chips" ARCH="$3" CROSS_COMPILE="$4" modules || return
 	mkdir -p "lib/modules/$1/extra"
 	cp chips/*.ko "lib/modules/$1/extra/"
 	depmod -b "$PWD" "$1"
+}
+
+# modules ARCH FLAVOUR MODULE... : modules of the kernel of `stock`, numbered in the order of loading.
+modules() {
+	debs "$1" bookworm "$dest/tree"
+	[ ! -s "$dest/.lacking" ] || return 0
+	abi=$(APT_CONFIG=$apt/conf apt-cache show "linux-image-$2" |
+		sed -n 's/^Depends: .*linux-image-\([^ ,]*\).*/\1/p' | sort -V | tail -n 1)
+	debs "$1" bookworm "$dest/tree" "linux-image-$abi" || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	depmod -b "$dest/tree" "$abi" || return
+	shift 2
+	mkdir "$dest/modules"
+	n=50
+	for module in $(for wanted; do
+			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
+		done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }'); do
+		cp "$module" "$dest/modules/$n-$(basename "$module")" || return
+		n=$((n + 1))
+	done
+	rm -r "$dest/tree"
+	[ "$n" -gt 50 ]
 }
 
 # iio ARCH TRIPLET : libiio with its header, and in guest/lib what it is linked with.

@@ -23,7 +23,7 @@ virt() {
 	once "gpiod1-$1" gpiod "$1" "$triplet" bookworm
 	once "gpiod2-$1" gpiod "$1" "$triplet" bookworm-backports
 	once "cyclictest-$1" cyclictest "$1" "$triplet"
-	[ -z "${VALUES-}" ] || once "values-$1" values "$1" "$2" "$3" "$4-" tests/targets/guest/values/w1-sim.c
+	[ -z "${VALUES-}" ] || once "values-$1" values "$1" "$2" "$3" "$4-" $sims
 	[ -z "${VALUES-}" ] || once "iio-$1" iio "$1" "$triplet"
 
 	programs CROSS="$triplet-" -- $drivers

@@ -4,6 +4,7 @@
  *
  * It becomes a project in PLCopen XML, as it does when OpenPLC Editor compiles it, and
  * exchange/plcopen/ reads that. Each line of the XML remembers its place in the project.
+ * The file of a drawn POU opens alone, too, without the other files of its project.
  */
 #include "engine/exchange/import.h"
 #include "engine/exchange/openplc/json.h"
@@ -917,16 +918,21 @@ static void tell_others(struct openplc *c, const struct json *data)
 
 /* ---- the whole ---- */
 
+static void put_header(struct openplc *c, const char *name)
+{
+	w_put(&c->w, "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\" xmlns:xhtml=\"http://www.w3.org/1999/xhtml\">\n"
+	      "<fileHeader companyName=\"\" productName=\"OpenPLC Editor\" productVersion=\"4\" creationDateTime=\"2024-01-01T00:00:00\"/>\n"
+	      "<contentHeader name=\"%s\"><coordinateInfo><fbd><scaling x=\"1\" y=\"1\"/></fbd><ld><scaling x=\"1\" y=\"1\"/></ld>"
+	      "<sfc><scaling x=\"1\" y=\"1\"/></sfc></coordinateInfo></contentHeader>\n<types>\n<dataTypes>\n",
+	      xml_written(c, name));
+}
+
 static bool put_project(struct openplc *c, const struct json *project)
 {
 	const struct json *data = json_get(project, "data");
 	struct writing *w = &c->w;
 
-	w_put(w, "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\" xmlns:xhtml=\"http://www.w3.org/1999/xhtml\">\n"
-	      "<fileHeader companyName=\"\" productName=\"OpenPLC Editor\" productVersion=\"4\" creationDateTime=\"2024-01-01T00:00:00\"/>\n"
-	      "<contentHeader name=\"%s\"><coordinateInfo><fbd><scaling x=\"1\" y=\"1\"/></fbd><ld><scaling x=\"1\" y=\"1\"/></ld>"
-	      "<sfc><scaling x=\"1\" y=\"1\"/></sfc></coordinateInfo></contentHeader>\n<types>\n<dataTypes>\n",
-	      xml_written(c, json_text(json_get(project, "meta"), "name")));
+	put_header(c, json_text(json_get(project, "meta"), "name"));
 	for (const struct json *type = json_items(json_get(data, "dataTypes")); type; type = type->next)
 		put_data_type(c, type);
 	w_put(w, "</dataTypes>\n<pous>\n");
@@ -999,39 +1005,6 @@ static bool convert(struct openplc *c)
 	return true;
 }
 
-static bool read(struct import *import)
-{
-	struct openplc c = { .import = import };
-	const char *slash = strrchr(import->path, '/'), *end;
-	const struct json *project = NULL;
-	struct diag place = { .id = DIAG_NO_MEMORY, .file = import->path };
-	int line = 1;
-	size_t len = 0;
-	char *text = NULL;
-
-	writing_init(&c.w, import->arena, import->report);
-	c.root = import->bytes ? slash ? w_text(&c.w, "%.*s", (int)(slash - import->path), import->path) : "." :
-		 import->path;
-	c.own = import->bytes ? "" : "project.json";
-	c.w.at = (struct foreign_place){ c.own, 0 };
-	if (!import->bytes)
-		text = file_read(w_text(&c.w, "%s/project.json", c.root), LIMIT_TEXT, &len, import->diags);
-	if (!import->bytes && !text)
-		return false;
-	if (import->bytes)
-		len = import->len;
-	project = json_read(import->arena, text ? text : import->bytes, len, &line, &end);
-	free(text);
-	c.w.at.line = line;
-	if (!project)
-		return openplc_fail(&c, DIAG_OPENPLC_JSON, "");
-	if (!put_project(&c, project))
-		return false;
-	if (!import->arena->failed && convert(&c))
-		return true;
-	return import->arena->failed && diag_add(import->diags, place, "%s", "");
-}
-
 /* ---- recognising a project ---- */
 
 static bool has(const char *bytes, size_t len, const char *word)
@@ -1044,6 +1017,87 @@ static bool has(const char *bytes, size_t len, const char *word)
 	return false;
 }
 
+/* A row of kinds if it is the file of one drawn POU: the drawing begins with its name. Else -1. */
+static int drawn_kind(const char *text, size_t len, const char **ending)
+{
+	const char *end = text + len, *brace = text;
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	if (lex_next(&lex) != TOKEN_NAME)
+		return -1;
+	for (int kind = 0; kind < 3; kind++) {
+		if (!lex_is(&lex, kinds[kind][2]))
+			continue;
+		while ((brace = memchr(brace, '{', (size_t)(end - brace)))) {
+			const char *at = ++brace;
+
+			while (at < end && strchr(" \t\r\n", *at))
+				at++;
+			if (end - at < 7 || memcmp(at, "\"name\"", 6) != 0)
+				continue;
+			*ending = has(at, (size_t)(end - at), "\"rungs\"") ? "ld" : "fbd";
+			return has(at, (size_t)(end - at), "\"rung") ? kind : -1;
+		}
+		return -1;
+	}
+	return -1;
+}
+
+/* The other POUs, the tasks and the global variables stand in files that nobody named. */
+static bool put_drawn_pou(struct openplc *c, const char *text, size_t len, int kind, const char *ending)
+{
+	put_header(c, "");
+	w_put(&c->w, "</dataTypes>\n<pous>\n");
+	if (!utf8_valid(text, len, NULL))
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, "UTF-8");
+	if (!read_pou(c, text, len, kind, ending))
+		return false;
+	c->w.at.line = 0;
+	w_put(&c->w, "</pous>\n</types>\n<instances><configurations/></instances>\n</project>\n");
+	w_tell(&c->w, REPORT_LOST, "the tasks, global variables and other POUs of its project are in other files: "
+	       "open the folder with project.json");
+	return !c->failed;
+}
+
+static bool read(struct import *import)
+{
+	struct openplc c = { .import = import };
+	const char *slash = strrchr(import->path, '/'), *end, *ending = "";
+	const int kind = import->bytes ? drawn_kind(import->bytes, import->len, &ending) : -1;
+	const struct json *project = NULL;
+	struct diag place = { .id = DIAG_NO_MEMORY, .file = import->path };
+	int line = 1;
+	size_t len = 0;
+	char *text = NULL;
+
+	writing_init(&c.w, import->arena, import->report);
+	c.root = import->bytes ? slash ? w_text(&c.w, "%.*s", (int)(slash - import->path), import->path) : "." :
+		 import->path;
+	c.own = import->bytes ? "" : "project.json";
+	c.w.at = (struct foreign_place){ c.own, 0 };
+	if (kind >= 0 && !put_drawn_pou(&c, import->bytes, import->len, kind, ending))
+		return false;
+	if (!import->bytes)
+		text = file_read(w_text(&c.w, "%s/project.json", c.root), LIMIT_TEXT, &len, import->diags);
+	if (!import->bytes && !text)
+		return false;
+	if (import->bytes)
+		len = import->len;
+	if (kind < 0) {
+		project = json_read(import->arena, text ? text : import->bytes, len, &line, &end);
+		free(text);
+		c.w.at.line = line;
+		if (!project)
+			return openplc_fail(&c, DIAG_OPENPLC_JSON, "");
+		if (!put_project(&c, project))
+			return false;
+	}
+	if (!import->arena->failed && convert(&c))
+		return true;
+	return import->arena->failed && diag_add(import->diags, place, "%s", "");
+}
+
 static bool is_project(const void *bytes, size_t len)
 {
 	const char *text = bytes;
@@ -1052,6 +1106,13 @@ static bool is_project(const void *bytes, size_t len)
 	while (at < len && text[at] && strchr(" \t\r\n", text[at]))
 		at++;
 	return at < len && text[at] == '{' && has(text, len, "\"plc-project\"");
+}
+
+static bool is_own(const void *bytes, size_t len)
+{
+	const char *ending;
+
+	return is_project(bytes, len) || drawn_kind(bytes, len, &ending) >= 0;
 }
 
 static bool is_folder(const char *path)
@@ -1068,4 +1129,4 @@ static bool is_folder(const char *path)
 	return is_project(head, got);
 }
 
-const struct import_format openplc_format = { "OpenPLC Editor", is_project, is_folder, read, true };
+const struct import_format openplc_format = { "OpenPLC Editor", is_own, is_folder, read, true };

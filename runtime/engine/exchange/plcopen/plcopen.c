@@ -316,6 +316,7 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 	c->types = xml_look(types, "dataTypes");
 	plc_find_own(c, project);
 	plc_library(c, project, xml_look(types, "pous"));
+	plc_note_init(c, project);
 	plc_charts_apart(c, xml_look(types, "pous"));
 	plc_find_pous(c, xml_child(types, "pous"));
 	if (plc_own_project(c, project))

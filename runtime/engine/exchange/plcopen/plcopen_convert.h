@@ -52,6 +52,7 @@ struct plcopen {
 	struct { const char **name; int count; } globals; /* VAR_EXTERNAL that the file declares nowhere */
 	struct { const char **name; int count; } made; /* instances that the import adds to this POU */
 	struct plc_part added;  /* actions that the import adds to this POU       */
+	bool uses_init;         /* a body of the file names SFCInit                */
 	struct { int types, pous, variables, rungs, networks, steps, own; } count;
 };
 
@@ -113,6 +114,9 @@ bool plc_is_action(const struct plcopen *c, const char *name);
 void plc_find_short_calls(struct plcopen *c);
 /** plc_plain_calls - @text with calls of actions that have no inputs. */
 const char *plc_plain_calls(struct plcopen *c, const char *text);
+
+/** plc_note_init - finds out c->uses_init, before the import adds text of its own. */
+void plc_note_init(struct plcopen *c, const struct xml_node *project);
 
 /* ---- plcopen_apart.c ---- */
 /** plc_charts_apart - makes function blocks of actions that are charts. */

@@ -548,6 +548,30 @@ static void put_items(struct chart *chart)
 	plc_part_append(c, &before);
 }
 
+static bool has_init(const char *text)
+{
+	static const char flag[] = "SFCInit";
+	const size_t size = sizeof(flag) - 1;
+
+	for (size_t left = text ? strlen(text) : 0; left >= size; left--, text++)
+		if (ascii_same(text, flag, size))
+			return true;
+	return false;
+}
+
+/* CODESYS declares all flags of its charts at once. One that no body names is no loss. */
+void plc_note_init(struct plcopen *c, const struct xml_node *project)
+{
+	for (const struct xml_node *node = project; node && !c->uses_init; node = xml_next(node)) {
+		const struct xml_attribute *each = xml_is(node, "variable") && node->parent &&
+			strstr(node->parent->name, "Vars") ? NULL : node->attribute;
+
+		for (; each; each = each->next)
+			c->uses_init |= has_init(each->value);
+		c->uses_init |= has_init(node->text);
+	}
+}
+
 /* While SFCReset or SFCInit is TRUE, a chart of CODESYS is in its first step. */
 static void put_flags(struct plcopen *c, const struct plcopen_pou *pou)
 {
@@ -557,7 +581,7 @@ static void put_flags(struct plcopen *c, const struct plcopen_pou *pou)
 	if (!type || !type->first || !xml_is(type->first, "BOOL") || xml_is(flag->parent, "externalVars"))
 		return;
 	plc_put(c, "  CONTROL(RESET := %s);\n", xml_value(flag, "name"));
-	if (reset && init)
+	if (reset && init && c->uses_init)
 		plc_report(c, REPORT_LOST, init, "%s", report_said(c->report,
 			   REPORTED("SFCInit does nothing beside SFCReset")));
 }

@@ -9,7 +9,7 @@ cases=$done.new # renamed at the end, so that it is complete
 guest=tests/targets/guest
 rm -rf "$cases"
 mkdir -p "$cases"
-cp ladders/boards/s3c44b0x.io "$cases"
+cp ladders/boards/s3c44b0x.io ladders/boards/raspberry-pi-analog.io "$cases"
 : >"$cases/plans"
 
 build_image() { # FILE.rung

@@ -5,7 +5,7 @@
     field.py BUILD KILLS [TEST]
 
 Converters are the dummy of Industrial I/O, and chips whose registers are memory (i2c-stub): a test writes what a chip would
-measure, and reads what it would drive. Lines are those of gpio-sim. Units of Modbus are those of pymodbus. Times are the guest's.
+measure, and reads what it would drive. Chips of chips-sim.c and w1-sim.c are on simulated buses. Lines are those of gpio-sim. Units of Modbus are those of pymodbus. Times are the guest's.
 """
 import ctypes
 import fcntl
@@ -131,6 +131,26 @@ class Chip:
         os.close(self.fd)
 
 
+class Bus:
+    """A bus of chips-sim.c or w1-sim.c: parameters of a module are the other side of its chips."""
+
+    def __init__(self, module, number=None):
+        self.sys, self.bus = f'/sys/module/{module}/parameters/', f'/sys/bus/i2c/devices/i2c-{number}'
+
+    def there(self, driver, address):
+        put(self.bus + '/new_device', f'{driver} {address:#x}')
+
+    def gone(self, address):
+        put(self.bus + '/delete_device', f'{address:#x}')
+
+    def set(self, **values):
+        for name, value in values.items():
+            put(self.sys + name, value)
+
+    def get(self, name):
+        return int(get(self.sys + name), 0)
+
+
 def pulse(chip, channel):
     """What a PCA9685 gives at a pin: the part of a period, from 0 to 1."""
     on_low, on_high, off_low, off_high = (chip.byte(6 + 4 * channel + i) for i in range(4))
@@ -248,6 +268,148 @@ def test_chips_on_i2c():
     assert pulse(lamp, 0) == 0 and near(pulse(lamp, 7), 0.5, 0.001) and port.word(0x14) & 3 == 2
     for chip in (adc, sensor, lamp, port):
         chip.close()
+
+
+SHIPPED = '''RUNGBOARD 1
+
+VAR
+  Volts     AT %AIW0    : INT;
+  Last      AT %AIW6    : INT;
+  Loop      AT %AIW8    : INT;
+  Other     AT %AIW10   : INT;
+  Contact   AT %IX10.0  : BOOL;
+  Pipe      AT %AIW20   : INT;
+  Room      AT %AIW22   : INT;
+  VoltsGood AT %IX200.0 : BOOL;
+  LoopGood  AT %IX200.1 : BOOL;
+  PipeGood  AT %IX200.2 : BOOL;
+  RoomGood  AT %IX200.3 : BOOL;
+  Dac       AT %AQW0    : INT;
+  Fan       AT %AQW2    : INT;
+  Heat      AT %AQW4    : INT;
+  Key       AT %IX20.0  : BOOL;
+  Lamp      AT %QX20.0  : BOOL;
+  Key2      AT %IX21.0  : BOOL;
+  Lamp2     AT %QX21.0  : BOOL;
+  Wanted    AT %MW0     : INT := 13824;
+END_VAR
+
+PROGRAM Main ST
+  Dac := Wanted;
+  Fan := Volts;
+  Heat := 27648 - Volts;
+  Lamp := Key;
+  Lamp2 := Key2;
+END_PROGRAM
+'''
+QUALITIES = '%IX200.0 quality of=%AIW0\n%IX200.1 quality of=%AIW8\n%IX200.2 quality of=%AIW20\n%IX200.3 quality of=%AIW22\n'
+LAMP, LAMP2 = 0x100, 0x10  # of the MCP23017, and of the PCF8574, where a lamp is on when its line is low
+
+
+def test_the_map_with_converters_and_expanders():
+    """ladders/boards/raspberry-pi-analog.io as it is, but for the processor's own sensor: each chip works, fails, and is back."""
+    with open('ladders/boards/raspberry-pi-analog.io', encoding='utf-8') as file:
+        text = file.read()
+    assert text.count('device=cpu_thermal') == 1
+    text = text.replace('device=cpu_thermal', 'device=tmp102') + QUALITIES
+    chips, wire, pwm = Bus('chips_sim', 7), Bus('w1_sim'), Chip('pca9685', 0x40).there()
+    chips.set(ads1115_mv='500,0,0,2000', mcp3008_step='558,512,0,0,0,0,0,0', tmp102_mc=31250, away=0, spi_away='N')
+    wire.set(temperature=21437, away='N')
+    there = {0x20: 'mcp23017', 0x24: 'pcf8574', 0x48: 'ads1115', 0x49: 'tmp102', 0x60: 'mcp4725'}
+    for address, driver in there.items():
+        chips.there(driver, address)
+
+    def reads(name, value, by=0):
+        assert until(lambda: near(it.read1(name), value, by)), (name, it.read1(name), value)
+
+    def dac(value):
+        assert until(lambda: near(chips.get('mcp4725_step'), value * 4096 / 27648, 1)), chips.get('mcp4725_step')
+
+    def lamps(lamp, lamp2):
+        """Also the levels at the pins of the other chip."""
+        assert until(lambda: (chips.get('mcp23017_pins') & LAMP, chips.get('pcf8574_pins') & LAMP2) == (LAMP * lamp, LAMP2 * (not lamp2))), (
+            chips.get('mcp23017_pins'), chips.get('pcf8574_pins'))
+
+    def is_safe():
+        dac(0)
+        assert until(lambda: pulse(pwm, 0) == 0 and pulse(pwm, 1) == 0), (pulse(pwm, 0), pulse(pwm, 1))
+
+    with Machine(SHIPPED, text, '--period', '20ms') as it:
+        # All inputs, in the units of the map: 4 V, 0.6 to 3 V, 3.3 V, hundredths of a degree.
+        for name, value, by in (('Volts', 3456, 4), ('Last', 13824, 4), ('Loop', 13824, 40), ('Other', 13824, 30), ('Contact', 0, 0), ('Pipe', 2138, 1), ('Room', 3125, 0)):
+            reads(name, value, by)
+        chips.set(ads1115_mv='1000,0,0,100', mcp3008_step='186,1023,700,0,0,0,0,0', tmp102_mc=-25500)
+        wire.set(temperature=-10125)
+        for name, value, by in (('Volts', 6912, 4), ('Last', 691, 4), ('Loop', 0, 40), ('Other', 27648, 30), ('Contact', 1, 0), ('Pipe', -1012, 1), ('Room', -2550, 0)):
+            reads(name, value, by)
+        for name in ('VoltsGood', 'LoopGood', 'PipeGood', 'RoomGood'):
+            reads(name, True)
+        # All outputs.
+        dac(13824)
+        assert until(lambda: near(pulse(pwm, 0), 0.25, 0.002) and near(pulse(pwm, 1), 0.75, 0.002)), (pulse(pwm, 0), pulse(pwm, 1))
+        for key, key2 in ((1, 0), (0, 1), (1, 1), (0, 0)):
+            chips.set(mcp23017_outside=key, pcf8574_outside=0xff - key2)
+            lamps(key, key2)
+        # A converter or a sensor that does not answer: the value is not good, and the program runs on.
+        for name, value, by, set_again in (('Volts', 6912, 4, lambda: chips.set(away=0x48, ads1115_mv='0,0,0,0')),
+                                           ('Room', -2550, 0, lambda: chips.set(away=0x49, tmp102_mc=0)),
+                                           ('Pipe', -1012, 1, lambda: wire.set(away='Y', temperature=0))):
+            set_again()
+            reads(name + 'Good', False)
+            reads(name, value, by)
+            chips.set(away=0)
+            wire.set(away='N')
+            reads(name + 'Good', True)
+            reads(name, 0, by)
+        # Nobody hears that a chip of SPI has gone; the limits of the current loop find what its open wire measures.
+        chips.set(spi_away='Y')
+        reads('LoopGood', False)
+        reads('Loop', 0)
+        reads('Other', 27648, 30)
+        chips.set(spi_away='N')
+        reads('LoopGood', True)
+        # An output that does not answer, also one whose driver has gone: it gets the value of now when it is back.
+        chips.set(away=0x60)
+        it.set(Wanted=20736)
+        assert until(lambda: 'fault' in it.command('get', 'Dac')), it.command('get', 'Dac')
+        assert near(chips.get('mcp4725_step'), 2048, 1)
+        chips.set(away=0)
+        dac(20736)
+        chips.gone(0x60)
+        it.set(Wanted=6912)
+        assert until(lambda: 'fault' in it.command('get', 'Dac')), it.command('get', 'Dac')
+        chips.there('mcp4725', 0x60)
+        dac(6912)
+        status = it.desk.status()
+        assert status['mode'] == client.RUN, status
+        # A line that does not answer is a FAULT: all outputs that can be reached are safe.
+        chips.set(mcp23017_outside=1, pcf8574_outside=0xfe)
+        lamps(1, 1)
+        for address, safe in ((0x24, ('mcp23017_pins', LAMP, 0)), (0x20, ('pcf8574_pins', LAMP2, LAMP2))):
+            name, mask, level = safe
+            chips.set(away=address)
+            assert until(lambda: it.desk.status()['mode'] == client.FAULT), it.command('status')
+            is_safe()
+            assert until(lambda: chips.get(name) & mask == level), chips.get(name)
+            chips.set(away=0)
+            # The driver of the MCP23017 takes what it could not write for written (docs/field.md).
+            time.sleep(2)
+            lamps(address == 0x20, 0)
+            assert until(lambda: 'error' not in it.command('reset') and it.desk.status()['mode'] != client.FAULT), it.command('status')
+            lamps(1, 1)
+            dac(13824)
+        it.command('stop')
+        is_safe()
+        lamps(0, 0)
+        it.command('run')
+        lamps(1, 1)
+        dac(13824)
+        tell(f"the MCP23017 has {chips.get('mcp23017_pull_up'):#x} in its register of pull-ups")
+    is_safe()
+    lamps(0, 0)
+    for address in there:
+        chips.gone(address)
+    pwm.close()
 
 
 # ---- a gateway that is killed ----
