@@ -139,7 +139,8 @@ static const struct meaning *as_value(struct il_check *c, const struct il_line *
 	char text[LIMIT_ARG];
 
 	if (m && meaning_fault(m) != DIAG_COUNT) {
-		il_report(&c->fn, line, meaning_fault(m), il_whole_text(c, line, m, text));
+		il_report(&c->fn, line, m->kind == MEANING_INSTANCE && (line->op == OP_R || line->op == OP_S) ?
+			  DIAG_BLOCK_RESET : meaning_fault(m), il_whole_text(c, line, m, text));
 		return NULL;
 	}
 	if (m && m->kind == MEANING_STRUCT) {
@@ -263,7 +264,7 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 		return il_report(&c->fn, line, m->var->target ? DIAG_POINTER_ITSELF : DIAG_NO_REFERENCE,
 				 il_name_text(c, line));
 	if (!m->writable)
-		return il_report(&c->fn, line, m->kind == MEANING_PIN ?
+		return il_report(&c->fn, line, m->within ? DIAG_STORE_WITHIN : m->kind == MEANING_PIN ?
 			      DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT,
 			      il_operand_text(c, line));
 	return true;

@@ -650,6 +650,8 @@ static bool close_one(struct parser *parser, bool *more)
 
 	if (comma && top == OPERATOR_INDEX)
 		return next_index(parser, more);
+	if (index && top == OPERATOR_PAREN)
+		return refuse_open(parser);
 	if (index != (top == OPERATOR_INDEX) || (comma && top != OPERATOR_CALL))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (top == OPERATOR_CALL && !close_argument(parser))
