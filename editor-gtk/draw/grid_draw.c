@@ -25,6 +25,7 @@
 #define CORNER 7 /* px of a side of a marked corner           */
 #define CORNER_INSET 3 /* px inside other frames              */
 #define GRID_STROKE 5 /* px                                       */
+#define UNKNOWN 0.6f /* of the ink: an element whose state is not known */
 
 struct pen {
 	struct nib nib;
@@ -211,6 +212,16 @@ static struct lettered fit(const struct pen *pen, enum letter letter, const char
 	return lettering_fit(pen->drafting->lettering, letter, text, (ptrdiff_t)len, bound);
 }
 
+/* Strokes from @first on are lighter if the state of their element is not known; texts stay readable. */
+static void lighten(const struct pen *pen, unsigned int live, int first)
+{
+	struct picture *picture = pen->nib.picture;
+
+	for (int i = first; pen->scene->live && !(live & LIVE_KNOWN) && i < picture->count; i++)
+		if (picture->stroke[i].kind != STROKE_TEXT)
+			picture->stroke[i].alpha *= UNKNOWN;
+}
+
 static void draw_pin(const struct pen *pen, const struct rung_box *box,
 		     const struct rung_pin *pin, bool output)
 {
@@ -304,6 +315,7 @@ static void draw_frame(const struct pen *pen, const struct rung_box *box)
 	picture_frame(pen->nib.picture, lit ? TOKEN_POWER : pen->nib.ink, STROKE_SOLID,
 		      lit ? pen->nib.theme->power_width : pen->nib.theme->shape_width, box->x,
 		      y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);
+	lighten(pen, live_of(pen, box->top, box->col), pen->nib.picture->count - 1);
 	put_text(pen, pen->nib.ink, LETTER_TYPE,
 		 lettering_fit(pen->drafting->lettering, LETTER_TYPE, box->row->word, -1,
 			       280), middle, y - BOX_ABOVE + 15);
@@ -342,8 +354,6 @@ static struct wire shape_wire(const struct pen *pen, const struct word_row *word
 
 	if (live & LIVE_KNOWN && live & lit)
 		wire = (struct wire){ TOKEN_POWER, STROKE_SOLID, pen->nib.theme->power_width };
-	else if (pen->scene->live && !(live & LIVE_KNOWN))
-		wire.token = TOKEN_COMMENT;
 	return wire;
 }
 
@@ -424,6 +434,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 	float width = layout->column_width[column], y = layout->row[row].wire;
 	unsigned int live = live_of(pen, row, col), left = net_of(pen, row, col);
 	bool last = word->place == PLACE_LAST;
+	int first;
 	struct glyph glyph = { .strokes = explain_glyph(word), .y = y, .half = glyph_half(word),
 			       .x = layout->column_x[column] + width / 2,
 			       .wire = shape_wire(pen, word, live), .up = RUNG_HALF,
@@ -449,7 +460,9 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash,
 			     glyph.x - glyph.half - 4, y - glyph.up - 2,
 			     2 * glyph.half + 8, 2 * glyph.up + 4);
+	first = pen->nib.picture->count;
 	glyph_draw(&pen->nib, &glyph);
+	lighten(pen, live, first);
 	draw_label(pen, row, col, glyph.x);
 	draw_below(pen, row, col, glyph.x, width - 8 - 2 * pen->drafting->beside, glyph.up);
 }

@@ -32,6 +32,8 @@ static inline char *picture_lines(const struct picture *picture)
 					       (double)s->h);
 		if (s->width > 0)
 			g_string_append_printf(out, " by %.4g", (double)s->width);
+		if (s->alpha < 1 && s->kind != STROKE_FILL && s->kind != STROKE_DISC)
+			g_string_append_printf(out, " at %.2g", (double)s->alpha);
 		g_string_append_c(out, '\n');
 	}
 	return g_string_free(out, FALSE);
