@@ -203,7 +203,8 @@ static void draw_circle(const struct pen *pen, int pin, graphene_point_t at)
 	const float x = at.x + (pen->graph->pin[pin].output ? FBD_CIRCLE : -FBD_CIRCLE);
 
 	picture_disc(pen->picture, TOKEN_SHEET, 1, x, at.y, FBD_CIRCLE);
-	picture_arc(pen->picture, way.token == TOKEN_POWER ? TOKEN_POWER : pen->ink, pen->theme->idle_width, x, at.y,
+	picture_arc(pen->picture, way.token == TOKEN_POWER ? TOKEN_POWER : pen->ink,
+		    way.token == TOKEN_POWER ? pen->theme->power_width : pen->theme->idle_width, x, at.y,
 		    FBD_CIRCLE, 0, (float)(2 * G_PI));
 }
 
@@ -264,8 +265,9 @@ static void draw_body(const struct pen *pen, int index, const graphene_rect_t *r
 	if (live & LIVE_FRESH)
 		picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, r->origin.x, r->origin.y, r->size.width,
 			     r->size.height);
-	picture_frame(pen->picture, runs ? TOKEN_POWER : pen->ink, STROKE_SOLID, pen->theme->shape_width,
-		      r->origin.x, r->origin.y, r->size.width, r->size.height);
+	picture_frame(pen->picture, runs ? TOKEN_POWER : pen->ink, STROKE_SOLID,
+		      runs ? pen->theme->power_width : pen->theme->shape_width, r->origin.x, r->origin.y,
+		      r->size.width, r->size.height);
 	put_middle(pen, pen->ink, LETTER_TYPE, fit(pen, LETTER_TYPE, fbd_box_title(box), FBD_TYPE_BOUND), middle,
 		   r->origin.y + 15);
 	if (box->instance)

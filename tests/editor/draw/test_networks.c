@@ -171,7 +171,7 @@ static void power_is_seen(void)
 	const struct fbd_live live = { bits, half_done, NULL };
 	struct fbd_layout *layout = lay_out(tank, 0);
 	struct picture picture;
-	int thick = 0, thin = 0;
+	int thick = 0, thin = 0, pale = 0, frames = 0;
 
 	draw(layout, &live, NULL, 0, &picture);
 	for (int i = 0; i < picture.count; i++) {
@@ -179,8 +179,11 @@ static void power_is_seen(void)
 
 		thick += s->kind == STROKE_LINE && s->token == TOKEN_POWER && s->width == theme->power_width;
 		thin += s->kind == STROKE_LINE && s->token == TOKEN_IDLE && s->width == theme->idle_width;
+		pale += s->token == TOKEN_POWER && s->width > 0 && s->width != theme->power_width;
+		frames += s->kind == STROKE_FRAME && s->token == TOKEN_POWER;
 	}
-	CHECK(thick > 0 && thin > 0);
+	CHECK(thick > 0 && thin > 0 && frames > 0);
+	CHECK_AS(pale == 0, "power is never told by its colour alone: wires, circles and boxes with it are thicker");
 	CHECK(count(&picture, STROKE_FILL, TOKEN_LINE) == 2); /* the bar of the timer; the end of the strip */
 	picture_clear(&picture);
 	fbd_layout_free(layout);
