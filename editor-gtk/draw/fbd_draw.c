@@ -367,23 +367,33 @@ static void wash_wire(const struct pen *pen, int pin)
 	}
 }
 
+/* A place may have several marks: its ground is washed once. */
+static bool is_washed(const struct pen *pen, int mark)
+{
+	const unsigned int washes = MARK_CURSOR | MARK_SELECTED | MARK_DROP;
+	const struct fbd_mark *of = pen->scene->mark;
+
+	for (int i = 0; i < mark; i++)
+		if (of[i].box == of[mark].box && of[i].pin == of[mark].pin && of[i].marks & washes)
+			return false;
+	return of[mark].marks & washes;
+}
+
 static void draw_grounds(const struct pen *pen)
 {
 	for (int i = 0; i < pen->scene->mark_count; i++) {
 		const struct fbd_mark *mark = &pen->scene->mark[i];
 		graphene_rect_t r;
 
-		if (!is_shown(pen, mark))
+		if (!is_shown(pen, mark) || !is_washed(pen, i))
 			continue;
 		if (is_wire(mark)) {
-			if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
-				wash_wire(pen, mark->pin);
+			wash_wire(pen, mark->pin);
 			continue;
 		}
 		r = place_of(pen, mark);
-		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
-			picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, r.origin.x, r.origin.y, r.size.width,
-				     r.size.height);
+		picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, r.origin.x, r.origin.y, r.size.width,
+			     r.size.height);
 	}
 }
 

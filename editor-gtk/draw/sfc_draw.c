@@ -59,6 +59,18 @@ static graphene_rect_t mark_box(const struct nib *nib, const struct sfc_mark *ma
 				sfc_sheet_box(nib->sheet, mark->shape);
 }
 
+/* A place may have several marks: its ground is washed once. */
+static bool is_washed(const struct nib *nib, int mark)
+{
+	const unsigned int washes = SFC_CURSOR | SFC_SELECTED | SFC_DROP;
+	const struct sfc_mark *of = nib->scene->mark;
+
+	for (int i = 0; i < mark; i++)
+		if (of[i].shape == of[mark].shape && of[i].use == of[mark].use && of[i].signs & washes)
+			return false;
+	return of[mark].signs & washes;
+}
+
 static void draw_grounds(const struct nib *nib)
 {
 	for (int i = 0; i < nib->scene->mark_count; i++) {
@@ -66,7 +78,7 @@ static void draw_grounds(const struct nib *nib)
 		graphene_rect_t box = mark_box(nib, mark);
 
 		graphene_rect_inset(&box, -4, mark->use >= 0 ? 0 : -4);
-		if (mark->signs & (SFC_CURSOR | SFC_SELECTED | SFC_DROP))
+		if (is_washed(nib, i))
 			picture_fill(nib->picture, TOKEN_ACCENT, nib->theme->wash,
 				     box.origin.x, box.origin.y, box.size.width,
 				     box.size.height);
@@ -141,7 +153,7 @@ static void draw_marks(const struct nib *nib)
 			draw_missing(nib, mark);
 		if (mark->signs & (SFC_CURSOR | SFC_DROP))
 			picture_frame(nib->picture, TOKEN_ACCENT, mark->signs & SFC_DROP ?
-				      STROKE_DASHED : STROKE_SOLID, 2, box.origin.x,
+				      STROKE_DASHED : STROKE_SOLID, 1.5f, box.origin.x,
 				      box.origin.y, box.size.width, box.size.height);
 	}
 }

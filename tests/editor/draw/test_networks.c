@@ -189,6 +189,22 @@ static void power_is_seen(void)
 	fbd_layout_free(layout);
 }
 
+/* The cursor in a selection: a wash as of either, and one frame. */
+static void marks_are_one(void)
+{
+	static const struct fbd_mark both[] = { { 0, -1, MARK_SELECTED }, { 0, -1, MARK_CURSOR } };
+	struct fbd_layout *layout = lay_out(tank, 0);
+	const struct fbd_scene scene = { .layout = layout, .theme = theme_get(THEME_LIGHT, THEME_GREEN), .mark = both,
+					 .mark_count = 2 };
+	struct picture picture;
+
+	picture_init(&picture);
+	fbd_draw(&scene, &picture);
+	CHECK(count(&picture, STROKE_FILL, TOKEN_ACCENT) == 1 && count(&picture, STROKE_FRAME, TOKEN_ACCENT) == 1);
+	picture_clear(&picture);
+	fbd_layout_free(layout);
+}
+
 /* ---- places ---- */
 
 static void parts_are_hit(void)
@@ -274,6 +290,7 @@ int main(void)
 	texts_are_free();
 	says_all();
 	power_is_seen();
+	marks_are_one();
 	parts_are_hit();
 	hints_come_back();
 	mistakes_are_marked();

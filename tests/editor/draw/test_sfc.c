@@ -238,6 +238,27 @@ static bool has_text(LadderDocument *document, const char *want)
 	return has;
 }
 
+/* The cursor in a selection: a wash as of either, and one frame of 1.5 px. */
+static void check_marks(const struct sfc_sheet *sheet)
+{
+	static const struct sfc_mark both[] = { { 0, -1, SFC_SELECTED }, { 0, -1, SFC_CURSOR } };
+	const struct sfc_scene scene = { .sheet = sheet, .theme = theme_get(THEME_LIGHT, THEME_GREEN), .mark = both,
+					 .mark_count = 2 };
+	struct picture picture;
+	int washes = 0, frames = 0;
+
+	picture_init(&picture);
+	sfc_draw(&scene, &picture);
+	for (int i = 0; i < picture.count; i++) {
+		const struct stroke *s = &picture.stroke[i];
+
+		washes += s->kind == STROKE_FILL && s->token == TOKEN_ACCENT;
+		frames += s->kind == STROKE_FRAME && s->token == TOKEN_ACCENT && s->width == 1.5f;
+	}
+	CHECK(washes == 1 && frames == 1);
+	picture_clear(&picture);
+}
+
 /* A comment has the room up to the next thing at its height, not only up to the next branch. */
 static void check_comment(void)
 {
@@ -258,6 +279,7 @@ static void check_comment(void)
 	ladder_document_open_text(document, NULL, text, strlen(text), true);
 	project = ladder_document_project(document);
 	sheet = sfc_sheet_new(project, &project->pou[0], lettering);
+	check_marks(sheet);
 	draw(sheet, NULL, &picture);
 	lines = picture_lines(&picture);
 	CHECK_AS(strstr(lines, "above the branches") != NULL, "a comment above branches is not cut");
