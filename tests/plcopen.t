@@ -177,6 +177,39 @@ unlike($said, qr/SFCInit does nothing/, 'SFCInit beside SFCReset, which nothing 
 (undef, $said) = imported('flags', project('', $flags . $stored));
 like($said, qr/lost: Pump_Move: SFCInit does nothing beside SFCReset/, 'one that a body stores into is');
 
+# CODESYS: pins of latches have other names, the line behind a box EXECUTE is Out1, and a coil behind a block is connected to its own name.
+sub drawn_pin { my ($name, @from) = @_; return "<variable formalParameter=\"$name\">" . link_in(@from) . '</variable>' }
+sub link_in { return '<connectionPointIn>' . join('', map { my ($id, $out) = split /:/; "<connection refLocalId=\"$id\"" . ($out ? " formalParameter=\"$out\"" : '') . '/>' } @_) . '</connectionPointIn>' }
+sub drawn_contact { my ($id, $name) = @_; return "<contact localId=\"$id\"><position x=\"0\" y=\"0\"/>" . link_in(1) . "<connectionPointOut/><variable>$name</variable></contact>" }
+sub drawn_coil { my ($id, $name, $from) = @_; return "<coil localId=\"$id\"><position x=\"0\" y=\"0\"/>" . link_in($from) . "<connectionPointOut/><variable>$name</variable></coil>\n" }
+my $left_rail = '<leftPowerRail localId="1"><position x="0" y="0"/><connectionPointOut formalParameter=""/></leftPowerRail>';
+my $latches = pou('Main', 'program', '<localVars>' . join('', map { located(@$_) } ['A', 'BOOL', '%IX0.0'], ['B', 'BOOL', '%IX0.1'], ['Q', 'BOOL', '%QX0.0'], ['R', 'BOOL', '%QX0.1'], ['Late', 'BOOL', '%QX0.2'], ['Done', 'BOOL', '%QX0.3'])
+	. variable('First', '<derived name="SR"/>') . variable('Second', '<derived name="RS"/>') . variable('Off', '<derived name="TOF"/>') . variable('Number', 'INT') . '</localVars>',
+	"<body><LD>$left_rail" . drawn_contact(2, 'A') . drawn_contact(3, 'B')
+	. '<block localId="4" typeName="SR" instanceName="First"><position x="0" y="0"/><inputVariables>' . drawn_pin('SET1', 2) . drawn_pin('RESET', 3) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q1"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(5, 'Q', '4:Q1')
+	. '<block localId="6" typeName="RS" instanceName="Second"><position x="0" y="0"/><inputVariables>' . drawn_pin('SET', 2) . drawn_pin('RESET1', 3) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q1"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(7, 'R', '6:Q1')
+	. '<inVariable localId="11"><position x="0" y="0"/><connectionPointOut/><expression>T#25ms</expression></inVariable>'
+	. '<block localId="8" typeName="TOF" instanceName="Off"><position x="0" y="0"/><inputVariables>' . drawn_pin('IN', 2) . drawn_pin('PT', 11) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q"><connectionPointOut/></variable><variable formalParameter="ET"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(9, 'Late', '8:Late')
+	. '<block localId="12" typeName="EXECUTE"><position x="0" y="0"/><inputVariables>' . drawn_pin('EN', 2) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Out1"/></outputVariables><addData>'
+	. '<data name="http://www.3s-software.com/plcopenxml/fbdcalltype" handleUnknown="implementation"><CallType xmlns="">execute</CallType></data><data name="http://www.3s-software.com/plcopenxml/stcode" handleUnknown="implementation"><STCode xmlns="">Number := Number + 1;</STCode></data></addData></block>' . drawn_coil(13, 'Done', '12:Out1')
+	. "</LD></body>\n");
+imported('latches', project('', $latches));
+trace_is('latches', "\@print Q R Late Done Number\n.\nA=1\nB=1\nA=0\nB=0\n. x3\n", join '',
+	"2 t=20 Q=1 R=1 Late=1 Done=1 Number=1\n", "3 t=30 R=0 Number=2\n", "4 t=40 Q=0 Done=0\n", "7 t=70 Late=0\n");
+
+# Some tools write the whole POU, with its declarations, where the body belongs.
+my $whole = project('', pou('Twice', 'FUNCTION', '', text_body('ST', "(* Twice as\nmuch *)\nFUNCTION Twice : INT\nVAR_INPUT\n  X : INT;\nEND_VAR\nTwice := X * 2;\nEND_FUNCTION"))
+	. pou('Count', 'FUNCTION_BLOCK', '', text_body('ST', "FUNCTION_BLOCK Count\nVAR_OUTPUT\n  N : INT;\nEND_VAR\nN := N + 1;\nEND_FUNCTION_BLOCK"))
+	. pou('Main', 'PROGRAM', '', text_body('ST', "PROGRAM Main\nVAR\n  C : Count;\n  Sum : INT;\nEND_VAR\nC();\nSum := Twice(X := C.N);\nEND_PROGRAM")));
+($rung, $said) = imported('whole', $whole);
+like($rung, qr/^FUNCTION Twice : INT ST$/m, 'a function in its own body has its type');
+unlike($said, qr/: (lost|changed):/, 'which is no change') or diag $said;
+trace_is('whole', "\@print Main.Sum\n.\n.\n", "1 t=10 Main.Sum=2\n2 t=20 Main.Sum=4\n");
+$whole =~ s/Sum := Twice/Sum := Nothing/;
+($rung, $said) = imported('whole', $whole, 1);
+my $nothing = 1 + (() = substr($whole, 0, index($whole, 'Sum := Nothing')) =~ /\n/g);
+like($said, qr/whole\.xml:$nothing: error/, 'and an error its line') or diag $said;
+
 # ---- what Beremiz and OpenPLC have in another way ----
 my $own = '<localVars>' . join('', map { variable(@$_) } ['Loop', 'PID'], ['Out', 'REAL'], ['Held', 'REAL'], ['Long', 'DINT'], ['Wait', 'TIME'], ['Half', 'TIME'], ['Two', 'INT'], ['Wet', 'HYSTERESIS'], ['Slow', 'RAMP']) . '</localVars>';
 my $lines = "Loop(AUTO := TRUE, PV := 3.0, SP := 1.0, X0 := 0.0, KP := 2.0, TR := 10.0, TD := 0.0, CYCLE := T#500ms);\nOut := Loop.XOUT;\nHeld := TIME_TO_REAL(T#1500ms);\n"

@@ -5,6 +5,7 @@
 #include "engine/exchange/plcopen/plcopen_graph.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/lex.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -99,6 +100,42 @@ static const char *flat_comments(struct plcopen *c, const struct xml_node *eleme
 	return flat;
 }
 
+static const char *word_of(const struct plcopen_pou *pou)
+{
+	return pou->kind == POU_FUNCTION ? "FUNCTION" : pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM";
+}
+
+/* Some tools write the whole POU where its body belongs. What is between its name and its end is the same with the
+ * declarations in front. */
+static const char *inside(struct plcopen *c, struct plcopen_pou *pou, const char *text)
+{
+	const char *word = word_of(pou), *end = NULL, *type;
+	struct lex lex;
+	char *inner;
+
+	lex_init(&lex, text, strlen(text));
+	lex_next(&lex);
+	if (!lex_is(&lex, word) || lex_next(&lex) != TOKEN_NAME ||
+	    !plc_same(plc_print(c, "%.*s", (int)lex.token.len, lex.token.text), pou->name))
+		return text;
+	if (pou->kind == POU_FUNCTION) {
+		lex_next(&lex);
+		type = lex.at;
+		if (!lex_is(&lex, ":") || lex_next(&lex) != TOKEN_NAME)
+			return text;
+		pou->result = plc_print(c, "%s", plc_trim(c, plc_print(c, "%.*s", (int)(lex.at - type), type)));
+	}
+	for (const char *at = text; at < lex.at; at++)
+		c->at += *at == '\n';
+	text = lex.at;
+	word = plc_print(c, "END_%s", word);
+	while (lex_next(&lex) != TOKEN_END)
+		if (lex_is(&lex, word))
+			end = lex.token.text;
+	inner = end ? arena_copy(c->arena, text, (size_t)(end - text)) : NULL;
+	return inner ? inner : text;
+}
+
 /* The text of a body in ST or IL. */
 static void put_text(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *element)
 {
@@ -119,7 +156,7 @@ static void put_text(struct plcopen *c, struct plcopen_pou *pou, struct xml_node
 	text = arena_copy(c->arena, text, len);
 	if (!text || !*text)
 		return;
-	text = flat_comments(c, element, text);
+	text = inside(c, pou, flat_comments(c, element, text));
 	text = xml_is(element, "IL") ? plc_labels(c, pou, element, text) : plc_plain_calls(c, text);
 	plc_text(c, plc_renamed(c, text));
 	plc_put(c, "\n");
@@ -313,6 +350,8 @@ static const char *return_type(struct plcopen *c, struct plcopen_pou *pou)
 
 	if (type)
 		return plc_type(c, type);
+	if (pou->result)
+		return pou->result;
 	plc_report(c, REPORT_CHANGED, pou->node,
 		   report_said(c->report, REPORTED("the function %s has no result; it gets one of BOOL")),
 		   pou->name);
@@ -330,8 +369,7 @@ static void put_heading(struct plcopen *c, struct plcopen_pou *pou, enum plcopen
 	if (pou->kind == POU_FUNCTION)
 		plc_put(c, "FUNCTION %s : %s", plc_renamed(c, pou->name), return_type(c, pou));
 	else
-		plc_put(c, "%s %s", pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM",
-			plc_renamed(c, pou->name));
+		plc_put(c, "%s %s", word_of(pou), plc_renamed(c, pou->name));
 	plc_put(c, " %s\n", language_word[language]);
 }
 
@@ -365,8 +403,7 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	plc_interface(c, pou);
 	plc_part_append(c, &before);
 	c->at = pou->node->line;
-	plc_put(c, "END_%s\n", pou->kind == POU_FUNCTION ? "FUNCTION" :
-		pou->kind == POU_BLOCK ? "FUNCTION_BLOCK" : "PROGRAM");
+	plc_put(c, "END_%s\n", word_of(pou));
 	if (language != PLCOPEN_SFC)
 		plc_part_append(c, &behind);
 	c->count.pous++;
@@ -384,7 +421,7 @@ static void find_pou(struct plcopen *c, struct xml_node *node)
 		return;
 	if (plc_same(type, "function"))
 		pou.kind = POU_FUNCTION;
-	else if (plc_same(type, "functionBlock"))
+	else if (plc_same(type, "functionBlock") || plc_same(type, "function_block"))
 		pou.kind = POU_BLOCK;
 	else if (plc_same(type, "program"))
 		pou.kind = POU_PROGRAM;

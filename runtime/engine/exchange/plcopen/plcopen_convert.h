@@ -22,6 +22,7 @@ struct plcopen_pou {
 	struct xml_node *body;          /* the element of its language; NULL: none */
 	enum plcopen_language language; /* that of the file                        */
 	bool called_short;              /* a function: a call names only some inputs */
+	const char *result;             /* the type that its own text names; NULL: none */
 };
 
 /* Text that waits until what stands above it is written. */

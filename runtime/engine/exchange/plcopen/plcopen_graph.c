@@ -124,6 +124,19 @@ static bool is_stop(const struct plcopen *c, const struct plc_graph *graph, cons
 	       plc_same(plc_in(graph, e, 0)->name, "EN");
 }
 
+/* CODESYS and TwinCAT name these pins of SR and RS in their own way. */
+static void name_latch(const struct plcopen *c, struct plc_graph *graph, const struct plc_element *e)
+{
+	static const char *const names[][3] = {
+		{ "SR", "SET1", "S1" }, { "SR", "RESET", "R" }, { "RS", "SET", "S" }, { "RS", "RESET1", "R1" },
+	};
+
+	for (int i = 0; i < e->ins && !plc_pou(c, e->name); i++)
+		for (size_t k = 0; k < sizeof(names) / sizeof(*names); k++)
+			if (plc_same(e->name, names[k][0]) && plc_same(plc_in(graph, e, i)->name, names[k][1]))
+				plc_in(graph, e, i)->name = names[k][2];
+}
+
 static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_element *e)
 {
 	struct xml_node *in = xml_child(e->node, "inputVariables");
@@ -143,6 +156,9 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 	e->first_out = graph->pins;
 	e->outs = read_variables(c, graph, out, "connectionPointOut");
 	e->outs += read_variables(c, graph, both, "connectionPointOut");
+	name_latch(c, graph, e);
+	if (e->code && e->outs == 1) /* CODESYS: Out1 */
+		plc_out(graph, e, 0)->name = "ENO";
 	if (is_stop(c, graph, e)) {
 		e->kind = PLC_STOP;
 		e->negated = plc_in(graph, e, 0)->negated;
@@ -314,6 +330,15 @@ static int output_at(const struct plc_graph *graph, const struct plc_element *e,
 	return 0;
 }
 
+/* CODESYS: a coil behind a block is connected to an output of its own name, which is the first one. */
+static bool is_own_name(const struct xml_node *connection, const char *name)
+{
+	const struct xml_node *reader = connection->parent ? connection->parent->parent : NULL;
+	const struct xml_node *variable = reader && xml_is(reader, "coil") ? xml_look(reader, "variable") : NULL;
+
+	return variable && variable->text && plc_same(variable->text, name);
+}
+
 static int output_of(struct plcopen *c, const struct plc_graph *graph, const struct plc_element *e,
 		     struct xml_node *connection)
 {
@@ -331,6 +356,8 @@ static int output_of(struct plcopen *c, const struct plc_graph *graph, const str
 			return i;
 	if (!*name)
 		return output_at(graph, e, connection);
+	if ((e->code && e->outs == 1) || is_own_name(connection, name))
+		return 0;
 	told(c, DIAG_PLCOPEN_NO_PIN, connection, name);
 	return -1;
 }
