@@ -201,6 +201,29 @@ def texts(folder):
     ok(status == 1 and f'main.st:{line}: error' in wrong, 'an error has its place in the file', wrong)
 
 
+def types(folder):
+    files = {
+        'datatypes/Color.dt': 'TYPE\n  Color : (Red, Green := 5, Blue) := Green;\nEND_TYPE\n',
+        'datatypes/Motor.dt': 'TYPE\n  (* of the plant *)\n  Motor : STRUCT\n    Speed : INT := 7; (* rpm *)\n    Paint : Color;\n'
+                              '    Last : ARRAY[1..2] OF INT;\n  END_STRUCT;\nEND_TYPE\n',
+        'datatypes/Row.dt': 'TYPE\n  Row : ARRAY [0..1] OF Motor;\nEND_TYPE\n',
+        'datatypes/Number.dt': 'TYPE\n  Number : INT := 4;\nEND_TYPE\n',
+        'datatypes/readme.txt': 'none',
+        'pous/programs/main.st': 'PROGRAM main\nVAR\n\tCol : Color;\n\tAll : Row;\n\tN : Number;\nEND_VAR\n\n'
+                                 'All[1].Speed := All[1].Speed + 1;\nAll[0].Last[2] := N;\nAll[1].Paint := Blue;\n\nEND_PROGRAM'}
+    where = project(folder, files, dataTypes=[{'name': 'Color', 'derivation': 'enumerated', 'values': [{'description': 'Old'}]}])
+    said = trace(where, '@print Col All[1].Speed All[0].Last[2] N All[1].Paint', '.')
+    ok(said == '1 t=20 Col=Green All[1].Speed=8 All[0].Last[2]=4 N=4 All[1].Paint=Blue\n', 'types have files of their own', said)
+    status, said, _ = run('import', where)
+    ok(status == 0 and 'readme.txt' in said and '.dt' not in said, 'the report names what is no type', said)
+    for name, text in (('Color', 'TYPE\n  Color : (Red, 5);\nEND_TYPE'), ('Color', 'TYPE\n  Color : (Red'), ('Motor', 'STRUCT'),
+                       ('Motor', 'TYPE\n  Motor : STRUCT\n    Speed : INT;\nEND_TYPE'), ('Row', 'TYPE\n  Row'), ('Row', 'TYPE'),
+                       ('Row', 'TYPE Row : ARRAY[0..1] OF INT'), ('Row', '')):
+        where = project(folder, dict(files, **{f'datatypes/{name}.dt': text}))
+        status, _, wrong = run('check', where)
+        ok(status == 1 and f'datatypes/{name}.dt:' in wrong, f'refused with its place: {text!r}', wrong)
+
+
 def fbd(folder):
     def node(name, kind, order=0, **data):
         return {'id': name, 'type': kind, 'position': {'x': 10, 'y': 10 * order}, 'width': 10, 'height': 10,
@@ -325,6 +348,7 @@ with tempfile.TemporaryDirectory() as work:
         sys.exit(0)
     ladders(place)
     texts(place)
+    types(place)
     fbd(place)
     damaged(place)
     differential(place)

@@ -859,6 +859,129 @@ static void put_data_type(struct openplc *c, const struct json *type)
 	w_put(w, "</dataType>\n");
 }
 
+/* The values of an enumeration, from its ( on, up to the ) that ends it. */
+static bool read_values(struct openplc *c, struct lex *lex)
+{
+	w_put(&c->w, "<enum><values>");
+	do {
+		if (lex_next(lex) != TOKEN_NAME)
+			return openplc_fail(c, DIAG_OPENPLC_TEXT, piece(c, lex->token.text, lex->token.text + lex->token.len));
+		c->w.at.line = lex->token.line;
+		w_put(&c->w, "<value name=\"%s\"", xml_written(c, piece(c, lex->token.text, lex->token.text + lex->token.len)));
+		lex_next(lex);
+		if (lex_is(lex, ":=")) {
+			const char *from = lex->at;
+
+			while (lex_next(lex) != TOKEN_END && !lex_is(lex, ",") && !lex_is(lex, ")"))
+				;
+			w_put(&c->w, " value=\"%s\"", xml_written(c, piece(c, from, lex->token.text)));
+		}
+		w_put(&c->w, "/>");
+	} while (lex_is(lex, ","));
+	w_put(&c->w, "</values></enum>");
+	return lex_is(lex, ")") || openplc_fail(c, DIAG_OPENPLC_TEXT, ")");
+}
+
+static bool read_members(struct openplc *c, struct lex *lex)
+{
+	w_put(&c->w, "<struct>\n");
+	for (lex_next(lex); !lex_is(lex, "END_STRUCT"); lex_next(lex)) {
+		if (lex->token.kind == TOKEN_END)
+			return openplc_fail(c, DIAG_OPENPLC_TEXT, "END_STRUCT");
+		if (!read_declaration(c, lex))
+			return false;
+	}
+	w_put(&c->w, "</struct>");
+	return true;
+}
+
+/* `Name : STRUCT … END_STRUCT;`, `Name : (Red, Green) := Red;`, `Name : ARRAY[1..3] OF INT;`, from its name on. */
+static bool read_type(struct openplc *c, struct lex *lex)
+{
+	const char *name = piece(c, lex->token.text, lex->token.text + lex->token.len), *from;
+	struct lex first;
+
+	c->w.at.line = lex->token.line;
+	if (lex->token.kind != TOKEN_NAME || (lex_next(lex), !lex_is(lex, ":")))
+		return openplc_fail(c, DIAG_OPENPLC_TEXT, name);
+	w_put(&c->w, "<dataType name=\"%s\"><baseType>", xml_written(c, name));
+	from = lex->at;
+	first = *lex;
+	lex_next(&first);
+	if (lex_is(&first, "STRUCT") || lex_is(&first, "(")) {
+		*lex = first;
+		if (lex_is(lex, "(") ? !read_values(c, lex) : !read_members(c, lex))
+			return false;
+		lex_next(lex);
+	} else {
+		while (lex_next(lex) != TOKEN_END && !lex_is(lex, ";") && !lex_is(lex, ":="))
+			;
+		put_type(c, piece(c, from, lex->token.text));
+	}
+	w_put(&c->w, "</baseType>");
+	if (lex_is(lex, ":=")) {
+		from = lex->at;
+		while (lex_next(lex) != TOKEN_END && !lex_is(lex, ";"))
+			;
+		w_put(&c->w, "<initialValue><simpleValue value=\"%s\"/></initialValue>",
+		      xml_written(c, piece(c, from, lex->token.text)));
+	}
+	w_put(&c->w, "</dataType>\n");
+	return lex_is(lex, ";") || lex_is(lex, "END_TYPE") || openplc_fail(c, DIAG_OPENPLC_TEXT, name);
+}
+
+static bool is_types(const char *member)
+{
+	const char *dot = strrchr(member, '.');
+
+	return dot && !strcmp(dot, ".dt");
+}
+
+/* datatypes/Motor.dt: text between TYPE and END_TYPE. */
+static void read_types_of(struct openplc *c, const char *member)
+{
+	struct lex lex;
+	size_t len;
+	char *text;
+
+	c->w.at = (struct foreign_place){ member, 0 };
+	text = file_read(w_text(&c->w, "%s/%s", c->root, member), LIMIT_TEXT, &len, c->import->diags);
+	if (!text) {
+		c->failed = true;
+		return;
+	}
+	lex_init(&lex, text, len);
+	lex_next(&lex);
+	c->w.at.line = lex.token.line;
+	if (!utf8_valid(text, len, NULL) || !lex_is(&lex, "TYPE"))
+		openplc_fail(c, DIAG_OPENPLC_TEXT, "TYPE");
+	while (!c->failed && !lex_is(&lex, "END_TYPE") && lex_next(&lex) != TOKEN_END && !lex_is(&lex, "END_TYPE"))
+		read_type(c, &lex);
+	if (!c->failed && !lex_is(&lex, "END_TYPE"))
+		openplc_fail(c, DIAG_OPENPLC_TEXT, "END_TYPE");
+	free(text);
+}
+
+/* A file of a type replaces what project.json says of it. */
+static void put_data_types(struct openplc *c, const struct json *data)
+{
+	const struct file_names files = names_in(c, "datatypes");
+
+	for (const struct json *type = json_items(json_get(data, "dataTypes")); type; type = type->next) {
+		const char *member = w_text(&c->w, "datatypes/%s.dt", json_text(type, "name"));
+		bool has_file = false;
+
+		for (int i = 0; i < files.count; i++)
+			has_file = has_file || ascii_is(files.name[i], member, strlen(member));
+		if (!has_file)
+			put_data_type(c, type);
+	}
+	for (int i = 0; i < files.count && !c->failed; i++)
+		if (is_types(files.name[i]))
+			read_types_of(c, files.name[i]);
+	c->w.at = (struct foreign_place){ c->own, 0 };
+}
+
 static void put_configuration(struct openplc *c, const struct json *resource)
 {
 	struct writing *w = &c->w;
@@ -910,6 +1033,8 @@ static void tell_others(struct openplc *c, const struct json *data)
 		const struct file_names files = names_in(c, folders[i]);
 
 		for (int k = 0; k < files.count; k++) {
+			if (i == 1 && is_types(files.name[k]))
+				continue;
 			c->w.at = (struct foreign_place){ files.name[k], 0 };
 			w_tell(&c->w, REPORT_LOST, "this file has no meaning here");
 		}
@@ -933,8 +1058,7 @@ static bool put_project(struct openplc *c, const struct json *project)
 	struct writing *w = &c->w;
 
 	put_header(c, json_text(json_get(project, "meta"), "name"));
-	for (const struct json *type = json_items(json_get(data, "dataTypes")); type; type = type->next)
-		put_data_type(c, type);
+	put_data_types(c, data);
 	w_put(w, "</dataTypes>\n<pous>\n");
 	for (const struct json *pou = json_items(json_get(data, "pous")); pou && !c->failed; pou = pou->next)
 		put_old_pou(c, pou);
