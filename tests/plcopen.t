@@ -177,16 +177,16 @@ unlike($said, qr/SFCInit does nothing/, 'SFCInit beside SFCReset, which nothing 
 (undef, $said) = imported('flags', project('', $flags . $stored));
 like($said, qr/lost: Pump_Move: SFCInit does nothing beside SFCReset/, 'one that a body stores into is');
 
-# CODESYS: pins of latches have other names, the line behind a box EXECUTE is Out1, and a coil behind a block is connected to its own name.
+# CODESYS: the library stands before a block, pins of latches have other names, the line behind a box EXECUTE is Out1, and a coil behind a block is connected to its own name.
 sub drawn_pin { my ($name, @from) = @_; return "<variable formalParameter=\"$name\">" . link_in(@from) . '</variable>' }
 sub link_in { return '<connectionPointIn>' . join('', map { my ($id, $out) = split /:/; "<connection refLocalId=\"$id\"" . ($out ? " formalParameter=\"$out\"" : '') . '/>' } @_) . '</connectionPointIn>' }
 sub drawn_contact { my ($id, $name) = @_; return "<contact localId=\"$id\"><position x=\"0\" y=\"0\"/>" . link_in(1) . "<connectionPointOut/><variable>$name</variable></contact>" }
 sub drawn_coil { my ($id, $name, $from) = @_; return "<coil localId=\"$id\"><position x=\"0\" y=\"0\"/>" . link_in($from) . "<connectionPointOut/><variable>$name</variable></coil>\n" }
 my $left_rail = '<leftPowerRail localId="1"><position x="0" y="0"/><connectionPointOut formalParameter=""/></leftPowerRail>';
 my $latches = pou('Main', 'program', '<localVars>' . join('', map { located(@$_) } ['A', 'BOOL', '%IX0.0'], ['B', 'BOOL', '%IX0.1'], ['Q', 'BOOL', '%QX0.0'], ['R', 'BOOL', '%QX0.1'], ['Late', 'BOOL', '%QX0.2'], ['Done', 'BOOL', '%QX0.3'])
-	. variable('First', '<derived name="SR"/>') . variable('Second', '<derived name="RS"/>') . variable('Off', '<derived name="TOF"/>') . variable('Number', 'INT') . '</localVars>',
+	. variable('First', '<derived name="Standard.SR"/>') . variable('Second', '<derived name="RS"/>') . variable('Off', '<derived name="TOF"/>') . variable('Number', 'INT') . '</localVars>',
 	"<body><LD>$left_rail" . drawn_contact(2, 'A') . drawn_contact(3, 'B')
-	. '<block localId="4" typeName="SR" instanceName="First"><position x="0" y="0"/><inputVariables>' . drawn_pin('SET1', 2) . drawn_pin('RESET', 3) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q1"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(5, 'Q', '4:Q1')
+	. '<block localId="4" typeName="Standard.SR" instanceName="First"><position x="0" y="0"/><inputVariables>' . drawn_pin('SET1', 2) . drawn_pin('RESET', 3) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q1"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(5, 'Q', '4:Q1')
 	. '<block localId="6" typeName="RS" instanceName="Second"><position x="0" y="0"/><inputVariables>' . drawn_pin('SET', 2) . drawn_pin('RESET1', 3) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q1"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(7, 'R', '6:Q1')
 	. '<inVariable localId="11"><position x="0" y="0"/><connectionPointOut/><expression>T#25ms</expression></inVariable>'
 	. '<block localId="8" typeName="TOF" instanceName="Off"><position x="0" y="0"/><inputVariables>' . drawn_pin('IN', 2) . drawn_pin('PT', 11) . '</inputVariables><inOutVariables/><outputVariables><variable formalParameter="Q"><connectionPointOut/></variable><variable formalParameter="ET"><connectionPointOut/></variable></outputVariables></block>' . drawn_coil(9, 'Late', '8:Late')

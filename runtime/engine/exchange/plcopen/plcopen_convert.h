@@ -116,6 +116,8 @@ void plc_find_short_calls(struct plcopen *c);
 /** plc_plain_calls - @text with calls of actions that have no inputs. */
 const char *plc_plain_calls(struct plcopen *c, const char *text);
 
+/** plc_without_library - TON of Standard.TON, a block of a library that is built in here; else @name. */
+const char *plc_without_library(const struct plcopen *c, const char *name);
 /** plc_note_init - finds out c->uses_init, before the import adds text of its own. */
 void plc_note_init(struct plcopen *c, const struct xml_node *project);
 

@@ -133,7 +133,7 @@ static const char *known_type(struct plcopen *c, struct xml_node *type, const ch
 				   name, added_types[i].means);
 			return added_types[i].means;
 		}
-	return plc_renamed(c, name);
+	return plc_renamed(c, plc_without_library(c, name));
 }
 
 static const char *text_type(struct plcopen *c, struct xml_node *type)

@@ -145,7 +145,7 @@ static void read_block(struct plcopen *c, struct plc_graph *graph, struct plc_el
 
 	e->comment = plc_documentation(c, e->node);
 	e->name = xml_take(e->node, "typeName");
-	e->name = e->name ? e->name : "";
+	e->name = e->name ? plc_without_library(c, e->name) : "";
 	e->code = plc_same(e->name, "EXECUTE") ? code_of(c, e->node) : NULL;
 	e->code = e->code ? plc_renamed(c, e->code) : NULL;
 	e->instance = xml_take(e->node, "instanceName");
@@ -600,6 +600,15 @@ bool plc_graph_read(struct plcopen *c, struct plcopen_pou *pou, struct xml_node 
 }
 
 /* ---- words ---- */
+
+const char *plc_without_library(const struct plcopen *c, const char *name)
+{
+	const char *dot = strrchr(name, '.');
+	const enum word word = dot ? word_find(dot + 1, strlen(dot + 1)) : WORD_COUNT;
+
+	return word != WORD_COUNT && word_row(word)->kind == WORD_FB && !plc_pou(c, name) && !plc_pou(c, dot + 1) ?
+	       dot + 1 : name;
+}
 
 enum word plc_catalog(const struct plcopen *c, const char *type)
 {
