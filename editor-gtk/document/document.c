@@ -31,9 +31,17 @@ struct beside {
 	gpointer file;
 };
 
+/* Where the POUs stand in a text. */
+struct pou_spans {
+	struct text_span *span;
+	int count;
+};
+
 struct _LadderDocument {
 	GObject parent;
 	struct ladder *ladder;    /* holds the live project                    */
+	char *plain;              /* its canonical text; NULL: to be written when it is asked for */
+	struct pou_spans spans;   /* of that text                              */
 	char *text;               /* instead of it, if the file cannot be read */
 	gsize text_len;
 	GHashTable *list;         /* POU number -> text that cannot be read    */
@@ -151,10 +159,18 @@ static void tell_whole(LadderDocument *document)
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
 }
 
+/* Whatever changes the live project calls this, before anyone hears of it. */
+static void forget_plain(LadderDocument *document)
+{
+	g_clear_pointer(&document->plain, free);
+	g_clear_pointer(&document->spans.span, g_free);
+}
+
 /* Before the signal of the change. */
 static void count_version(LadderDocument *document)
 {
 	document->version++;
+	forget_plain(document);
 }
 
 static void changed(LadderDocument *document)
@@ -165,12 +181,6 @@ static void changed(LadderDocument *document)
 }
 
 /* ---- lists that cannot be read ---- */
-
-/* Where the POUs stand in a text. */
-struct pou_spans {
-	struct text_span *span;
-	int count;
-};
 
 static void take_pou(void *context, const struct text_span *span)
 {
@@ -194,19 +204,24 @@ static char *outline(struct ladder *ladder, struct pou_spans *spans)
 	return text;
 }
 
+/* The canonical text of the live project. Many ask for it after each change, each sheet for itself.
+ * Borrowed until the next change. */
+static const char *plain_of(LadderDocument *document)
+{
+	if (!document->plain)
+		document->plain = outline(document->ladder, &document->spans);
+	return document->plain;
+}
+
 char *ladder_document_pou(LadderDocument *document, int pou, struct text_span *span)
 {
-	struct pou_spans spans;
-	char *text, *copy;
+	const char *text;
 
 	if (document->text)
 		return NULL;
-	text = outline(document->ladder, &spans);
-	*span = spans.span[pou];
-	copy = g_strdup(text);
-	free(text);
-	g_free(spans.span);
-	return copy;
+	text = plain_of(document);
+	*span = document->spans.span[pou];
+	return g_strdup(text);
 }
 
 /* The canonical text with POU @pou replaced by @text. */
@@ -219,51 +234,43 @@ static char *with_list(const char *whole, const struct text_span *span,
 
 char *ladder_document_text(LadderDocument *document, gsize *len)
 {
-	struct pou_spans spans;
-	char *text, *copy;
 	gsize unused;
+	char *text;
 
 	len = len ? len : &unused;
 	if (document->text) {
 		*len = document->text_len;
 		return g_memdup2(document->text, document->text_len + 1);
 	}
-	text = outline(document->ladder, &spans);
+	text = g_strdup(plain_of(document));
 	/* Backwards: a replacement moves everything behind it. */
-	for (int i = spans.count - 1; i >= 0; i--) {
+	for (int i = document->spans.count - 1; i >= 0; i--) {
 		const char *list = g_hash_table_lookup(document->list,
 						       GINT_TO_POINTER(i));
 
 		if (list) {
-			char *more = with_list(text, &spans.span[i], list);
+			char *more = with_list(text, &document->spans.span[i], list);
 
-			free(text);
-			text = strdup(more);
-			g_free(more);
+			g_free(text);
+			text = more;
 		}
 	}
-	g_free(spans.span);
 	*len = strlen(text);
-	copy = g_strdup(text);
-	free(text);
-	return copy;
+	return text;
 }
 
 char *ladder_document_list(LadderDocument *document, int pou)
 {
 	const struct project *project = ladder_document_project(document);
 	const char *list = g_hash_table_lookup(document->list, GINT_TO_POINTER(pou));
-	struct text_span span;
-	char *text, *out;
+	const char *text;
 
 	if (list)
 		return g_strdup(list);
 	if (!project || pou < 0 || pou >= project->pou_count)
 		return NULL;
-	text = ladder_document_pou(document, pou, &span);
-	out = g_strndup(text + span.at, span.len);
-	g_free(text);
-	return out;
+	text = plain_of(document);
+	return g_strndup(text + document->spans.span[pou].at, document->spans.span[pou].len);
 }
 
 /* The first POU that has such a list. */
@@ -283,7 +290,7 @@ static int first_list(LadderDocument *document)
 /* The line where the text of POU @pou begins, if no list stands before it. */
 static int first_line(LadderDocument *document, int pou)
 {
-	struct text_span span;
+	struct text_span span = { 0 };
 	char *text = ladder_document_pou(document, pou, &span);
 	int line = 1;
 
@@ -405,6 +412,7 @@ static struct ladder *read_text(LadderDocument *document, const char *text, gsiz
 
 static void take_ladder(LadderDocument *document, struct ladder *ladder)
 {
+	forget_plain(document);
 	ladder_free(document->ladder);
 	document->ladder = ladder;
 	g_clear_pointer(&document->text, g_free);
@@ -471,19 +479,18 @@ static void forget_place(LadderDocument *document)
 static struct list_place *place_since(LadderDocument *document, int pou, guint64 version)
 {
 	struct list_place *place = place_kept(document, pou, version);
-	struct pou_spans spans;
-	char *plain;
+	const struct text_span *span;
+	const char *plain;
 
 	if (place)
 		return place;
-	plain = outline(document->ladder, &spans);
+	plain = plain_of(document);
+	span = &document->spans.span[pou];
 	place = g_new0(struct list_place, 1);
 	place->pou = pou;
-	place->head = g_strndup(plain, spans.span[pou].at);
-	place->tail = g_strdup(plain + spans.span[pou].at + spans.span[pou].len);
+	place->head = g_strndup(plain, span->at);
+	place->tail = g_strdup(plain + span->at + span->len);
 	g_object_set_data_full(G_OBJECT(document), "list-place", place, place_free);
-	free(plain);
-	g_free(spans.span);
 	return place;
 }
 
@@ -598,6 +605,7 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 	struct diag_list diags;
 
 	diag_init(&diags);
+	forget_plain(document);
 	if (pou->sfc)
 		shift_bodies(pou->sfc, (int)change->at, (int)to->len - (int)from->len);
 	for (guint i = 0; i < from->len; i++)
@@ -660,6 +668,7 @@ static void pop(LadderDocument *document, int pou, int block, const char *text)
 	const char *address = project_text(project, var->at_text);
 
 	vars_pop(table, block);
+	forget_plain(document);
 	tell_variable(document, pou, name, address);
 }
 
@@ -672,6 +681,7 @@ static void push(LadderDocument *document, int pou, int block, const char *text)
 	diag_init(&diags);
 	if (!ladder_read_var(document->ladder, pou, block, text, strlen(text), &diags))
 		report_lost(text);
+	forget_plain(document);
 
 	const struct var_table *table = table_of(project, pou);
 
@@ -693,6 +703,7 @@ static void apply_view(LadderDocument *document, const char *text)
 {
 	if (!project_set_view(ladder_project(document->ladder), text))
 		g_error("out of memory");
+	forget_plain(document);
 	g_signal_emit(document, signals[BOOKMARKS_CHANGED], 0);
 }
 
@@ -1761,9 +1772,11 @@ static char *as_rung_file(LadderDocument *document, gsize *len, struct ladder **
 	char *text, *own;
 
 	diag_init(diags);
+	forget_plain(document);
 	project->source[0].plain = false;
 	text = ladder_document_text(document, len);
 	project->source[0].plain = true;
+	forget_plain(document);
 	if (project->words.as_numbers) {
 		own = plain_file_numbers(text, len);
 		g_free(text);
@@ -1944,6 +1957,7 @@ static void ladder_document_finalize(GObject *object)
 	LadderDocument *document = LADDER_DOCUMENT(object);
 
 	checker_free(document->checker);
+	forget_plain(document);
 	ladder_free(document->ladder);
 	history_free(document->history);
 	g_clear_pointer(&document->files, g_array_unref);

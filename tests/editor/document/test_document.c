@@ -515,14 +515,47 @@ static void random_edit(LadderDocument *document)
 	g_free(name);
 }
 
+/* The document keeps its text between changes. Whoever hears of one gets that of now, also between the
+ * changes of one step. */
+struct look {
+	LadderDocument *document;
+	int looks, stale;
+};
+
+static void look_at_text(struct look *look)
+{
+	char *fresh, *text;
+	size_t len;
+
+	if (!ladder_document_ladder(look->document) || !ladder_document_is_whole(look->document))
+		return;
+	fresh = ladder_write(ladder_document_ladder(look->document), &len);
+	text = ladder_document_text(look->document, NULL);
+	look->looks++;
+	look->stale += strcmp(fresh, text) != 0;
+	free(fresh);
+	g_free(text);
+}
+
+static void look_on_change(struct look *look)
+{
+	static const char *const changes[] = { "rungs-changed", "variable-changed", "project-changed",
+		"list-changed", "bookmarks-changed", "state-changed" };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(changes); i++)
+		g_signal_connect_swapped(look->document, changes[i], G_CALLBACK(look_at_text), look);
+}
+
 static void test_storm(void)
 {
-	int bad = 0;
+	int bad = 0, looks = 0, stale = 0;
 
 	for (int round = 0; round < 40; round++) {
 		LadderDocument *document = open_sample();
 		char *before = ladder_document_text(document, NULL), *after, *again;
+		struct look look = { .document = document };
 
+		look_on_change(&look);
 		for (int i = 0; i < 60; i++) {
 			random_edit(document);
 			if (pick(6) == 0)
@@ -545,8 +578,11 @@ static void test_storm(void)
 		g_free(before);
 		g_free(after);
 		g_free(again);
+		looks += look.looks;
+		stale += look.stale;
 		g_object_unref(document);
 	}
+	CHECK_AS(looks > 2400 && stale == 0, "at each of their signals the text is that of now");
 	CHECK_AS(bad == 0, "2,400 random steps: undone all and redone all, the same bytes");
 }
 
