@@ -177,4 +177,80 @@ my @bodies = (["PROGRAM Main LD\nRUNG", '| NO %s | COIL Lamp |', '| NC %s | COIL
 judge("bits of Logix, $_->[0]", $_->[0], qr/LD754: "S:(?:V|MINOR|4\/0)": controllers of Logix/,
 	map { my $form = $_; map { sprintf $form, $_ } qw(S:FS S:1/15 S:V S:MINOR S:4/0) } @{$_}[1 .. $#$_])
 	for @bodies;
+# Members of timers and counters as other tools call them, wherever an operand is read. The message names the
+# member, and the line with that in its place is good.
+my @timers = (['Delay', 'TON', 'PT', 'ET', 'Q', 'IN'], ['Rest', 'TOF', 'PT', 'ET', 'Q', 'IN'],
+	['Pulse', 'TP', 'PT', 'ET', 'Q', 'IN'], ['Parts', 'CTU', 'PV', 'CV', 'Q', 'CU'], ['Stock', 'CTD', 'PV', 'CV', 'Q', 'CD'],
+	['Both', 'CTUD', 'PV', 'CV', 'QU', 'CU'], ['Delays[2]', 'ARRAY[1..3] OF TON', 'PT', 'ET', 'Q', 'IN']);
+my %elsewhere = (2 => ['PRE', 'Preset', 'SP', 'P'], 3 => ['ACC', 'Accum', 'V', 'Current', 'Value'],
+	4 => ['DN', 'dn', 'Done', 'D', 'OUT', 'Output'], 5 => ['EN', 'Enable']);
+my @bits = (["PROGRAM Main LD\nRUNG", '| NO %s | COIL Lamp |', '| NC %s | COIL Lamp |', '| NO Ready | P %s | COIL Lamp |',
+	'| [ NOT %s AND Ready ] | COIL Lamp |'], ['PROGRAM Main IL', "LD %s\n  ST Lamp", "LD Ready\n  ANDN %s\n  ST Lamp"],
+	['PROGRAM Main ST', 'Lamp := %s;', 'IF Ready AND NOT %s THEN Lamp := TRUE; END_IF']);
+my %numbers = (PT => ['[ %s > T#1s ]', 'GT IN1:=%s IN2:=T#1s'], PV => ['[ %s > 1 ]', 'GT IN1:=%s IN2:=1']);
+
+# Is @line wrong in one place only, and good with the member that the message names?
+sub member_wrong {
+	my ($head, $form, $wrote, $meant) = @_;
+	my $line = sprintf $form, $wrote;
+	my (undef, @told) = said($head, $line);
+
+	return "$line: @told" if @told != 1 || $told[0] !~ /error LD319: "\Q$wrote\E".*; did you mean (.*)\?$/;
+	my $better = $1;
+	return "$line: $better, not $meant" if $better ne $meant;
+	my (undef, @more) = said($head, sprintf $form, $better);
+	return @more ? "$line: $better is refused: $more[0]" : ();
+}
+
+$vars =~ s/  Rise : R_TRIG;/  Stock : CTD;\n  Both : CTUD;\n  Delays : ARRAY[1..3] OF TON;\n$&/;
+my (@wrong, $members);
+for my $block (@timers) {
+	for my $of (sort keys %elsewhere) {
+		my @forms = $of > 3 ? @bits : (["PROGRAM Main LD\nRUNG", map { "| $_ | COIL Lamp |" } @{$numbers{$block->[2]}}]);
+
+		for my $form (@forms) {
+			my ($head, @lines) = @$form;
+			for my $line (@lines) {
+				$members++;
+				push @wrong, member_wrong($head, $line, "$block->[0].$elsewhere{$of}[$members % @{$elsewhere{$of}}]",
+					"$block->[0].$block->[$of]");
+			}
+		}
+	}
+}
+for my $timing (['Delay', 'Delay.IN AND NOT Delay.Q'], ['Rest', 'Rest.Q AND NOT Rest.IN']) {
+	$members++;
+	push @wrong, member_wrong("PROGRAM Main LD\nRUNG", '| [ %s ] | COIL Lamp |', "$timing->[0].TT", $timing->[1]);
+}
+ok(!@wrong, "members of timers and counters of others: $members lines");
+diag($_) for @wrong;
+
+# Limits on both sides, as in mathematics.
+my @chains;
+for my $first ('<', '<=', '>', '>=') {
+	for my $second ('<', '<=', '>', '>=') {
+		push @chains, "1 $first A $second 5", "B $first A $second Sum", "0 $first Sum $second 1";
+	}
+}
+my @unlike;
+for my $chain (@chains) {
+	for my $form (["PROGRAM Main LD\nRUNG", '| [ %s ] | COIL Lamp |'], ['PROGRAM Main ST', 'Lamp := %s;'],
+		['PROGRAM Main ST', 'IF %s THEN Lamp := TRUE; END_IF']) {
+		my (undef, @told) = said($form->[0], sprintf $form->[1], $chain);
+		my ($better) = @told == 1 ? $told[0] =~ /error LD558: "\Q$chain\E".*; write: (.*)$/ : ();
+		my @more = defined $better ? (said($form->[0], sprintf $form->[1], $better))[1 .. 1] : ();
+
+		push @unlike, "$chain: @told" if !defined $better;
+		push @unlike, "$chain: $better: $more[0]" if defined $more[0];
+	}
+}
+ok(!@unlike, 'comparisons with three sides: ' . 3 * @chains . ' lines, each with the line to write');
+diag($_) for @unlike;
+
+# One error for what stands behind a coil, or has the wrong name at a box, or gives a box its power.
+my @single = ('| COIL Lamp | NO Ready |', '| COIL Lamp | NC Ready | P Horn |', '| NO Horn | S Lamp | NO Ready |', '| EQ A := 5 | COIL Lamp |',
+	'| ADD X := 5 | COIL Lamp |', '| CTU Parts CU:=%IX0.0 PV:=5 |', '| TON Delay IN:=/Ready PT:=T#5s |');
+my @several = grep { my (undef, @told) = said("PROGRAM Main LD\nRUNG", $_); @told != 1 } @single;
+ok(!@several, 'one slip, one error');
+diag($_) for @several;
 done_testing();

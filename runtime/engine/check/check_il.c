@@ -89,8 +89,11 @@ static void report_unknown(struct il_check *c, const struct il_line *line,
 	} else {
 		char told[2 * LIMIT_ARG];
 
-		scope_tell(c->fn.scope, c->fn.pou, why, line->operand, told,
-			   sizeof(told));
+		if (why == DIAG_NO_PIN && strchr(il_name_text(c, line), '.'))
+			advice_word(scope_project(c->fn.scope), c->fn.pou, EXPECT_PIN, c->fn.diags, il_name_text(c, line),
+				    told, sizeof(told));
+		else
+			scope_tell(c->fn.scope, c->fn.pou, why, line->operand, told, sizeof(told));
 		il_report(&c->fn, line, why, told);
 	}
 }

@@ -118,7 +118,10 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 	if (why != DIAG_UNKNOWN_NAME) {
 		char told[2 * LIMIT_ARG];
 
-		scope_tell(c->scope, c->pou, why, id, told, sizeof(told));
+		if (why == DIAG_NO_PIN && strchr(name, '.'))
+			advice_word(c->project, c->pou, EXPECT_PIN, c->diags, name, told, sizeof(told));
+		else
+			scope_tell(c->scope, c->pou, why, id, told, sizeof(told));
 		operand_report(c, why, at, told);
 		return;
 	}
@@ -390,16 +393,19 @@ static void use_whole_array(struct operand_check *c, struct operand_spot at, uin
 		uses_add(c->uses, m, arg->output ? USE_WRITTEN : in_out ? USE_PASSED | USE_READ : USE_READ);
 }
 
-static void check_args(struct operand_check *c, struct operand_spot at,
+/* False: a pin has the wrong name or direction. */
+static bool check_args(struct operand_check *c, struct operand_spot at,
 		       const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
-	bool whole = word_is_own((enum word)cell->word) || cell->word == FN_MOVE;
+	bool whole = word_is_own((enum word)cell->word) || cell->word == FN_MOVE, good = true;
 	struct arg arg;
 
 	while (args_next(&next, &arg)) {
 		enum diag_id wrong = judge_pin(row, &arg);
+
+		good = good && wrong == DIAG_COUNT;
 		uint32_t value = operand_intern(c, arg.value, arg.value_len);
 
 		if (wrong != DIAG_COUNT)
@@ -417,6 +423,7 @@ static void check_args(struct operand_check *c, struct operand_spot at,
 		else
 			operand_read(c, at, value);
 	}
+	return good;
 }
 
 /* Bit i is set for input i of a function that a parameter or a pin row feeds. */
@@ -984,6 +991,59 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	}
 }
 
+static bool is_test(const struct expr_node *node)
+{
+	return node->op == EXPR_FN && word_is_test(word_row(node->fn));
+}
+
+static bool is_plain(const struct expr_node *node)
+{
+	return (node->op == EXPR_NAME || node->op == EXPR_LITERAL) && node->len < 20;
+}
+
+/* `1 < A < 5` compares a BOOL with 5. A TRUE or FALSE, and a 0 or 1 for equality, may be meant. */
+static bool is_chain(struct operand_check *c, struct expr *expr, const struct expr_node *node)
+{
+	struct infer in = { .scope = c->scope, .pou = c->pou, .project = c->project, .expr = expr,
+			    .statement = c->statement };
+	const struct expr_node *right;
+
+	if (!is_test(node) || !is_test(&expr->node[node->left]))
+		return false;
+	right = &expr->node[node->right];
+	if (right->op == EXPR_LITERAL)
+		return !ascii_is("TRUE", right->text, right->len) && !ascii_is("FALSE", right->text, right->len) &&
+		       (right->len > 1 || right->text[0] > '1' ||
+			(node->fn != FN_EQ && node->fn != FN_NE));
+	const enum iec_type type = infer_type(&in, node->right);
+
+	return type != IEC_BOOL && type != IEC_NONE;
+}
+
+/* Reports it, with both comparisons apart where each side is one word. */
+static void report_chain(struct operand_check *c, struct operand_spot at, const struct expr *expr,
+			 const struct expr_node *node)
+{
+	static const char *const sign[] = { "=", "<>", "<", "<=", ">", ">=" };
+	static const enum word word[] = { FN_EQ, FN_NE, FN_LT, FN_LE, FN_GT, FN_GE };
+	const struct expr_node *first = &expr->node[node->left], *a = &expr->node[first->left],
+			       *b = &expr->node[first->right], *d = &expr->node[node->right];
+	const char *signs[2] = { "", "" };
+	char text[LIMIT_PARTS];
+
+	for (size_t i = 0; i < sizeof(word) / sizeof(*word); i++) {
+		signs[0] = first->fn == word[i] ? sign[i] : signs[0];
+		signs[1] = node->fn == word[i] ? sign[i] : signs[1];
+	}
+	if (is_plain(a) && is_plain(b) && is_plain(d))
+		snprintf(text, sizeof(text), "%.*s %s %.*s %s %.*s" DIAG_AND "%.*s %s %.*s AND %.*s %s %.*s", a->len,
+			 a->text, signs[0], b->len, b->text, signs[1], d->len, d->text, a->len, a->text, signs[0],
+			 b->len, b->text, b->len, b->text, signs[1], d->len, d->text);
+	else
+		snprintf(text, sizeof(text), "%s", signs[1]);
+	operand_report(c, DIAG_CHAIN, at, text);
+}
+
 /* The names of a parsed expression. */
 static void use_expression(struct operand_check *c, struct operand_spot at, struct expr *expr)
 {
@@ -1017,6 +1077,11 @@ static void use_expression(struct operand_check *c, struct operand_spot at, stru
 	c->spot = expr->target ? expr->target : c->spot;
 	if (expr->target)
 		use_target(c, at, expr);
+	for (int i = 0; i < expr->count; i++)
+		if (is_chain(c, expr, &expr->node[i])) {
+			report_chain(c, at, expr, &expr->node[i]);
+			return;
+		}
 }
 
 static void operand_expression(struct operand_check *c, struct operand_spot at, uint32_t id)
@@ -1089,8 +1154,8 @@ static void check_element(struct operand_check *c, struct operand_spot at,
 	case OPND_PIN:
 		break;
 	}
-	if (cell->args && row->operand != OPND_EXECUTE)
-		check_args(c, at, cell);
+	if (cell->args && row->operand != OPND_EXECUTE && !check_args(c, at, cell))
+		return; /* an input may seem missing only because its name is wrong */
 	if (row->kind == WORD_FN || word_is_own((enum word)cell->word))
 		check_inputs(c, at, cell);
 }

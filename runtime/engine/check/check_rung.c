@@ -34,6 +34,7 @@ struct rung_check {
 	struct diag_list *diags;
 	struct net_mark *net;
 	bool outputs;   /* FALSE: the rung has no output, so no loose end is reported */
+	bool followed;  /* elements behind a coil are reported; they lead nowhere, too */
 	bool good;
 };
 
@@ -261,8 +262,13 @@ static void check_power_pin(struct rung_check *c,
 	if (row->kind == WORD_ELEM || (row->kind == WORD_FB && first < 0))
 		return;
 	name = row->kind == WORD_FN ? "EN" : row->pin[first].name;
-	if (cell->args && args_find(project_text(c->project, cell->args), name,
-				    strlen(name), &arg))
+	if (!cell->args || !args_find(project_text(c->project, cell->args), name, strlen(name), &arg))
+		return;
+	if (e->in == NET_RAIL && arg.value_len < LIMIT_ARG - 4 && !ascii_is("TRUE", arg.value, arg.value_len) &&
+	    !ascii_is("FALSE", arg.value, arg.value_len))
+		c->good &= diag_add(c->diags, place_of(c, DIAG_PIN_FIRST, e->row, e->col), "%s" DIAG_AND "%s %.*s",
+				    name, arg.inverse ? "NC" : "NO", (int)arg.value_len, arg.value);
+	else
 		report(c, DIAG_PIN_FIRST, e->row, e->col, name);
 }
 
@@ -375,6 +381,7 @@ static void check_followed(struct rung_check *c, const struct network_element *e
 		report_cell(c, DIAG_NOT_LAST, e->row, e->col);
 	else if (c->net[e->out].inner)
 		report_cell(c, DIAG_COIL_FOLLOWED, e->row, e->col);
+	c->followed |= is_coil(e) && c->net[e->out].inner;
 }
 
 static void check_element(struct rung_check *c, int number)
@@ -400,7 +407,7 @@ static void check_element(struct rung_check *c, int number)
 			out->feeder = number;
 		}
 	}
-	if (c->outputs && !read && !out->said && !is_last(e) && !may_be_last(e))
+	if (c->outputs && !c->followed && !read && !out->said && !is_last(e) && !may_be_last(e))
 		report_cell(c, DIAG_OPEN_RIGHT, e->row, e->col);
 }
 

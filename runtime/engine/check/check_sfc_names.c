@@ -130,7 +130,7 @@ static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot 
 	const char *name = project_text(c->project, id);
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
-	char text[LIMIT_ARG];
+	char text[2 * LIMIT_ARG];
 
 	if (m) {
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
@@ -138,9 +138,9 @@ static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot 
 	}
 	enum diag_id better = DIAG_COUNT;
 
-	if (why == DIAG_UNKNOWN_NAME)
-		better = advice_word(c->project, c->pou, kinds, c->diags, name, text,
-				     sizeof(text));
+	if (why == DIAG_UNKNOWN_NAME || (why == DIAG_NO_PIN && strchr(name, '.')))
+		better = advice_word(c->project, c->pou, why == DIAG_NO_PIN ? EXPECT_PIN : kinds, c->diags,
+				     name, text, sizeof(text));
 	else
 		snprintf(text, sizeof(text), "%.*s", LIMIT_ARG - 1, name);
 	report(c, better != DIAG_COUNT ? better : why, at, text);

@@ -561,6 +561,78 @@ static enum diag_id say_dialect(const char *wanted, char *out, size_t size)
 	return DIAG_AS_ELSEWHERE;
 }
 
+/* What members of timers and counters are called elsewhere: in Logix, STEP 7, GX Works, ClassicLadder. The
+ * first of `to` that the block has is meant. */
+static const struct {
+	const char *from, *to[4];
+} members[] = {
+	{ "DN", { "Q", "QU" } }, { "DONE", { "Q", "QU" } }, { "D", { "Q", "QU" } }, { "OUT", { "Q", "QU" } },
+	{ "OUTPUT", { "Q", "QU" } }, { "CONTACT", { "Q", "QU" } }, { "Q0", { "Q", "QU" } }, { "Q", { "QU" } },
+	{ "EN", { "IN", "CU", "CD" } }, { "ENABLE", { "IN", "CU", "CD" } }, { "IN", { "CU", "CD" } },
+	{ "INPUT", { "IN", "CU", "CD" } }, { "CU", { "IN", "CD" } }, { "UP", { "CU" } }, { "DOWN", { "CD" } },
+	{ "ACC", { "ET", "CV" } }, { "ACCUM", { "ET", "CV" } }, { "CURRENT", { "ET", "CV" } }, { "V", { "ET", "CV" } },
+	{ "ELAPSED", { "ET" } }, { "VALUE", { "ET", "CV" } }, { "VAL", { "ET", "CV" } }, { "COUNT", { "CV" } },
+	{ "CNT", { "CV" } }, { "ET", { "CV" } }, { "CV", { "ET" } }, { "PRE", { "PT", "PV" } },
+	{ "PRESET", { "PT", "PV" } }, { "P", { "PT", "PV" } }, { "SP", { "PT", "PV" } }, { "PT", { "PV" } },
+	{ "PV", { "PT" } }, { "RES", { "R" } }, { "RESET", { "R" } }, { "RST", { "R" } }, { "CLEAR", { "R" } },
+	{ "LOAD", { "LD" } },
+};
+
+/* The bit of Logix that is TRUE while a timer runs; NULL: no timer of these. */
+static const char *timing_of(const char *block)
+{
+	return ascii_same(block, "TOF", 4) ? "%.*s.Q AND NOT %.*s.IN" :
+	       ascii_same(block, "TON", 4) ? "%.*s.IN AND NOT %.*s.Q" : NULL;
+}
+
+/* Behind @path, "Delay.DN" of the block @row: the member that is meant, "Delay.Q", if one is near. */
+static void near_member(const struct word_row *row, const char *path, const char *name, char *out, size_t size)
+{
+	const char *timing = row->kind == WORD_FB && ascii_is("TT", name, strlen(name)) ? timing_of(row->word) : NULL;
+	const int len = (int)(name - path) - 1;
+	struct nearest nearest;
+	const char *found = NULL;
+	char made[2 * LIMIT_ARG] = "";
+
+	for (size_t i = 0; row->kind == WORD_FB && !found && i < sizeof(members) / sizeof(*members); i++)
+		for (int k = 0; ascii_is(members[i].from, name, strlen(name)) && members[i].to[k] && !found; k++)
+			if (word_pin_find(row, members[i].to[k], strlen(members[i].to[k])) >= 0)
+				found = members[i].to[k];
+	nearest_init(&nearest, name, strlen(name));
+	for (int i = 0; !found && i < row->pin_count; i++)
+		if (word_pins(row)[i].dir != PIN_VAR)
+			nearest_offer(&nearest, word_pins(row)[i].name);
+	if (!found && nearest.count)
+		found = nearest.word[0].text;
+	if (timing && len < LIMIT_ARG / 3)
+		snprintf(made, sizeof(made), timing, len, path, len, path);
+	else if (found && len < LIMIT_ARG)
+		snprintf(made, sizeof(made), "%.*s.%s", len, path, found);
+	snprintf(out, size, "%.60s%s%s", path, *made ? DIAG_AND : "", strlen(made) < LIMIT_ARG ? made : "");
+}
+
+/* The same of `Delay.DN` and `Delays[2].DN`; other paths have no suggestion. */
+static void find_member(const struct project *project, const struct pou *pou, const char *path, char *out, size_t size)
+{
+	const char *dot = strrchr(path, '.');
+	const size_t len = strcspn(path, ".[");
+	const struct var_table *tables[] = { pou ? &pou->vars : &project->globals, &project->globals };
+	const uint32_t name = names_find_any(&project->names, path, len);
+
+	snprintf(out, size, "%.60s", path);
+	if (!name || strchr(path, '.') != dot)
+		return;
+	for (int i = 0; i < 2; i++) {
+		const int at = vars_find(tables[i], names_fold(&project->names, name));
+
+		if (at < 0)
+			continue;
+		if (tables[i]->var[at].type == IEC_NONE)
+			near_member(words_row(&project->words, tables[i]->var[at].fb), path, dot + 1, out, size);
+		return;
+	}
+}
+
 enum diag_id expect_nearest(const struct project *project, const struct pou *pou,
 			    unsigned int kinds, const char *wanted, char *out, size_t size)
 {
@@ -569,6 +641,10 @@ enum diag_id expect_nearest(const struct project *project, const struct pou *pou
 	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT,
 					  .begun = wanted, .begun_len = strlen(wanted) };
 
+	if (kinds & EXPECT_PIN && strchr(wanted, '.')) {
+		find_member(project, pou, wanted, out, size);
+		return DIAG_COUNT;
+	}
 	nearest_init(&nearest, wanted, strlen(wanted));
 	expect_offer(project, pou, &want, &taker);
 	nearest_print(&nearest, out, size);
