@@ -9,8 +9,6 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/name.h"
-#include "engine/base/nearest.h"
-#include "engine/model/dialect.h"
 #include "engine/model/expr.h"
 #include "engine/model/fbd.h"
 #include "engine/model/named.h"
@@ -1464,31 +1462,6 @@ const char *scope_said(struct scope *scope, uint32_t id)
 	return id ? names_text(names, id) : text + 1;
 }
 
-/* The pin that is meant: what other tools call so, else those with a similar name. */
-static void tell_pin(struct scope *scope, const struct pou *pou, const char *name, const char *dot, char *out, size_t size)
-{
-	enum diag_id why;
-	const struct meaning *m = scope_find(scope, pou, names_intern(&scope->project->names, name, (size_t)(dot - name)), &why);
-	const struct word_row *row;
-	const char *ours = NULL;
-	struct nearest nearest;
-
-	if (!m || !has_parts(m))
-		return;
-	row = scope_row(scope, (enum word)m->word);
-	for (int i = 0; (ours = dialect_pin(dot + 1, strlen(dot + 1), i)); i++)
-		if (!*ours || word_pin_find(row, ours, strlen(ours)) >= 0)
-			break;
-	nearest_init(&nearest, dot + 1, strlen(dot + 1));
-	for (int i = 0; !ours && i < row->pin_count; i++)
-		if (row->pin[i].dir != PIN_NONE && row->pin[i].dir != PIN_VAR && row->pin[i].name)
-			nearest_offer(&nearest, row->pin[i].name);
-	if (!ours && nearest.count)
-		ours = nearest.word[0].text;
-	if (ours && *ours)
-		snprintf(out, size, "%.60s" DIAG_AND "%.*s%.40s", name, (int)(dot + 1 - name < 60 ? dot + 1 - name : 60), name, ours);
-}
-
 void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, uint32_t text,
 		char *out, size_t size)
 {
@@ -1497,8 +1470,6 @@ void scope_tell(struct scope *scope, const struct pou *pou, enum diag_id why, ui
 
 	name += *name == '&' || *name == '@'; /* of REF(Name) */
 	named_tell(scope->project, why, name, out, size);
-	if (why == DIAG_NO_PIN && dot)
-		tell_pin(scope, pou, name, dot, out, size);
 	if (why != DIAG_NO_SUCH_PART || !dot)
 		return;
 	m = scope_find(scope, pou, names_intern(&scope->project->names, name, (size_t)(dot - name)), &why);

@@ -330,19 +330,6 @@ bool dialect_is_data_block(const char *text, size_t len)
 	return at == end || (*at++ == '.' && number(&at, end, 10) >= 0 && at == end);
 }
 
-const char *dialect_pin(const char *text, size_t len, int index)
-{
-	static const struct { const char *theirs, *ours; } pins[] = {
-		{ "DN", "Q" }, { "DONE", "Q" }, { "ACC", "ET" }, { "ACC", "CV" }, { "PRE", "PT" }, { "PRE", "PV" },
-		{ "EN", "IN" }, { "EN", "CU" }, { "EN", "CD" }, { "RES", "R" }, { "RESET", "R" }, { "CNT", "CV" }, { "TT", "" }, { "UN", "" }, { "OV", "" },
-	};
-
-	for (size_t i = 0; i < COUNT(pins); i++)
-		if (ascii_is(pins[i].theirs, text, len) && index-- == 0)
-			return pins[i].ours;
-	return NULL;
-}
-
 static bool is_word(char c)
 {
 	return ascii_digit(c) || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') || c == '_';

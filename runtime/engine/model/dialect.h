@@ -42,12 +42,6 @@ bool dialect_special(const char *text, size_t len, struct dialect_special *out);
 /** dialect_is_data_block - DB1.DBX0.0, DB20.DBW4: a place in a data block of a Siemens controller. Scan-safe: yes. */
 bool dialect_is_data_block(const char *text, size_t len);
 
-/** dialect_pin - what a member of a timer or counter of another tool is here: DN is Q, ACC is ET or CV, and
- * TT ("") is none
- * @index: 0; and on for the other pins that it can be
- * Owns: nothing; lives for ever. Scan-safe: yes. Fails: NULL: no tool that is known has it, or no more pins. */
-const char *dialect_pin(const char *text, size_t len, int index);
-
 /** dialect_around - the word around a colon, such as S:FS or I:1/3, in @begin … @end; *@from: where it
  * begins. Returns its bytes. Owns: nothing. Scan-safe: yes. */
 size_t dialect_around(const char *begin, const char *end, const char *colon, const char **from);
