@@ -56,8 +56,8 @@ measure() {
 # 12 KB for values of several enumerations by their place, several resources, parts of numbers behind =>, blocks with a task
 # of their own, and addresses of variables within blocks.
 # 2 KB for numbers that plain IEC text converts by itself, values to begin with by other variables, and ENO of blocks.
-# 2 KB for comparisons with three sides, members of other tools, resets of blocks, and two turns of truth tables at once.
-measure 'ladderd' 561152 '' CFLAGS=-O2
+# 3 KB for comparisons with three sides, members of other tools, resets of blocks, and two turns of truth tables at once.
+measure 'ladderd' 562176 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
