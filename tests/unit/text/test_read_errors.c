@@ -133,7 +133,7 @@ static void test_array_errors(void)
 	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD156 5 1 (1,1) 10 ]" DIAG_AND "+");
 	fails(LD("RUNG\n| NO A] | COIL B |\n"), "LD121 5 1 (1,1) 7 ]");
 	fails(LD("RUNG\n| [ A[i + 1 ] | COIL B |\n"), "LD122 5 1 (1,1) 15 |");
-	fails(LD("RUNG\n| [ A[(i + 1] ] | COIL B |\n"), "LD122 5 1 (1,1) 13 ]");
+	fails(LD("RUNG\n| [ A[(i + 1] ] | COIL B |\n"), "LD122 5 1 (1,1) 13 ]" DIAG_AND ")");
 	fails(LD("RUNG\n| [ A[i + 1) ] | COIL B |\n"), "LD122 5 1 (1,1) 12 )");
 	fails(LD("RUNG\n| [ A[] ] | COIL B |\n"), "LD122 5 1 (1,1) 7 ]");
 	fails(LD("RUNG\n| [ 5[1] > 2 ] | COIL B |\n"), "LD122 5 1 (1,1) 6 [");
