@@ -31,9 +31,9 @@ echo 'fixed: random ones that stay; random: all change in each scan; 1 ms: the s
 echo
 echo '| program | rungs | body, zero ns/rung | fixed | random | 1 ms | scan, fixed ns/rung | read ms | check and translate ms | memory to load MB | code bytes/rung | with maps bytes/rung |'
 echo '|---|---|---|---|---|---|---|---|---|---|---|---|'
-for kind in seal mixed dense; do
+for kind in seal mixed dense ton ctu compare sum product; do
 	for n in 1000 10000; do
-		[ "$kind$n" = dense10000 ] && continue
+		[ "$n" = 10000 ] && [ "$kind" != seal ] && [ "$kind" != mixed ] && continue
 		perl "$(dirname "$0")/programs.pl" $kind $n >"$tmp/p.rung"
 		"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
 		code=$(field "$tmp/p.json" code_bytes)

@@ -4,7 +4,8 @@
 # programs - writes the ladders that `make bench` measures: programs.pl KIND N
 #
 # seal:   N rungs of a start button, a stop button and a motor with seal-in
-# mixed:  N rungs, alternately a timer, a counter, a comparison and arithmetic
+# mixed:  N rungs, alternately a timer, a counter, a comparison and a sum
+# ton, ctu, compare, sum: N rungs of one of these, each with an input and an output; product: of a product and a sum of REAL
 # dense:  N rungs of 8 x 6 contacts with a link at every cell
 # empty:  one rung, as small as possible
 # chart:  a chart of N steps, 50 in each of its simultaneous sequences, so that N / 50 are
@@ -44,13 +45,24 @@ my %family = (
 my $latch = "FUNCTION_BLOCK Latch LD\nVAR_INPUT\n  Set : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
 	. "RUNG\n  | NO Set | COIL Q |\n  | NO Q  ^|\nEND_FUNCTION_BLOCK\n\n";
 
+# The boxes of `mixed`, and product.
+my @mixed = qw(ton ctu compare sum);
+my %box = (
+	ton => ['Delay# : TON;', 'TON Delay# PT:=T#1s'],
+	ctu => ['Count# : CTU;', 'CTU Count# PV:=100'],
+	compare => ['Level# : INT;', '[ Level# > 10 ]'],
+	sum => ['Level# : INT; Sum# : INT;', 'ADD IN1:=Sum# IN2:=Level# OUT=>Sum#'],
+	product => ['A# : REAL := 1.5; B# : REAL := 0.25; C# : REAL; D# : REAL;', 'MUL IN1:=A# IN2:=B# OUT=>C# | ADD IN1:=C# IN2:=D# OUT=>D#'],
+);
+sub box { my ($kind, $i) = @_; return $kind eq 'mixed' ? $mixed[$i & 3] : $box{$kind} ? $kind : undef }
+
 my ($kind, $n) = @ARGV;
 if (defined $kind && $kind eq 'families') {
 	print join(' ', sort keys %family), "\n";
 	exit;
 }
-die "usage: programs.pl seal|mixed|dense|empty|chart|lines|blocks|parts|FAMILY N, or programs.pl families\n"
-	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart|lines|blocks|parts)$/);
+die "usage: programs.pl seal|mixed|ton|ctu|compare|sum|product|dense|empty|chart|lines|blocks|parts|FAMILY N, or programs.pl families\n"
+	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $box{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart|lines|blocks|parts)$/);
 if ($family{$kind}) {
 	my ($declared, $rung) = @{$family{$kind}};
 	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
@@ -90,7 +102,7 @@ sub input { my ($i) = @_; return sprintf("AT %%IX%d.%d ", $i >> 3, $i & 7) }
 sub output { my ($i) = @_; return $i < 4096 ? sprintf("AT %%QX%d.%d ", $i >> 3, $i & 7) : "" }
 
 print "RUNGBOARD 1\n\n";
-my $inputs = $kind eq 'seal' ? 2 * $n : $kind eq 'mixed' ? $n : 0;
+my $inputs = $kind eq 'seal' ? 2 * $n : box($kind, 0) ? $n : 0;
 if ($inputs > 4096) {
 	die "at most 65536 inputs\n" if $inputs > 65536;
 	print "CONFIGURATION Large\n  AREA I ", ($inputs + 7) >> 3, ";\nEND_CONFIGURATION\n\n";
@@ -101,14 +113,10 @@ if ($kind eq 'seal') {
 		printf "  Start%d %s: BOOL;\n  Stop%d %s: BOOL;\n  Motor%d %s: BOOL;\n",
 			$i, input(2 * $i), $i, input(2 * $i + 1), $i, output($i);
 	}
-} elsif ($kind eq 'mixed') {
+} elsif (box($kind, 0)) {
 	for my $i (0 .. $n - 1) {
-		my $k = $i & 3;
-		printf "  In%d %s: BOOL;\n  Out%d %s: BOOL;\n", $i, input($i), $i, output($i);
-		print "  Delay$i : TON;\n" if $k == 0;
-		print "  Count$i : CTU;\n" if $k == 1;
-		print "  Level$i : INT;\n" if $k >= 2;
-		print "  Sum$i : INT;\n" if $k == 3;
+		my $declared = $box{box($kind, $i)}[0] =~ s/#/$i/gr;
+		printf "  In%d %s: BOOL;\n  Out%d %s: BOOL;\n  %s\n", $i, input($i), $i, output($i), $declared;
 	}
 } elsif ($kind eq 'dense') {
 	printf "  In%d %s: BOOL;\n", $_, input($_) for 0 .. 63;
@@ -144,15 +152,8 @@ if ($kind eq 'chart') {
 	}
 } elsif ($kind eq 'seal') {
 	print "RUNG\n  | NO Start$_  | NC Stop$_ | COIL Motor$_ |\n  | NO Motor$_ ^|\n" for 0 .. $n - 1;
-} elsif ($kind eq 'mixed') {
-	for my $i (0 .. $n - 1) {
-		my $k = $i & 3;
-		print "RUNG\n";
-		print "  | NO In$i | TON Delay$i PT:=T#1s | COIL Out$i |\n" if $k == 0;
-		print "  | NO In$i | CTU Count$i PV:=100 | COIL Out$i |\n" if $k == 1;
-		print "  | NO In$i | [ Level$i > 10 ] | COIL Out$i |\n" if $k == 2;
-		print "  | NO In$i | ADD IN1:=Sum$i IN2:=Level$i OUT=>Sum$i | COIL Out$i |\n" if $k == 3;
-	}
+} elsif (box($kind, 0)) {
+	print "RUNG\n  | NO In$_ | ", $box{box($kind, $_)}[1] =~ s/(?<!T)#/$_/gr, " | COIL Out$_ |\n" for 0 .. $n - 1;
 } else {
 	print "RUNG\n  | NO A | COIL B |\n";
 }

@@ -73,7 +73,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 12u
+#define CODE_VERSION 13u
 #define CODE_AREAS   16
 
 /* A pointer: offset of a place, its bytes, and the position from its first byte on. */
@@ -260,6 +260,8 @@ enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_MOD, MATH_COUNT };
 #define MATH_LEFT    16u /* flag, not with MATH_ENABLED: dst = a if there is no result */
 #define MATH_LOOP    64u /* flag, of ADD of INT and DINT without others: CMP_INT or CMP_DINT of its
 			  * result follows, without another bit, and JMPC by that */
+#define MATH_ROW     128u /* flag, of REAL with MATH_ENABLED: REAL with MATH_ENABLED follows, and its en is this
+			  * eno: a row of boxes, which run one after the other if the first one does */
 #define MATH_LIKELY  32u /* flag, with MATH_ENABLED: en is hardly ever FALSE, so a branch is faster */
 
 /**

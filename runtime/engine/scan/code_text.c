@@ -376,21 +376,24 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 	bool always = at[0] == CODE_TRUE_AT(&v->program->areas);
 
 	return MATH_OF(n) < (type == IEC_REAL ? MATH_MOD : MATH_COUNT) &&
-	       (n & ~(MATH_LIKELY | MATH_LOOP)) < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
+	       (n & ~(MATH_LIKELY | MATH_LOOP | MATH_ROW)) < MATH_ENABLED + MATH_LEFT && (n & MATH_ENABLED || always) &&
 	       (n & (MATH_LIKELY | MATH_ENABLED)) != MATH_LIKELY &&
 	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }
 
 #ifndef RUNGBOARD_SMALL
-/* MATH_LOOP: the VM believes that these instructions follow. */
-static bool check_loop(const uint32_t *code, uint32_t words)
+/* MATH_LOOP and MATH_ROW: the VM believes that these instructions follow. */
+static bool check_marks(const uint32_t *code, uint32_t words)
 {
 	const uint32_t op = *code & 0xff, *cmp = code + 6, *jump = code + 11;
 
-	if ((op != VM_INT && op != VM_DINT && op != VM_REAL) || !(*code >> 8 & MATH_LOOP))
+	if ((op != VM_INT && op != VM_DINT && op != VM_REAL) || !(*code >> 8 & (MATH_LOOP | MATH_ROW)))
 		return true;
-	return op != VM_REAL && *code >> 8 == (MATH_ADD | MATH_LOOP) && words >= 14 &&
+	if (op == VM_REAL)
+		return !(*code >> 8 & MATH_LOOP) && *code >> 8 & MATH_ENABLED && words >= 12 &&
+		       (code[6] & 0xff) == VM_REAL && code[6] >> 8 & MATH_ENABLED && code[7] == code[2];
+	return *code >> 8 == (MATH_ADD | MATH_LOOP) && words >= 14 &&
 	       (*cmp & 0xff) == (op == VM_INT ? VM_CMP_INT : VM_CMP_DINT) && cmp[1] == code[3] &&
 	       code_order_alone(*cmp >> 8) &&
 	       (*jump & 0xff) == VM_JMPC && jump[2] == cmp[4];
@@ -483,7 +486,7 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 		if ((*code & 0xff) >= VM_COUNT ||
 		    words_needed(code) > words - at || !check_code(v, code))
 			return verify_refuse(v, code);
-		WITH_POINTERS(if (!check_loop(code, words - at))
+		WITH_POINTERS(if (!check_marks(code, words - at))
 			return verify_refuse(v, code);)
 		starts[at] = 1;
 		last = *code & 0xff;

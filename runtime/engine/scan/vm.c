@@ -873,6 +873,23 @@ static INLINE uint32_t run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return en & (good ^ 1u);
 }
 
+/* One of a row of REAL, of which each runs if the one before did; @en: did it? Returns whether this one did. */
+static INLINE uint32_t run_in_row(uint8_t *m, const uint32_t *pc, uint32_t n, uint32_t en)
+{
+	float a = single(m + pc[3]), b = single(m + pc[4]);
+	float out = LIKELY(MATH_OF(n) == MATH_ADD) ? a + b :
+		    LIKELY(MATH_OF(n) == MATH_MUL) ? a * b : compute_real(MATH_OF(n), a, b);
+	uint32_t bits, old;
+
+	memcpy(&bits, &out, sizeof(bits));
+	memcpy(&old, m + pc[2], sizeof(old));
+	en &= bits << 1 < 0xff000000u; /* finite */
+	bits = old ^ ((old ^ bits) & (0u - en));
+	memcpy(m + pc[2], &bits, sizeof(bits));
+	m[pc[1]] = (uint8_t)en;
+	return en;
+}
+
 /* A quotient or what remains. */
 static SELDOM uint32_t divide(uint32_t math, int32_t a, int32_t b, int32_t low, int64_t *out)
 {
@@ -1305,6 +1322,19 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto jump_if;
 			break;
 		case VM_REAL:
+			if (HAS_OFTEN && JOINS && n & MATH_ROW) {
+				uint32_t en = m[pc[1]], ran;
+
+				do {
+					n = *pc >> 8;
+					ran = run_in_row(m, pc + 1, n, en);
+					if (!LIKELY(ran == en))
+						count_error(vm, pc, base);
+					en = ran;
+					pc += 6;
+				} while (n & MATH_ROW);
+				break;
+			}
 			if (!LIKELY(!run_real(m, pc + 1, n)))
 				count_error(vm, pc, base);
 			pc += 6;

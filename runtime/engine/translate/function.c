@@ -75,6 +75,18 @@ bool list_stores_left(const struct fn_code *fn)
 	return has_always_result(fn->fn, fn->result) || is_math(fn, &math);
 }
 
+/* Marks the REAL before, whose ENO is the EN of @fn. */
+static void mark_row(struct assembler *as, const struct fn_code *fn, enum vm_op op)
+{
+	uint32_t *before;
+
+	if (op != VM_REAL || as->text->count < 6 || as->op_at != as->text->count - 6)
+		return;
+	before = &as->text->word[as->op_at];
+	if ((*before & 0xff) == VM_REAL && *before >> 8 & MATH_ENABLED && before[2] == fn->en)
+		*before |= MATH_ROW << 8;
+}
+
 /* ---- all ---- */
 
 void list_emit_fn(struct list *list, const struct fn_code *fn)
@@ -85,6 +97,7 @@ void list_emit_fn(struct list *list, const struct fn_code *fn)
 
 	list_place(list);
 	if (is_short) {
+		mark_row(as, fn, op_of(fn->type));
 		emit_op(as, op_of(fn->type), math |
 			(fn->en != CODE_TRUE_AT(as->areas) ?
 			 MATH_ENABLED | (likely_is(as, fn->en) ? MATH_LIKELY : 0) :

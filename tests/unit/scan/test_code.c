@@ -443,6 +443,25 @@ static void refuses_number_operands(void)
 	CHECK(refuses(VM_FB, 0, VM_FB | 0xffffffu << 8));
 }
 
+/* MATH_ROW: the second box must be there, and the ENO of the first one must be its EN. */
+static void refuses_rows(void)
+{
+	const uint32_t marks = MATH_MUL | MATH_ENABLED | MATH_ROW, alone = MATH_ADD | MATH_ENABLED;
+	const uint32_t go = find(VM_REAL)[1], heat = find(VM_REAL)[3];
+
+	CHECK_AS(*find(VM_REAL) == (VM_REAL | marks << 8) && find(VM_REAL)[6] == (VM_REAL | alone << 8),
+		 "two boxes of REAL, one behind the other, are a row");
+	CHECK_AS(!refuses(VM_REAL, 0, VM_REAL | (marks & ~MATH_ROW) << 8), "no mark is needed");
+	CHECK(refuses(VM_REAL, 0, VM_REAL | (marks & ~MATH_ENABLED) << 8));
+	CHECK(refuses(VM_REAL, 0, VM_REAL | (marks | MATH_LOOP) << 8));
+	CHECK_AS(refuses(VM_REAL, 6, VM_REAL | (alone | MATH_ROW) << 8), "the last one of a row has none behind it");
+	CHECK(refuses(VM_REAL, 6, VM_REAL | MATH_ADD << 8) && refuses(VM_REAL, 6, VM_FN | alone << 8));
+	CHECK_AS(refuses(VM_REAL, 7, go), "the ENO of the first one is the EN of the second one");
+	CHECK(refuses(VM_REAL, 2, find(VM_REAL)[8]));
+	CHECK_AS(refuses(VM_INT, 0, VM_INT | marks << 8), "INT has no rows");
+	CHECK_AS(!refuses(VM_REAL, 10, heat), "the second one may read anything");
+}
+
 static void refuses_jumps(void)
 {
 	const struct code_program *entry = section(CODE_PROGRAMS);
@@ -636,5 +655,9 @@ int main(void)
 	with_image(source, all_checks);
 	with_image("VAR\n  Name : STRING[8] := 'xyz';\nEND_VAR\nPROGRAM Main IL\nEND_PROGRAM\n",
 		   refuses_initial_texts);
+	with_image("VAR\n  Go : BOOL;\n  Heat : REAL;\n  Count : INT;\nEND_VAR\nPROGRAM Main LD\nRUNG\n"
+		   "  | NO Go | MUL IN1:=Heat IN2:=1.5 OUT=>Heat | ADD IN1:=Heat IN2:=0.5 OUT=>Heat |\n"
+		   "RUNG\n  | NO Go | ADD IN1:=Count IN2:=1 OUT=>Count | ADD IN1:=Count IN2:=1 OUT=>Count |\n"
+		   "END_PROGRAM\n", refuses_rows);
 	return tap_done();
 }

@@ -185,6 +185,72 @@ static void runs_all(enum iec_type type, bool watch, const union iec_value *in,
 	rig_close(&rig);
 }
 
+/* ---- boxes one behind the other ---- */
+
+/* G: the first box; H: the second one, which runs if the first one has a result, and whose ENO is K. */
+static const char *rows(void)
+{
+	const int count = functions(true);
+
+	source[0] = '\0';
+	say("VAR\n  On : BOOL;\n  A, B : REAL;\n");
+	for (int i = 0; i < count * count; i++)
+		say("  G%c, H%c : REAL;\n  K%c : BOOL;\n", 'a' + i, 'a' + i, 'a' + i);
+	say("END_VAR\nPROGRAM Main LD\n");
+	for (int i = 0; i < count * count; i++)
+		say("RUNG\n  | NO On | %s IN1:=A IN2:=B OUT=>G%c | %s IN1:=%s IN2:=%s OUT=>H%c | COIL K%c |\n",
+		    function[i / count], 'a' + i, function[i % count], i & 1 ? "B" : (char[]){ 'G', (char)('a' + i), 0 },
+		    i & 1 ? (char[]){ 'G', (char)('a' + i), 0 } : "B", 'a' + i, 'a' + i);
+	say("END_PROGRAM\n");
+	return source;
+}
+
+static bool row_agrees(struct rig *rig, int i, const union iec_value in[2], bool en, uint32_t *errors)
+{
+	const int count = functions(true), letter = 'a' - '0' + i;
+	union iec_value first, second = { .r = OLD }, pair[2];
+	const bool good = expect(IEC_REAL, i / count, in, &first);
+	bool both = false;
+
+	if (good && en) {
+		pair[i & 1] = first;
+		pair[!(i & 1)] = in[1];
+		both = expect(IEC_REAL, i % count, pair, &second);
+	}
+	*errors += en && !both;
+	return get(rig, 'K', letter) == both && is_same(IEC_REAL, value(rig, 'H', letter), second) &&
+	       is_same(IEC_REAL, value(rig, 'G', letter), en && good ? first : (union iec_value){ .r = OLD });
+}
+
+static void runs_rows(bool watch, const union iec_value *in, int count)
+{
+	const int boxes = functions(true) * functions(true);
+	struct rig rig;
+
+	if (!rig_open(&rig, rows(), watch))
+		return;
+	for (int k = 0; k < count * count * 2; k++) {
+		const union iec_value pair[2] = { in[k / 2 / count], in[k / 2 % count] };
+		uint32_t errors = rig.resource.vm.errors;
+		bool good = true;
+
+		set(&rig, "A", pair[0]);
+		set(&rig, "B", pair[1]);
+		rig_set(&rig, "On", k & 1);
+		for (int i = 0; i < boxes; i++) {
+			set(&rig, (char[]){ 'G', (char)('a' + i), 0 }, (union iec_value){ .r = OLD });
+			set(&rig, (char[]){ 'H', (char)('a' + i), 0 }, (union iec_value){ .r = OLD });
+		}
+		good &= rig_scan(&rig);
+		for (int i = 0; i < boxes; i++)
+			good &= row_agrees(&rig, i, pair, k & 1, &errors);
+		if (!good || rig.resource.vm.errors != errors)
+			CHECK_AS(false, "two boxes, one behind the other");
+	}
+	CHECK_AS(rig.resource.vm.errors > 10, "some of a row have no result");
+	rig_close(&rig);
+}
+
 /* How many of the program's instructions are this one. */
 static int count_of(struct rig *rig, enum vm_op op)
 {
@@ -336,6 +402,8 @@ int main(void)
 		runs_all(IEC_DINT, watch, dints, (int)(sizeof(dints) / sizeof(dints[0])));
 		runs_all(IEC_REAL, watch, reals, (int)(sizeof(reals) / sizeof(reals[0])));
 	}
+	for (int watch = 0; watch < 2; watch++)
+		runs_rows(watch, reals, (int)(sizeof(reals) / sizeof(reals[0])));
 	is_short("INT", VM_INT, VM_CMP_INT);
 	is_short("DINT", VM_DINT, VM_CMP_DINT);
 	is_short("REAL", VM_REAL, VM_CMP_REAL);
