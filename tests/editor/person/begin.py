@@ -81,9 +81,10 @@ def in_sight(editor, name):
     """A card of the welcome page; the wheel brings it into sight."""
     def look():
         card = editor.find(name, 'label')
-        if editor.centre(card)[1] < 850:
+        below = editor.centre(card)[1] - 850
+        if below < 0:
             return card
-        sh('xdotool', 'mousemove', '800', '400', 'click', '5')
+        sh('xdotool', 'mousemove', '800', '400', 'click', '--repeat', str(1 + below // 100), '--delay', '20', '5')
         return None
     return until(look, '%s in sight' % name)
 
