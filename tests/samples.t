@@ -26,7 +26,7 @@ my $missed_most = 0.1;   # of the changed statements of a sample
 my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5, as in the published chart
 
 # Of these only each so manieth change is tried; EVERY=1 tries all.
-my %every = ('cement-plant' => 10);
+my %every = ('cement-plant' => 30);
 
 # An instruction with N added or removed.
 sub broken_line {

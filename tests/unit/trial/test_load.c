@@ -267,7 +267,7 @@ static bool is_as_board(uint32_t seed, struct compared *all)
 static void sets(void)
 {
 	const char *wanted = getenv("LOAD_COUNT");
-	const uint32_t most = wanted ? (uint32_t)strtoul(wanted, NULL, 10) : 60;
+	const uint32_t most = wanted ? (uint32_t)strtoul(wanted, NULL, 10) : (uint32_t)tap_rounds(60);
 	struct compared all = { 0, 0, 0, 0, 0 };
 
 	for (uint32_t seed = 0; seed < most; seed++)
