@@ -72,7 +72,7 @@ sub judge {
 			my ($again, @more) = said($head, $1);
 
 			$mended++;
-			push @wrong, "$slip: the line to write is refused: $1: $more[0]" if @more && $more[0] !~ /LD32[0-9]/;
+			push @wrong, "$slip: the line to write is refused: $1: $more[0]" if @more && $more[0] !~ /LD32[0-9]|LD301: "Name"/;
 		} elsif ($message !~ $may) {
 			push @wrong, "$slip: no line to write: $message";
 		}
@@ -169,6 +169,36 @@ push @habits, map { "| NO Ready | $_ |" } 'COIL Lamp // hand', 'COIL Lamp, COIL 
 	'-(Lamp)-', '--( Lamp )--', '-(S)- Lamp', 'COIL #Lamp', 'COIL Q 0.1', 'CPT Sum A+B', 'CPT(Sum,A*2)', 'CLR Sum', 'INC Sum',
 	'DEC Sum', '[ A := A + 1; B := 2 ]', 'MOV K100 A', '+ | COIL Lamp', '.... | COIL Lamp', 'NOP | COIL Lamp';
 judge('cells of other controllers', "PROGRAM Main LD\nRUNG", qr/^$/, @habits);
+
+# Rows that are drawn, with and without names, in all ways that people draw a contact and a coil.
+my @drawn;
+for my $contact ('| Ready |', '|Ready|', '[ Ready ]', '] Ready [', '|/ Ready |', '[/Ready]', ']/Ready[', '| |', '|/|', '] [', ']/[',
+	'|P|') {
+	for my $coil ('( Lamp )', '(Lamp)', '(/ Lamp )', '( )', '(S)', '(R)', '(P)', '(N)', '(/)') {
+		push @drawn, "--$contact--$coil--", "|--$contact--$coil--|", "| -$contact-[ Horn ]-$coil- |", "-----$contact-----$coil";
+	}
+}
+judge('rows that are drawn', "PROGRAM Main LD\nRUNG", qr/^$/, @drawn);
+
+# The sign beside the word that says it already, the instance behind the values, values without :=, a pin without a value.
+my @doubled = map { "| NO Ready | $_ | COIL Lamp |" } 'EQ A = 5', 'EQ A == 5', 'NE A <> B', 'NE A != 5', 'GT A > 5', 'LT A < B', 'GE A >= 5',
+	'LE A <= 5', 'ADD A + B', 'SUB A - 5', 'MUL A * B', 'DIV A / 2', 'MOVE A = 5', 'A++', 'CTU Parts R Horn PV 5',
+	'CTU Parts PV 5 R Horn', 'CTU Parts CU:=', 'CTU Parts PV:=5 R:=', 'TON Delay PT:=T#5s IN:=', 'COIL SET Horn', 'COIL RST Horn',
+	'COIL S Horn', 'RST Horn', 'RES Horn';
+for my $block (['TON', 'Delay', 'PT:=T#5s'], ['TOF', 'Rest', 'PT:=T#5s'], ['TP', 'Pulse', 'PT:=T#5s'], ['CTU', 'Parts', 'PV:=9']) {
+	push @doubled, "| NO Ready | $block->[0] $block->[2] $block->[1] | COIL Lamp |",
+		"| NO Ready | $block->[0] $block->[2] Q=>Horn $block->[1] | COIL Lamp |";
+}
+push @doubled, map { "| $_ |" } 'NO 0.00 | COIL 10.00', 'NC 0.07 | S 100.05', 'NO 1.15 | COIL 101.00', 'NO Ready | COIL Lamp | ; on',
+	'NO Ready | COIL Lamp | # on';
+s/(\| [;#] on) \|$/$1/ for @doubled;
+judge('what is written twice, or turned around', "PROGRAM Main LD\nRUNG", qr/^$/, @doubled);
+
+# What only the check refuses: the pins that the values belong to, the contact that an edge is.
+my @pins = (map { "| NO Ready | $_ | COIL Lamp |" } 'EQ A := 5', 'GT A := B', 'ADD A := 5', 'MOVE A => B', 'MOVE A:=5');
+judge('a value as the name of a pin', "PROGRAM Main LD\nRUNG", qr/LD319: "A": .*; did you mean IN1?:=\w+ (IN2:=|OUT=>)\w+\?/, @pins);
+judge('an edge block with a BOOL', "PROGRAM Main LD\nRUNG", qr/LD309: "Ready" .*; for the edge of a BOOL write [PN] Ready$/,
+	'| R_TRIG Ready | COIL Lamp |', '| F_TRIG Ready | COIL Lamp |');
 
 # What Logix sets by itself.
 my @bodies = (["PROGRAM Main LD\nRUNG", '| NO %s | COIL Lamp |', '| NC %s | COIL Lamp |', '| [ %s OR Ready ] | COIL Lamp |'],

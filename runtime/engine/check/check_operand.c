@@ -393,6 +393,29 @@ static void use_whole_array(struct operand_check *c, struct operand_spot at, uin
 		uses_add(c->uses, m, arg->output ? USE_WRITTEN : in_out ? USE_PASSED | USE_READ : USE_READ);
 }
 
+/* Refuses the pin of @arg. EQ A := 5, MOVE A => B: with the pins that its two values belong to. @alone: there is no
+ * other parameter. */
+static void refuse_pin(struct operand_check *c, struct operand_spot at, const struct word_row *row, const struct arg *arg,
+		       enum diag_id why, bool alone)
+{
+	const uint32_t id = operand_intern(c, arg->pin, arg->pin_len), value = operand_intern(c, arg->value, arg->value_len);
+	const char *name = project_text(c->project, id), *other = project_text(c->project, value);
+	const bool store = row->kind == WORD_FN && row->pin_count == 1;
+	char text[4 * LIMIT_ARG];
+	enum diag_id none;
+
+	if (why != DIAG_NO_PIN || !alone || row->kind != WORD_FN || row->pin_count > 2 ||
+	    !scope_find(c->scope, c->pou, id, &none))
+		snprintf(text, sizeof(text), "%s", name);
+	else if (store)
+		snprintf(text, sizeof(text), "%.40s" DIAG_AND "%s:=%.40s OUT=>%.40s", name, row->pin[0].name,
+			 arg->output ? name : other, arg->output ? other : name);
+	else
+		snprintf(text, sizeof(text), "%.40s" DIAG_AND "%s:=%.40s %s:=%.40s", name, row->pin[0].name, name,
+			 row->pin[1].name, other);
+	operand_report(c, why, at, text);
+}
+
 /* False: a pin has the wrong name or direction. */
 static bool check_args(struct operand_check *c, struct operand_spot at,
 		       const struct cell *cell)
@@ -401,6 +424,7 @@ static bool check_args(struct operand_check *c, struct operand_spot at,
 	const char *next = project_text(c->project, cell->args);
 	bool whole = word_is_own((enum word)cell->word) || cell->word == FN_MOVE, good = true;
 	struct arg arg;
+	int count = 0;
 
 	while (args_next(&next, &arg)) {
 		enum diag_id wrong = judge_pin(row, &arg);
@@ -409,8 +433,7 @@ static bool check_args(struct operand_check *c, struct operand_spot at,
 		uint32_t value = operand_intern(c, arg.value, arg.value_len);
 
 		if (wrong != DIAG_COUNT)
-			operand_report(c, wrong, at, project_text(c->project,
-				operand_intern(c, arg.pin, arg.pin_len)));
+			refuse_pin(c, at, row, &arg, wrong, count == 0 && !*next);
 		else if (whole && operand_is_array(c, value))
 			use_whole_array(c, at, value, &arg,
 					is_in_out(row, &arg));
@@ -422,6 +445,7 @@ static bool check_args(struct operand_check *c, struct operand_spot at,
 			check_bool(c, at, value, operand_read(c, at, value));
 		else
 			operand_read(c, at, value);
+		count++;
 	}
 	return good;
 }
@@ -520,11 +544,15 @@ static void check_inputs(struct operand_check *c, struct operand_spot at,
 static void refuse_instance(struct operand_check *c, struct operand_spot at,
 			    const struct cell *cell, const struct meaning *m)
 {
-	char text[LIMIT_ARG];
+	const char *name = project_text(c->project, cell->operand);
+	const char *contact = cell->word == FB_R_TRIG ? "P" : cell->word == FB_F_TRIG ? "N" : NULL;
+	char text[2 * LIMIT_ARG];
 
-	snprintf(text, sizeof(text), "%.30s" DIAG_AND "%.30s",
-		 project_text(c->project, cell->operand),
-		 scope_row(c->scope, (enum word)cell->word)->word);
+	if (contact && m->type == IEC_BOOL)
+		snprintf(text, sizeof(text), "%.30s" DIAG_AND "%.30s" DIAG_AND "%s %.30s", name,
+			 scope_row(c->scope, (enum word)cell->word)->word, contact, name);
+	else
+		snprintf(text, sizeof(text), "%.30s" DIAG_AND "%.30s", name, scope_row(c->scope, (enum word)cell->word)->word);
 	operand_report(c, DIAG_NOT_INSTANCE, at, text);
 	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 }

@@ -10,6 +10,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/iec.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -173,7 +174,7 @@ static bool is_one_of(const struct habits *h, int i, const char *const *words, s
 {
 	bool found = false;
 
-	for (size_t n = 0; n < count && !found; n++)
+	for (size_t n = 0; n < count && words[n] && !found; n++)
 		found = is(h, i, words[n]);
 	return found;
 }
@@ -513,6 +514,74 @@ static bool call_block(struct habits *h)
 	return put(h, end_of(h, 1), h->to - end_of(h, 1), made) && (!*contact || put(h, h->from, 0, contact));
 }
 
+/* TON PT:=T#5s Delay → TON Delay PT:=T#5s. */
+static bool name_first(struct habits *h)
+{
+	const int last = h->count - 1;
+	char made[MADE];
+
+	if (last < 4 || !block_word(h, 0) || !is(h, 2, ":=") || is(h, last - 1, ":=") || is(h, last - 1, "=>") ||
+	    !is_operand(h, last) || h->to - h->from >= MADE)
+		return false;
+	snprintf(made, sizeof(made), "%.*s %.*s %.*s", (int)h->piece[0].len, text_of(h, 0), (int)h->piece[last].len, text_of(h, last),
+		 (int)(end_of(h, last - 1) - h->piece[1].at), text_of(h, 1));
+	return put(h, h->from, h->to - h->from, made);
+}
+
+static bool is_pin(const struct word_row *row, const struct habits *h, int i)
+{
+	bool found = false;
+
+	for (int pin = 0; pin < row->pin_count && !found; pin++)
+		found = is(h, i, row->pin[pin].name);
+	return found;
+}
+
+/* CTU Parts R Reset PV 5 → CTU Parts R:=Reset PV:=5; CTU Parts CU:= → CTU Parts. */
+static bool join_pins(struct habits *h)
+{
+	const struct word_row *row = block_word(h, 0);
+	char made[MADE];
+
+	for (int i = 2; row && i < h->count && h->to - h->from < MADE; i++) {
+		const bool set = is(h, i + 1, ":=") || is(h, i + 1, "=>");
+
+		if (!is_pin(row, h, i) || is(h, i - 1, ":=") || is(h, i - 1, "=>"))
+			continue;
+		if (set && i + 2 == h->count)
+			return put(h, end_of(h, i - 1), h->to - end_of(h, i - 1), "");
+		if (set || i + 1 >= h->count || is_pin(row, h, i + 1) || (!is_operand(h, i + 1) && !ascii_digit(*text_of(h, i + 1))))
+			continue;
+		snprintf(made, sizeof(made), "%.*s:=%.*s", (int)h->piece[i].len, text_of(h, i), (int)h->piece[i + 1].len,
+			 text_of(h, i + 1));
+		return put(h, h->piece[i].at, end_of(h, i + 1) - h->piece[i].at, made);
+	}
+	return false;
+}
+
+/* GT A > 5, ADD A + B: the word says it already. MOVE A := 5 stores into A. */
+static bool drop_sign(struct habits *h)
+{
+	static const char *const signs[][5] = {
+		{ "EQ", "=", "==" }, { "NE", "<>", "!=", "#" }, { "GT", ">" }, { "LT", "<" }, { "GE", ">=", "=>" }, { "LE", "<=", "=<" },
+		{ "ADD", "+" }, { "SUB", "-" }, { "MUL", "*", "X" }, { "DIV", "/" }, { "AND", "&" },
+	};
+	const bool store = is(h, 0, "MOVE") && (is(h, 2, ":=") || is(h, 2, "=")), turn = store && !is(h, 1, "IN");
+	const bool on = is(h, 0, "MOVE") && is(h, 2, "=>");
+	char made[MADE];
+	bool said = false;
+
+	if (h->count != 4 || h->to - h->from >= MADE / 3)
+		return false;
+	for (size_t i = 0; i < COUNT(signs) && !said; i++)
+		said = is(h, 0, signs[i][0]) && is_one_of(h, 2, signs[i] + 1, 4) && !is(h, 1, "IN1");
+	if (!said && !turn && !on)
+		return false;
+	snprintf(made, sizeof(made), said ? "%.*s IN1:=%.*s IN2:=%.*s" : "%.*s IN:=%.*s OUT=>%.*s", (int)h->piece[0].len, text_of(h, 0),
+		 (int)h->piece[turn ? 3 : 1].len, text_of(h, turn ? 3 : 1), (int)h->piece[turn ? 1 : 3].len, text_of(h, turn ? 1 : 3));
+	return put(h, h->from, h->to - h->from, made);
+}
+
 /* Delay TON PT:=T#5s → TON Delay PT:=T#5s. */
 static bool turn_name(struct habits *h)
 {
@@ -583,6 +652,28 @@ static bool join_address(struct habits *h)
 		snprintf(made, sizeof(made), "%%%cX%.*s", to[letter - from], (int)h->piece[i + 1].len, text);
 		if (iec_addr_parse(made, strlen(made), &addr) == ADDR_OK)
 			return put(h, h->piece[i].at, end_of(h, i + 1) - h->piece[i].at, made);
+	}
+	return false;
+}
+
+/* Omron: 0.00 → %IX0.0, and 10.00 or 100.00, the first output → %QX0.0; a word has 16 bits. */
+static bool address_of_omron(struct habits *h)
+{
+	char made[32];
+	struct iec_addr addr;
+
+	for (int i = 1; i < h->count; i++) {
+		const char *text = text_of(h, i);
+		const size_t len = h->piece[i].len, digits = strspn(text, "0123456789");
+		const unsigned long word = number_at(text), bit = len == digits + 3 ? number_at(text + digits + 1) : 16;
+		const unsigned long first = word >= 100 ? 100 : word >= 10 ? 10 : 0;
+
+		if (!digits || digits > 3 || text[digits] != '.' || strspn(text + digits + 1, "0123456789") != 2 || bit > 15 ||
+		    !is_one_of(h, i - 1, elements, COUNT(elements)))
+			continue;
+		snprintf(made, sizeof(made), "%%%cX%lu.%lu", first ? 'Q' : 'I', 2 * (word - first) + bit / 8, bit % 8);
+		if (iec_addr_parse(made, strlen(made), &addr) == ADDR_OK)
+			return put(h, h->piece[i].at, len, made);
 	}
 	return false;
 }
@@ -699,15 +790,20 @@ static bool name_of_logix(struct habits *h)
 
 /* ---- words of other languages ---- */
 
-/* = Lamp, U Start, UN Start: Siemens' list; S Lamp 1: its box. */
+/* = Lamp, U Start, UN Start: Siemens' list; S Lamp 1: its box. COIL SET Lamp: a word too many. */
 static bool word_of_siemens(struct habits *h)
 {
 	static const char *const words[][2] = {
 		{ "=", "COIL" }, { "U", "NO" }, { "UN", "NC" }, { "A", "NO" }, { "AN", "NC" },
 	};
+	static const char *const kinds[] = { "S", "SET", "R", "RST", "RESET" };
 
+	if (h->count == 3 && is(h, 0, "COIL") && is_operand(h, 2) && is_one_of(h, 1, kinds, COUNT(kinds)))
+		return put(h, h->from, end_of(h, 1) - h->from, ascii_upper(*text_of(h, 1)) == 'S' ? "S" : "R");
 	if (h->count == 3 && is(h, 2, "1") && (is(h, 0, "S") || is(h, 0, "R") || is(h, 0, "SET") || is(h, 0, "RST")))
 		return put(h, end_of(h, 1), h->to - end_of(h, 1), "");
+	if (h->count == 2 && is(h, 0, "RES") && is_operand(h, 1) && !block_of(h, 1))
+		return put(h, h->from, h->piece[0].len, "R");
 	for (size_t i = 0; h->count == 2 && is_operand(h, 1) && i < COUNT(words); i++)
 		if (is(h, 0, words[i][0]))
 			return put(h, h->from, h->piece[0].len, words[i][1]);
@@ -753,7 +849,7 @@ static bool if_then(struct habits *h)
 	return put(h, h->from, h->to - h->from, made);
 }
 
-/* Words that compute: CPT Sum A+B, CLR A, INC A, DEC A, LIM 1 A 5. */
+/* Words that compute: CPT Sum A+B, CLR A, INC A, DEC A, A++, LIM 1 A 5. */
 static bool compute(struct habits *h)
 {
 	const bool open = is(h, 1, "(") && is(h, h->count - 1, ")");
@@ -761,7 +857,11 @@ static bool compute(struct habits *h)
 	const int value = name + 1 + is(h, name + 1, ",");
 	char made[MADE] = "";
 
-	if (name > last || !is_operand(h, name) || h->to - h->from > MADE / 3) {
+	if (h->count == 1 && is_operand(h, 0) && h->piece[0].len > 2 && h->to - h->from < MADE / 3 &&
+	    !strncmp(h->text + h->to - 2, "++", 2)) {
+		snprintf(made, sizeof(made), "[ %.*s := %.*s + 1 ]", (int)h->piece[0].len - 2, text_of(h, 0),
+			 (int)h->piece[0].len - 2, text_of(h, 0));
+	} else if (name > last || !is_operand(h, name) || h->to - h->from > MADE / 3) {
 		if (!is(h, 0, "LIM") && !is(h, 0, "LIMIT"))
 			return false;
 	} else if (is(h, 0, "CPT") && value <= last) {
@@ -839,7 +939,91 @@ static bool mend_inside(struct habits *h)
 	return false;
 }
 
+/* ---- drawings ---- */
+
+/* The elements of a row that is drawn: --| Start |--|/ Stop |--( Lamp )--. */
+struct drawing {
+	char made[MADE];
+	size_t used;
+	int elements;
+	bool wired; /* a dash touches an element                              */
+};
+
+/* What stands between two signs of a drawing, as a cell: the name, or only the kind, as in --(S)--. */
+static bool draw_element(struct drawing *drawing, const char *text, size_t len, bool coil)
+{
+	static const char *const kinds[][3] = { { "P", "P", "COILP" }, { "N", "N", "COILN" }, { "S", NULL, "S" }, { "R", NULL, "R" } };
+	const bool negated = len && *text == '/';
+	const char *word = negated ? (coil ? "COILNOT" : "NC") : coil ? "COIL" : "NO", *name = text + negated;
+	size_t name_len = len - negated;
+	bool kind = false;
+
+	for (; name_len && *name == ' '; name_len--)
+		name++;
+	while (name_len && name[name_len - 1] == ' ')
+		name_len--;
+	for (size_t i = 0; i < COUNT(kinds) && !kind; i++) {
+		kind = !negated && kinds[i][1 + coil] && ascii_is(kinds[i][0], name, name_len);
+		word = kind ? kinds[i][1 + coil] : word;
+	}
+	for (size_t i = 0; i < name_len; i++)
+		if (!mend_is_word(name[i]) && !strchr("%.#", name[i]))
+			return false;
+	if (name_len > 60 || drawing->used + name_len + 20 >= sizeof(drawing->made))
+		return false;
+	drawing->used += (size_t)snprintf(drawing->made + drawing->used, sizeof(drawing->made) - drawing->used, "%s %.*s | ", word,
+					  name_len && !kind ? (int)name_len : 4, name_len && !kind ? name : "Name");
+	drawing->elements++;
+	return true;
+}
+
+/* --| Start |--( Lamp )--, |--[/Stop]--(S)--|: the whole row anew. A name that is not there is `Name`. */
+static bool redraw(struct habits *h)
+{
+	static const char open[] = "|[](", shut[] = "|][)";
+	struct drawing drawing = { .made = "| ", .used = 2 };
+	const char *text = h->text, *at = text + strspn(text, " ");
+	ptrdiff_t dash;
+
+	if (*at == '|' && at[1 + strspn(at + 1, " ")] == '-')
+		at++;
+	for (at += strspn(at, " "); *at; at += strspn(at, " ")) {
+		const char *sign = strchr(open, *at), *end;
+
+		if (*at == '-') {
+			at += strspn(at, "-");
+			drawing.wired = drawing.wired || (*at && strchr(open, *at) && at[1]);
+			continue;
+		}
+		if (*at == '|' && !at[1 + strspn(at + 1, " ")])
+			break;
+		end = sign ? strchr(at + 1, shut[sign - open]) : NULL;
+		if (!end || !draw_element(&drawing, at + 1, (size_t)(end - at) - 1, *at == '('))
+			return false;
+		at = end + 1;
+		drawing.wired = drawing.wired || *at == '-';
+	}
+	if (!drawing.wired || !drawing.elements)
+		return false;
+	drawing.made[drawing.used - 1] = '\0';
+	dash = strchr(text, '-') - text;
+	if (!put(h, 0, strlen(text), drawing.made))
+		return false;
+	h->out->id = DIAG_SURPLUS;
+	h->out->column = (int)dash + 1;
+	snprintf(h->out->from, sizeof(h->out->from), "-");
+	return true;
+}
+
 /* ---- comments ---- */
+
+/* ; on: a comment at the end of the row. */
+static bool name_comment(struct habits *h)
+{
+	const bool last = !h->text[h->to + strspn(h->text + h->to, " ")];
+
+	return last && h->from && h->count > 1 && (is(h, 0, ";") || is(h, 0, "#")) && put(h, h->from, 1, "//");
+}
 
 /* A // in the middle: the comment ends at the next bar. */
 static void close_comment(struct habits *h)
@@ -872,13 +1056,14 @@ static void close_comment(struct habits *h)
 bool mend_habits(struct project *project, char *text, size_t size, struct mended *out)
 {
 	static bool (*const habits[])(struct habits *) = {
-		join_logix, join_branches, part_elements, name_of_logix, join_address, bare_name, turn_tilde, name_constant,
-		draw_wire, name_block, preset_of_logix, take_constant, take_time, bare_values, call_block, turn_name,
-		add_word, turn_arrow, word_of_siemens, word_of_basic, bare_coil, if_then, compute, close_brackets, mend_inside,
+		join_logix, join_branches, join_pins, part_elements, name_of_logix, join_address, address_of_omron, bare_name, turn_tilde,
+		name_comment, name_constant, draw_wire, name_block, preset_of_logix, take_constant, take_time, bare_values, call_block, turn_name,
+		name_first, drop_sign, add_word, turn_arrow, word_of_siemens, word_of_basic, bare_coil, if_then, compute, close_brackets, mend_inside,
 	};
 	struct habits h = { .project = project, .out = out, .text = text, .size = size };
 	int again = 0;
 
+	redraw(&h);
 	close_comment(&h);
 	for (int n = 0; !h.full && cell_open(&h, n); again = 0, n++)
 		for (size_t i = 0; i < COUNT(habits) && again < AGAIN && !h.full; i++)

@@ -272,6 +272,24 @@ static bool read_box_name(struct reader *r, uint32_t *name)
 	return true;
 }
 
+/* Does a BOOL of this program follow? */
+static bool bit_follows(const struct reader *r)
+{
+	const struct var_table *tables[] = { r->pou ? &r->pou->vars : &r->project->globals, &r->project->globals };
+	struct lex lex = r->lex;
+	bool is = false;
+	uint32_t fold;
+
+	lex_next(&lex);
+	fold = names_find_any(&r->project->names, lex.token.text, lex.token.len);
+	for (size_t i = 0; i < 2 && fold && !is; i++) {
+		const int index = vars_find(tables[i], fold);
+
+		is = index >= 0 && tables[i]->var[index].type == IEC_BOOL;
+	}
+	return is;
+}
+
 static bool read_word(struct reader *r, struct cell *cell)
 {
 	const struct token token = r->lex.token;
@@ -280,7 +298,8 @@ static bool read_word(struct reader *r, struct cell *cell)
 
 	const struct word_row *row = words_row(&r->project->words, word);
 
-	if (word == WORD_COUNT && (ascii_is("RES", token.text, token.len) || ascii_is("RST", token.text, token.len)))
+	if (word == WORD_COUNT && (ascii_is("RES", token.text, token.len) || ascii_is("RST", token.text, token.len)) &&
+	    !bit_follows(r))
 		return reader_fail_token(r, DIAG_BLOCK_RESET);
 	if (word == WORD_COUNT || row->kind == WORD_STRUCT)
 		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
