@@ -66,7 +66,7 @@ OFTEN    := $(addprefix runtime/ladderd/,$(if $(CROSS)$(STATIC),,cycle.c) stats.
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c scan/declared.c \
             scan/retain_*.c scan/still_table.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
-            hal/gpio_find.c hal/hal_open.c hal/iomap*.c $(addprefix hal/,channels_run.c sysfs.c pwm.c w1.c hwmon.c said.c iio_none.c iio_libiio.c iio_calls.c))
+            hal/gpio_find.c hal/hal_open.c hal/iomap*.c hal/ports.c $(addprefix hal/,channels_run.c sysfs.c pwm.c w1.c hwmon.c said.c iio_none.c iio_libiio.c iio_calls.c))
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/carry.c scan/declared.c scan/recorder.c scan/fb_alarm.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_modbus.c scan/fb_pid.c scan/fb_store.c scan/fb_sun.c scan/fn_bits.c scan/fn_convert.c \
             scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c \
@@ -147,7 +147,7 @@ override IIO := $(or $(IIO),none)
 CHANNELS_C := $(addprefix hal/,channel_rows.c channel_scale.c channels.c channels_run.c sysfs.c pwm.c w1.c hwmon.c iio_none.c said.c)
 IIO_C_none   := hal/iio_none.c
 IIO_C_libiio := hal/iio_libiio.c hal/iio_calls.c
-HAL_CORE := hal/hal.c hal/drivers.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,$(CHANNELS_C) hal/iomap_channel.c hal/iomap_net.c)
+HAL_CORE := hal/hal.c hal/drivers.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c $(if $(filter 1,$(SMALL)),,$(CHANNELS_C) hal/iomap_channel.c hal/iomap_net.c hal/ports.c)
 DRIVERS  := $(call obj,$(patsubst hal/iio_none.c,$(IIO_C_$(IIO)),$(HAL_CORE)) $(GPIO_C))
 # The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.

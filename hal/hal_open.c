@@ -4,6 +4,7 @@
  * first scan or while no program runs.
  */
 #include "hal/channels.h"
+#include "hal/ports.h"
 #include "hal/request.h"
 
 #include <stdarg.h>
@@ -293,6 +294,7 @@ bool hal_plan(struct hal *hal, const struct iomap *map, struct arena *arena,
 	*hal = (struct hal){ .map = map };
 	place = find_all(map, arena, diags);
 	good = channels_plan(&channels, map, diags);
+	good = ports_check(map, NULL, diags) && good;
 	if (!place || !good || !make_requests(hal, arena, place)) {
 		hal->request_count = 0;
 		channels_close(channels);
@@ -562,6 +564,8 @@ enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap
 		result = BESIDE_RESTART;
 	}
 	if (!check_places(map, place, diags))
+		result = BESIDE_REFUSED;
+	if (!ports_check(map, now->map, diags))
 		result = BESIDE_REFUSED;
 	of_channels = channels_beside(&channels, hal_channels(now), map, diags, line);
 	if (result == BESIDE_GOOD && of_channels == BESIDE_GOOD && make_twins(next, now, open, arena) &&

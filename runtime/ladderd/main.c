@@ -8,7 +8,9 @@
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "engine/scan/still.h"
+#include "hal/clock.h"
 #include "hal/drivers.h"
+#include "hal/ports.h"
 #include "ladderd/conf.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
@@ -28,6 +30,12 @@
 #include <unistd.h>
 
 #define STACK_BYTES 8192 /* for a scan; -Wframe-larger-than limits frames */
+#ifdef RUNGBOARD_SMALL
+#define HINT(text)  "" /* it has no room for it */
+#else
+#define HINT(text)  text
+#endif
+#define PORTS_NS    INT64_C(10000000000) /* an adapter on USB needs some seconds after power comes */
 
 struct daemon {
 	struct options options;
@@ -106,10 +114,10 @@ static void make_real_time(int priority)
 	const int policy = priority ? SCHED_FIFO : SCHED_OTHER;
 
 	if (syscall(SYS_sched_setscheduler, 0, policy, &wanted) != 0)
-		fprintf(stderr, "ladderd: no real-time priority: %s\n",
+		fprintf(stderr, "ladderd: no real-time priority: %s" HINT("; set LimitRTPRIO= of its service, or leave --rt out") "\n",
 			strerror(errno));
 	if (priority && mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-		fprintf(stderr, "ladderd: memory is not locked: %s\n",
+		fprintf(stderr, "ladderd: memory is not locked: %s" HINT("; set LimitMEMLOCK=infinity in its service") "\n",
 			strerror(errno));
 }
 
@@ -181,12 +189,28 @@ static bool open_link(struct daemon *daemon)
 	return cycle->link;
 }
 
+/* When power comes, ladderd may be there before an adapter is. A desk that has ordered this start does not wait. */
+static void await_ports(const struct daemon *daemon)
+{
+	const struct iomap *map = &daemon->load.map;
+	const struct timespec nap = { 0, 100000000 };
+	const int64_t end_ns = clock_now() + PORTS_NS;
+
+	if (daemon->again || ports_check(map, NULL, NULL))
+		return;
+	fprintf(stderr, "ladderd: waits up to 10 s for a serial line of the map; no output is driven\n");
+	notify_send(&daemon->cycle.notify, "STATUS=waits for a serial line of the map; no output is driven");
+	while (clock_now() < end_ns && !requests_end() && !ports_check(map, NULL, NULL))
+		nanosleep(&nap, NULL);
+}
+
 /* A guard that holds the lines gives them back at the last moment. */
 static bool open_lines(struct daemon *daemon)
 {
 	struct hal *hal = &daemon->cycle.hal;
 	struct load *load = &daemon->load;
 
+	await_ports(daemon);
 	if (!hal_plan(hal, &load->map, &load->arena, &load->diags))
 		return false;
 	guarded_lines(hal);

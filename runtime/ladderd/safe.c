@@ -63,6 +63,13 @@ void requests_hold(void)
 	mask_requests(SIG_BLOCK);
 }
 
+bool requests_end(void)
+{
+	sigset_t set;
+
+	return sigpending(&set) == 0 && (sigismember(&set, SIGINT) == 1 || sigismember(&set, SIGTERM) == 1);
+}
+
 void requests_heed(void)
 {
 	mask_requests(SIG_UNBLOCK);

@@ -24,6 +24,8 @@ struct requests {
 /** requests_hold - signals wait until requests_listen() and requests_heed(): the first thing that
  * ladderd does, and each other start of it. */
 void requests_hold(void);
+/** requests_end - whether one that waits asks for the end. */
+bool requests_end(void);
 /** requests_heed - those that waited come now. */
 void requests_heed(void);
 /** requests_listen - installs the handlers. The struct is static. */

@@ -907,6 +907,84 @@ SERVE plc modbus-tcp listen=127.0.0.1:{taken}
     plant.close()
 
 
+LAMP = '''RUNGBOARD 1
+
+VAR
+  Level AT %IW0 : INT;
+  Lamp AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main ST
+  Lamp := Level >= 0;
+END_PROGRAM
+'''
+
+
+def test_a_serial_line_that_is_not_there_at_the_start_drives_nothing():
+    """ladderd drives no local output either. It tells the other errors of the map, too, and waits some seconds for an adapter."""
+    folder = tempfile.mkdtemp()
+    wire = Wire()
+    serial = Units([3]).rtu(wire.theirs)
+    serial.set(3, 'input-register', 0, 3)
+
+    def start(more, port='adapter'):
+        with open(folder + '/lamp.rung', 'w', encoding='utf-8') as out:
+            out.write(LAMP)
+        with open(folder + '/lamp.io', 'w', encoding='utf-8') as out:
+            out.write(f'BOARD "Lamp"\nBUS rs485 modbus-rtu port={folder}/{port} timeout=200ms\n%QX0.0 sim safe=0\n'
+                      f'%IW0 modbus bus=rs485 unit=3 input-register=0 poll=20ms\n{more}')
+        return subprocess.Popen([BUILD + '/ladderd', 'lamp.rung', '--io', 'lamp.io', '--trace-io'], cwd=folder, text=True, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+    told = start('%IX30.0 gpio line=NOWHERE\nBUS b modbus-rtu port=' + folder + '/lamp.io\n')
+    said = told.communicate(timeout=60)[1]
+    assert told.returncode == 1 and '%QX0.0' not in said, said
+    for place in ('lamp.io:2:1: error LD560', 'lamp.io:5:1: error LD508', 'lamp.io:6:1: error LD566'):
+        assert place in said, (place, said)
+    # One that is there a moment later.
+    late = start('')
+    assert 'waits up to 10 s' in late.stderr.readline()
+    os.symlink(wire.ours, folder + '/adapter')
+    assert '%QX0.0 1' in ''.join(iter(lambda: late.stderr.readline(), '%QX0.0 1\n')) + '%QX0.0 1'
+    late.send_signal(signal.SIGTERM)
+    late.communicate(timeout=60)
+    # A program that waits ends when it is told so.
+    os.remove(folder + '/adapter')
+    ended = start('')
+    assert 'waits up to 10 s' in ended.stderr.readline()
+    began = time.monotonic()
+    ended.send_signal(signal.SIGTERM)
+    ended.communicate(timeout=60)
+    assert time.monotonic() - began < 9, 'SIGTERM ends it'
+    serial.close()
+    wire.close()
+    shutil.rmtree(folder)
+
+
+def test_an_adapter_that_is_gone_hinders_no_download():
+    """Another program goes on with the map that runs; a map with another line that is not there is refused before it drives anything."""
+    folder = tempfile.mkdtemp()
+    wire = Wire()
+    os.symlink(wire.ours, folder + '/adapter')
+    board = f'''BOARD "Lamp"
+BUS rs485 modbus-rtu port={folder}/adapter timeout=200ms
+%IW0 modbus bus=rs485 unit=3 input-register=0 poll=20ms
+%QX0.0 sim safe=0
+'''
+    with Board(LAMP, board, '--slots', '.') as it:
+        assert until(lambda: 'RUN' in it.command('status')), it.command('status')
+        os.remove(folder + '/adapter')
+        it.write('other.rung', LAMP.replace('>= 0', '>= 7'))
+        said = it.command('download', 'other.rung', 'board.io', '--yes')
+        assert until(lambda: 'another program runs' in it.read('ladderd.out')), said
+        it.write('wide.io', board + 'BUS more modbus-rtu port=/dev/no-such-line\n')
+        said = it.command('download', 'program.rung', 'wide.io', '--yes')
+        assert 'no-such-line' in said and 'LD' in said, said
+        assert 'no-such-line' not in it.command('status')
+    wire.close()
+    shutil.rmtree(folder)
+
+
 def test_units_are_found():
     port = free_port()
     plant = Units([3, 9]).tcp(port)
