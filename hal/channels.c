@@ -139,18 +139,47 @@ static enum hal_quality quality_of_output(const struct cell *cell)
 		QUALITY_STALE : QUALITY_GOOD;
 }
 
-/* When all others are known. */
+/* Whether a force holds one of @bits bits from @addr on. */
+static bool is_held(const struct image *image, struct iec_addr addr, uint32_t bits)
+{
+	const uint32_t first = 8 * areas_byte(&image->program->areas, addr) + (addr.bits == 1 ? addr.bit : 0);
+
+	for (int i = 0; i < image->force_count; i++) {
+		uint32_t from, count;
+
+		if (image_bits(image->program, image->force[i].at, &from, &count) && from < first + bits &&
+		    first < from + count)
+			return true;
+	}
+	return false;
+}
+
+/* As the program has it: the value that a person holds does not depend on the device. */
+static enum hal_quality seen_quality(const struct cell *cell, const struct image *image)
+{
+	if (is_held(image, cell->point.addr, cell->point.addr.bits))
+		return QUALITY_FORCED;
+	return (enum hal_quality)atomic_load_explicit(&cell->quality, memory_order_relaxed);
+}
+
+/* When all others are known. Whoever asks for a bit wants to know whether to trust the value: that of a person, yes. */
 static void tell_quality(const struct channels *channels, struct cell *cell, struct image *image)
 {
+	const bool held = is_held(image, cell->channel.of, cell->channel.of_bits);
 	int worst = QUALITY_GOOD;
+	bool bad;
 
 	for (int i = 0; i < cell->of_count; i++) {
-		const int quality = atomic_load_explicit(&channels->cell[cell->of[i]].quality,
-							 memory_order_relaxed);
+		const struct cell *of = &channels->cell[cell->of[i]];
+		const int quality = atomic_load_explicit(&of->quality, memory_order_relaxed);
 
-		worst = quality > worst ? quality : worst;
+		if (quality > worst && !(held && is_held(image, of->point.addr, of->point.addr.bits)))
+			worst = quality;
 	}
-	cell->value.i = cell->channel.type == IEC_BOOL ? worst == QUALITY_GOOD : worst;
+	bad = worst != QUALITY_GOOD;
+	if (!bad && held)
+		worst = QUALITY_FORCED;
+	cell->value.i = cell->channel.type == IEC_BOOL ? !bad : worst;
 	if (iec_type_row(cell->channel.type)->class & CLASS_REAL)
 		cell->value.r = worst;
 	store_value(cell, image);
@@ -232,7 +261,7 @@ void channels_trace(struct channels *channels, struct image *image, channels_tol
 {
 	for (int i = 0; told && channels && i < channels->count; i++) {
 		struct cell *cell = &channels->cell[i];
-		const int quality = atomic_load_explicit(&cell->quality, memory_order_relaxed);
+		const int quality = seen_quality(cell, image);
 		const bool safe = cell->point.output && channels->held && !cell->point.hold;
 		const union iec_value value = safe ? cell->channel.safe : load_value(cell, image);
 

@@ -21,6 +21,7 @@ enum hal_quality {
 	QUALITY_GOOD,
 	QUALITY_STALE, /* the last call failed; the previous value is kept   */
 	QUALITY_FAULT, /* HAL_FAILURES in a row; not read until hal_reopen() */
+	QUALITY_FORCED, /* only for a person and in what tells quality: somebody holds the value */
 };
 
 struct channels;

@@ -37,7 +37,8 @@ static enum hal_quality said_by(const struct io_said *said, const struct image *
 		return image_get(image, at).i ? QUALITY_GOOD : QUALITY_STALE;
 	at.type = said->type;
 	value = image_get(image, at);
-	return value.i <= QUALITY_GOOD ? QUALITY_GOOD : value.i == QUALITY_STALE ? QUALITY_STALE : QUALITY_FAULT;
+	return value.i >= QUALITY_GOOD && value.i <= QUALITY_FORCED ? (enum hal_quality)value.i :
+	       value.i < QUALITY_GOOD ? QUALITY_GOOD : QUALITY_FAULT;
 }
 
 enum hal_quality io_said_quality(const struct io_said *said, int count, const struct image *image,
@@ -52,7 +53,8 @@ enum hal_quality io_said_quality(const struct io_said *said, int count, const st
 		const bool about = said[i].first < first + bits && first < said[i].first + said[i].count;
 		const enum hal_quality quality = about ? said_by(&said[i], image) : QUALITY_GOOD;
 
-		worst = quality > worst ? quality : worst;
+		if (worst == QUALITY_GOOD || quality == QUALITY_FAULT || (quality == QUALITY_STALE && worst == QUALITY_FORCED))
+			worst = quality;
 	}
 	return worst;
 }

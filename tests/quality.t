@@ -66,7 +66,7 @@ END
 spill('none.io', qq(BOARD "x"\n%AIW0 sim\n%QX0.0 sim\n));
 spill('far.io', qq(BOARD "x"\n%IX900.0 sim\n));
 spill('bad.io', qq(BOARD "x"\n%AIW0 nothing\n));
-spill('p.script', "\@print Level Heat Cold %AIB0 Out\nLevel=5 Good=1\nHow=2\nHow=1 Good=0\nHow=0 Good=1 Deep=1\nDeep=2\nDeep=0\n");
+spill('p.script', "\@print Level Heat Cold %AIB0 Out\nLevel=5 Good=1\nHow=2\nHow=1 Good=0\nHow=0 Good=1 Deep=1\nDeep=2\nDeep=0\nHow=3 Deep=3\nHow=1\n");
 
 my ($said, $status) = trace('p.io');
 is($status, 0, 'it runs with a map');
@@ -77,6 +77,8 @@ is($said, <<'END', 'lines: each value that is not good has its word');
 4 t=40 Level=5 Heat=0 Cold=0!stale %AIB0=5 Out=1
 5 t=50 Level=5 Heat=0 Cold=0!fault %AIB0=5 Out=1
 6 t=60 Level=5 Heat=0 Cold=0 %AIB0=5 Out=1
+7 t=70 Level=5 Heat=0!forced Cold=0!forced %AIB0=5 Out=1
+8 t=80 Level=5 Heat=0!stale Cold=0!stale %AIB0=5 Out=1
 END
 is((trace('p.io', '--changes'))[0], <<'END', 'another quality is a change, also back to good');
 1 t=10 Level=5 %AIB0=5 Out=1
@@ -85,11 +87,13 @@ is((trace('p.io', '--changes'))[0], <<'END', 'another quality is a change, also 
 4 t=40 Level=5 Heat=0 %AIB0=5 Out=1
 5 t=50 Cold=0!fault
 6 t=60 Cold=0
+7 t=70 Heat=0!forced Cold=0!forced
+8 t=80 Heat=0!stale Cold=0!stale
 END
 like((trace('p.io', '--csv'))[0], qr/^3,30,5!stale,0!stale,0!stale,5!stale,0\r\n4,40,5,0,0!stale,5,1\r$/m, 'CSV');
 my $wave = (trace('p.io', '--vcd'))[0];
 my @notes = $wave =~ /^\$comment (\w+: \w+) \$end$/mg;
-is("@notes", 'Heat: fault Cold: fault Level: stale Heat: stale Cold: stale Level: good Heat: good Cold: fault Cold: good',
+is("@notes", 'Heat: fault Cold: fault Level: stale Heat: stale Cold: stale Level: good Heat: good Cold: fault Cold: good Heat: forced Cold: forced Heat: stale Cold: stale',
 	'a wave has comments');
 like($wave, qr/^#20000000\n\$comment Heat: fault/m, 'at their time');
 

@@ -592,10 +592,11 @@ static enum sim_quality quality(struct sim_source *source, const struct sim_view
 {
 	const struct sim_program *program = replay ? replay->program : view->program;
 	const struct twin *twin = replay ? &replay->replay.twin : &view->twin;
+	const enum hal_quality said = program ? io_said_quality(program->said, program->said_count, &twin->resource.image, at) :
+						QUALITY_GOOD;
 
 	(void)source;
-	return program ? (enum sim_quality)io_said_quality(program->said, program->said_count,
-							   &twin->resource.image, at) : SIM_GOOD;
+	return said == QUALITY_FORCED ? SIM_GOOD : (enum sim_quality)said; /* a value that is forced has a mark of its own */
 }
 
 static bool knows(struct sim_source *source, struct location at)

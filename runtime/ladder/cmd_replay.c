@@ -21,11 +21,14 @@ struct show {
 
 static const char *quality_of(void *context, struct location at)
 {
-	static const char *const word[] = { [RECORD_STALE] = "stale", [RECORD_BROKEN] = "fault" };
+	static const char *const word[2][3] = {
+		{ [RECORD_STALE] = "stale", [RECORD_BROKEN] = "fault" },
+		{ "forced", [RECORD_STALE] = "forced!stale", [RECORD_BROKEN] = "forced!fault" },
+	};
 	const struct playback *playback = context;
+	const struct image *image = &playback->twin.resource.image;
 
-	return word[record_quality_of(playback->bad, playback->bad_len,
-				      playback->twin.resource.image.program, at)];
+	return word[image_is_forced(image, at)][record_quality_of(playback->bad, playback->bad_len, image->program, at)];
 }
 
 static bool show_columns(struct show *show)

@@ -21,7 +21,8 @@ struct quality {
 
 static const char *quality_of(void *context, struct location at)
 {
-	static const char *const word[] = { [QUALITY_STALE] = "stale", [QUALITY_FAULT] = "fault" };
+	static const char *const word[] = { [QUALITY_STALE] = "stale", [QUALITY_FAULT] = "fault",
+		[QUALITY_FORCED] = "forced" };
 	const struct quality *quality = context;
 
 	return word[io_said_quality(quality->said, quality->count, quality->image, at)];

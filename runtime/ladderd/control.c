@@ -383,7 +383,8 @@ void control_trace(void *context, const struct io_point *point, bool value)
 static void trace_value(void *context, const struct io_point *point, enum iec_type type, union iec_value value,
 			enum hal_quality quality)
 {
-	static const char *const word[] = { [QUALITY_GOOD] = "", [QUALITY_STALE] = " stale", [QUALITY_FAULT] = " fault" };
+	static const char *const word[] = { [QUALITY_GOOD] = "", [QUALITY_STALE] = " stale", [QUALITY_FAULT] = " fault",
+		[QUALITY_FORCED] = " forced" };
 	char address[24], number[48], text[96];
 	int len;
 

@@ -337,6 +337,58 @@ static void test_told_quality(void)
 	field_end(&f);
 }
 
+static struct location located(const struct field *f, const char *text)
+{
+	struct iec_addr addr;
+
+	iec_addr_parse(text, strlen(text), &addr);
+	return image_locate(&f->image, addr);
+}
+
+/* A value that a person holds does not depend on its device, and is told as forced, also if only a part of it is held. */
+static void test_told_forces(void)
+{
+	static const struct { const char *force, *as; int64_t bit, byte; } rows[] = {
+		{ NULL, "the second one is in fault", 1, 2 },
+		{ "%IW0", "a force beside a fault", 1, 2 },
+		{ "%IW2", "the force takes the place of the fault", 1, 3 },
+		{ "%IX3.7", "a bit of it", 1, 3 },
+		{ "%IB4", "another value", 1, 2 },
+		{ "%MW0", "another area", 1, 2 },
+	};
+	struct field f;
+	struct io_channel *channel;
+
+	field_begin(&f);
+	channel = field_add(&f, "%IX30.0", DRIVER_quality, IEC_BOOL);
+	iec_addr_parse("%IW0", 4, &channel->of), channel->of_bits = 16;
+	channel = field_add(&f, "%IB31", DRIVER_quality, IEC_USINT);
+	iec_addr_parse("%IW0", 4, &channel->of), channel->of_bits = 32;
+	field_add(&f, "%IW0", DRIVER_modbus, IEC_INT);
+	field_add(&f, "%IW2", DRIVER_modbus, IEC_INT);
+	CHECK(field_open(&f));
+	channels_put(f.hal.channels, 2, INT(1), true, 0);
+	for (int i = 0; i < 3; i++)
+		channels_put(f.hal.channels, 3, INT(1), false, 0);
+	for (size_t i = 0; i < sizeof(rows) / sizeof(*rows); i++) {
+		if (rows[i].force)
+			CHECK(image_force(&f.image, located(&f, rows[i].force), (union iec_value){ .i = 1 }));
+		field_scan(&f, 0);
+		CHECK_AS(field_get(&f, 0).i == rows[i].bit && field_get(&f, 1).i == rows[i].byte, rows[i].as);
+		if (rows[i].force)
+			image_unforce(&f.image, located(&f, rows[i].force));
+	}
+	/* A bit is FALSE for a fault, and TRUE for a value that is held in its place. */
+	for (int i = 0; i < 3; i++)
+		channels_put(f.hal.channels, 2, INT(1), false, 0);
+	field_scan(&f, 0);
+	CHECK(field_get(&f, 0).i == 0);
+	image_force(&f.image, located(&f, "%IW0"), (union iec_value){ .i = 1 });
+	field_scan(&f, 0);
+	CHECK(field_get(&f, 0).i == 1 && hal_worst(&f.hal) == QUALITY_FAULT);
+	field_end(&f);
+}
+
 /* A gateway's thread puts and gets while scans run, outputs become safe and are released. */
 static void *be_gateway(void *of)
 {
@@ -1381,6 +1433,7 @@ int main(void)
 	test_simulated();
 	test_asked();
 	test_told_quality();
+	test_told_forces();
 	test_gateway_beside();
 	test_exchange();
 	test_same();

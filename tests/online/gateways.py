@@ -326,6 +326,16 @@ def test_a_record_tells_which_values_were_not_good():
         assert steps[2] == 'Full=0!fault', steps
         assert steps[3] == 'Level=77!stale Twice=154', steps
         assert steps[4] == 'Level=6 Full=1 Twice=12', steps
+        # A value that somebody holds has that mark, too.
+        desk.force({'Level': (INT, 3)})
+        link.let_it_scan(desk)
+        for _ in range(3):
+            gateway.io_put((FULL, BOOL, None))
+        desk.force({'Full': (BOOL, True)})
+        link.let_it_scan(desk)
+        assert board.command('record', '-o', 'b.record')[0] == 0
+        shown = board.ladder('replay', 'b.record', 'Level', 'Full', '--changes').stdout
+        assert ' Level=3!forced' in shown and ' Full=1!forced!fault' in shown, shown
         # Also where it begins in the middle.
         shown = board.ladder('replay', 'a.record', 'Level', '--last', '1ms').stdout
         assert shown.endswith(' Level=6\n'), shown
