@@ -29,8 +29,8 @@ static off_t place(uint32_t row, uint32_t version)
 static void fail(struct alarm_store *store, int error)
 {
 	if (!store->error)
-		fprintf(stderr, "ladderd: %s/alarms: %s; alarms are not stored\n", store->folder,
-			strerror(error));
+		fprintf(stderr, "ladderd: %s/alarms: %s; alarms are not stored; %s\n", store->folder,
+			strerror(error), disk_hint(error));
 	store->error = error;
 }
 

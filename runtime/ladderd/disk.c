@@ -43,3 +43,28 @@ int disk_sync_folder(const char *folder)
 {
 	return sync_once(folder) == 0 ? 0 : sync_once(folder);
 }
+
+const char *disk_hint(int error)
+{
+	switch (error < 0 ? -error : error) {
+	case ENOSPC:
+	case EDQUOT:
+		return "make room on the disk";
+	case EROFS:
+		return "mount the disk for writing; if it did this by itself, it has errors: the end of `dmesg` names them";
+	case EIO:
+		return "the disk fails: back it up and replace it";
+	case EACCES:
+	case EPERM:
+		return "give the file and its folder to the user of ladderd";
+	case EISDIR:
+		return "remove the folder that has the name of the file";
+	case ENOENT:
+	case ENOTDIR:
+		return "make the folder";
+	case ENAMETOOLONG:
+		return "take a folder with a shorter name";
+	default:
+		return "the end of `dmesg` may say more";
+	}
+}

@@ -16,4 +16,6 @@ int disk_write(int fd, const void *bytes, size_t len, off_t at);
  * was of the moment is no loss, a journal that cannot be written fails again. Owns: nothing.
  * Scan-safe: no. Fails: -errno. */
 int disk_sync_folder(const char *folder);
+/** disk_hint - what a person can do about an error (errno, also negative) of a file that the board stores. Static. */
+const char *disk_hint(int error);
 #endif

@@ -29,9 +29,9 @@ struct ends {
 	int64_t time_s[ENDS_MOST]; /* the newest first; -1: none              */
 };
 
-static void tell(const char *why)
+static void tell(int error)
 {
-	fprintf(stderr, "ladderd: abnormal ends are not counted: %s\n", why);
+	fprintf(stderr, "ladderd: abnormal ends are not counted: %s; %s\n", strerror(error), disk_hint(error));
 }
 
 static int open_file(const char *folder)
@@ -44,7 +44,7 @@ static int open_file(const char *folder)
 		for (int i = 0; fd < 0 && i < 2; i++) /* an error may be of the moment */
 			fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
 	if (fd < 0)
-		tell(strerror(errno));
+		tell(errno);
 	return fd;
 }
 
@@ -111,7 +111,7 @@ static void save(int fd, const struct ends *ends)
 		if (!error)
 			return;
 	}
-	tell(strerror(-error));
+	tell(-error);
 }
 
 static int64_t seconds_up(void)

@@ -70,8 +70,8 @@ static void load(struct journal *journal, int fd)
 static void fail(struct journal *journal, int error)
 {
 	if (!journal->error)
-		fprintf(stderr, "ladderd: %s: %s; events are not stored\n", journal->path,
-			strerror(error));
+		fprintf(stderr, "ladderd: %s: %s; events are not stored; %s\n", journal->path,
+			strerror(error), disk_hint(error));
 	journal->error = error;
 }
 
@@ -94,8 +94,8 @@ struct journal *journal_open(const char *folder)
 	if (snprintf(journal->path, sizeof(journal->path), "%s/events", folder) >=
 	    (int)sizeof(journal->path)) {
 		journal->path[0] = '\0';
-		fprintf(stderr, "ladderd: %s: %s; events are not stored\n", folder,
-			strerror(ENAMETOOLONG));
+		fprintf(stderr, "ladderd: %s: %s; events are not stored; %s\n", folder,
+			strerror(ENAMETOOLONG), disk_hint(ENAMETOOLONG));
 		return journal;
 	}
 	error = open_file(journal);

@@ -11,6 +11,7 @@
 #include "ladderd/store.h"
 #include "hal/clock.h"
 #include "ladderd/control.h"
+#include "ladderd/disk.h"
 #include "ladderd/store_file.h"
 
 #include <errno.h>
@@ -497,7 +498,7 @@ struct store *store_open(const struct store_wish *wish,
 		ready = store_file_prepare(&store->file);
 		if (ready && !is_mistake(ready))
 			fprintf(stderr, "ladderd: %s: %s; values are not "
-				"stored\n", wish->path, strerror(-ready));
+				"stored; %s\n", wish->path, strerror(-ready), disk_hint(ready));
 		atomic_store(&store->error, -ready);
 		error = is_mistake(ready) ? ready : 0;
 	}

@@ -331,8 +331,8 @@ BOARD "Wrong"
 END
 make_devices();
 is(finish(start()), 1, 'a map with devices that are not there is refused');
-like(get('err'), qr/:2:1: error LD550: "28-2": this machine has no such device; it has 28-1$/m, 'the sensor');
-like(get('err'), qr/:4:1: error LD550: "pwmchip9": this machine has no such device; it has pwmchip0$/m, 'the chip');
-like(get('err'), qr/:5:1: error LD550: "cpu_thermal": this machine has no such device$/m, 'the device');
+like(get('err'), qr/:2:1: error LD550: "28-2": this machine has no such device; it has 28-1; `ladder io` lists all$/m, 'the sensor');
+like(get('err'), qr/:4:1: error LD550: "pwmchip9": this machine has no such device; it has pwmchip0; `ladder io` lists all$/m, 'the chip');
+like(get('err'), qr/:5:1: error LD550: "cpu_thermal": this machine has no such device; `ladder io` lists all$/m, 'the device');
 is(duty(), 0, 'nothing is driven');
 done_testing();

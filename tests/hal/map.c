@@ -211,7 +211,7 @@ static void test_fits(void)
 	CHECK(scan(&b, 0));
 	bench_end(&b);
 	CHECK(refused(&b, "%IX8191.7 sim\n%IX8191.7 sim",
-		      "\"%IX8191.7\" is in the map twice"));
+		      "\"%IX8191.7\" is in the map twice; remove one of the two lines"));
 	CHECK(refused_like(&b, "%IX8192.0 sim", "LD502: \"%IX8192.0\" "));
 }
 

@@ -443,7 +443,7 @@ SKIP: {
 		"cat /dev/zero >$disk/fill 2>/dev/null\n$on $count\n$on $wide\n" .
 		"rm $disk/fill\nmount -o remount,ro $disk\n$on $count\n");
 	is(run(@mount, 'sh', $script), 0, 'a full disk');
-	like(err(), qr/\A[^\0]*?No space left on device; values are not stored/,
+	like(err(), qr/\A[^\0]*?No space left on device; values are not stored; make room on the disk/,
 		'a first start tells');
 	my @status = out() =~ /^retain: copy (\d+), \d+ values, (\d+) writes, (\d+) f/mg;
 	ok($status[1] == 0 && $status[4] > 0 && $status[7] > 0 && $status[8] == 0,

@@ -329,24 +329,24 @@ static void test_places(void)
 		      "LD509: \"IN0\": two lines have this name, on gpiochip0, 1; "
 		      "give chip= and offset="));
 	CHECK(refused(&b, "%IX0.0 gpio line=NOPE",
-		      "LD508: \"NOPE\": this machine has no such line"));
+		      "LD508: \"NOPE\": this machine has no such line; `ladder io` lists those that it has"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=nope offset=1",
-		      "LD512: \"nope\": this machine has no such GPIO chip"));
+		      "LD512: \"nope\": this machine has no such GPIO chip; `ladder io` lists the lines of all chips"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=200",
 		      "LD525: \"panel\" has no line 200: it has 200 lines, from 0 on"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=gpiochip7 offset=1",
-		      "LD512: \"gpiochip7\": this machine has no such GPIO chip"));
+		      "LD512: \"gpiochip7\": this machine has no such GPIO chip; `ladder io` lists the lines of all chips"));
 	fake.chip[1].label = "panel";
 	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=1",
 		      "LD521: \"panel\": two chips have this label; use line names"));
 	CHECK(refused(&b, "%IX0.0 gpio line=IN1\n"
 			  "%IX0.1 gpio chip=gpiochip0 offset=1",
 		      "LD507: \"gpiochip0 1\" is used twice in the map, first for "
-		      "%IX0.0"));
+		      "%IX0.0; remove one of the two lines"));
 	CHECK(refused(&b, "%QX0.0 gpio line=IN1\n"
 			  "%IX0.1 gpio chip=/dev/gpiochip0 offset=1",
 		      "LD518: \"/dev/gpiochip0 1\" is used as an input and as an "
-		      "output, first for %QX0.0"));
+		      "output, first for %QX0.0; remove one of the two lines"));
 	CHECK_AS(fake.takes == 0 && fake.opens == fake.closes,
 		 "a refused map requests no line");
 }
@@ -359,19 +359,19 @@ static void test_owners(void)
 	fake.chip[0].line[1].used = true;
 	fake.chip[0].line[1].owner = "spi0 CS0";
 	CHECK(refused(&b, "%IX0.0 gpio line=IN1",
-		      "LD510: \"IN1\" is in use by spi0 CS0"));
+		      "LD510: \"IN1\" is in use by spi0 CS0; end what uses it, or take another line"));
 	fake.chip[0].line[1].owner = NULL;
 	CHECK(refused(&b, "%QX0.0 gpio line=IN1",
-		      "LD510: \"IN1\" is in use by the kernel"));
+		      "LD510: \"IN1\" is in use by the kernel; end what uses it, or take another line"));
 	CHECK(fake.takes == 0);
 	fake.take_error = EINVAL;
 	CHECK(refused(&b, "%QX0.0 gpio line=OUT0",
 		      "LD513: \"OUT0\": the kernel refuses access: gpiochip0: "
-		      "Invalid argument"));
+		      "Invalid argument; the end of `dmesg` may say why"));
 	fake.take_error = 0;
 	fake.read_error = EIO;
 	CHECK(refused(&b, "%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=1",
-		      "LD522: \"IN0\" does not answer: Input/output error"));
+		      "LD522: \"IN0\" does not answer: Input/output error; look at its wires and its supply"));
 	CHECK_AS(level("OUT0") == 0,
 		 "a map with an input that does not answer requests no output");
 	fake.read_error = 0;
@@ -859,10 +859,10 @@ static void test_meanwhile(void)
 {
 	struct bench b;
 
-	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, "panel", "LD510: \"IN0\" is in use by other"));
-	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, NULL, "LD510: \"IN0\" is in use by the kernel"));
+	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, "panel", "LD510: \"IN0\" is in use by other; end what uses it, or take another line"));
+	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 1, 0, NULL, "LD510: \"IN0\" is in use by the kernel; end what uses it, or take another line"));
 	CHECK(meanwhile_says("%IX0.1 gpio line=IN1\n%IX0.0 gpio line=IN0", 2, 0, "panel",
-			     "LD510: \"IN0\" is in use by other"));
+			     "LD510: \"IN0\" is in use by other; end what uses it, or take another line"));
 	CHECK(meanwhile_says("%IX0.0 gpio line=IN0", 0, 1, "panel", "gpiochip0 (?)"));
 	few_lines();
 	fake.take_error = EPERM;
@@ -875,7 +875,7 @@ static void test_meanwhile(void)
 	few_lines();
 	fake.chip[0].open_error = EIO;
 	CHECK(refused(&b, "%IX0.0 gpio line=IN0",
-		      "LD513: \"gpiochip0\": the kernel refuses access: Input/output error"));
+		      "LD513: \"gpiochip0\": the kernel refuses access: Input/output error; the end of `dmesg` may say why"));
 	bench_begin(&b);
 	CHECK(!hal_list(bench_dev(), see_bias, NULL, &b.diags) && b.diags.errors == 1);
 	diag_print(&b.diags.diag[0], b.text, sizeof(b.text));
