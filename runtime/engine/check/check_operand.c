@@ -1072,11 +1072,34 @@ static void report_chain(struct operand_check *c, struct operand_spot at, const 
 	operand_report(c, DIAG_CHAIN, at, text);
 }
 
+#ifdef RUNGBOARD_SMALL
+#define warn_of_count(c, at, expr) ((void)0) /* it has no room for it */
+#else
+/* `A = A + 1` compares. Whoever writes it means to store. */
+static void warn_of_count(struct operand_check *c, struct operand_spot at, const struct expr *expr)
+{
+	const struct expr_node *root = &expr->node[expr->root], *a = &expr->node[root->left], *b = &expr->node[root->right];
+	const struct expr_node *left = &expr->node[b->left], *right = &expr->node[b->right];
+	char text[LIMIT_PARTS];
+
+	if (expr->target || root->op != EXPR_FN || root->fn != FN_EQ || b->op != EXPR_FN || (b->fn != FN_ADD && b->fn != FN_SUB))
+		return;
+	if (a->op != EXPR_NAME || left->op != EXPR_NAME || !is_plain(a) || right->op != EXPR_LITERAL || !is_plain(right) ||
+	    a->len != left->len || !ascii_same(a->text, left->text, (size_t)a->len) || (right->len == 1 && *right->text == '0'))
+		return;
+	snprintf(text, sizeof(text), "%.*s = %.*s %c %.*s" DIAG_AND "%.*s := %.*s %c %.*s", a->len, a->text, a->len, a->text,
+		 b->fn == FN_ADD ? '+' : '-', right->len, right->text, a->len, a->text, a->len, a->text,
+		 b->fn == FN_ADD ? '+' : '-', right->len, right->text);
+	operand_report(c, DIAG_STORE_MEANT, at, text);
+}
+#endif
+
 /* The names of a parsed expression. */
 static void use_expression(struct operand_check *c, struct operand_spot at, struct expr *expr)
 {
 	if (expr->target)
 		expr->node[expr->root].whole = true;
+	warn_of_count(c, at, expr);
 	for (int i = 0; i < expr->count; i++) {
 		c->spot = expr->node[i].text;
 		if (expr->node[i].op == EXPR_CALL)
