@@ -169,7 +169,8 @@ static void take(struct timing *timing, const struct twin *twin)
 
 		line->sample[slot] = line->here.type == IEC_NONE ? 0 :
 			live_value_number(line->here.type, image_get(image, line->here));
-		line->quality[slot] = (guint8)ladder_sim_replay_quality(timing->sim, timing->replay, line->here);
+		line->quality[slot] = (guint8)(image_is_forced(image, line->here) ? SIM_FORCED :
+			ladder_sim_replay_quality(timing->sim, timing->replay, line->here));
 	}
 	timing->end = twin->scan + 1;
 	if (timing->end - timing->first > TIMING_SCANS)

@@ -48,7 +48,7 @@ gint64 timing_time(const struct timing *timing, guint64 scan);
 guint64 timing_scan_at(const struct timing *timing, gint64 ns);
 /** timing_value - as live_value_number(). */
 double timing_value(const struct timing *timing, int line, guint64 scan);
-/** timing_quality - how good it was, as ladder_sim_quality(). */
+/** timing_quality - how good it was, as ladder_sim_quality(); SIM_FORCED while a person held it. */
 enum sim_quality timing_quality(const struct timing *timing, int line, guint64 scan);
 /** timing_range - the smallest and the largest value of scans @from to @to, both included.
  * False: it has none of these scans. */

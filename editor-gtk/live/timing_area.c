@@ -521,16 +521,16 @@ static void set_color(cairo_t *cairo, const GdkRGBA *color, float alpha)
 
 #define HATCH_PX 7
 
-/* Slanted strokes, as colour alone would not be enough; those of a fault cross. */
-static void hatch(cairo_t *cairo, double x, double y, double width, double height, bool cross)
+/* Slanted strokes, as colour alone would not be enough; those of a fault cross, those of a force are upright. */
+static void hatch(cairo_t *cairo, double x, double y, double width, double height, enum sim_quality quality)
 {
 	cairo_save(cairo);
 	cairo_rectangle(cairo, x, y, width, height);
 	cairo_clip(cairo);
 	for (double at = floor((x - height) / HATCH_PX) * HATCH_PX; at < x + width + height; at += HATCH_PX) {
 		cairo_move_to(cairo, at, y + height);
-		cairo_line_to(cairo, at + height, y);
-		if (!cross)
+		cairo_line_to(cairo, quality == SIM_FORCED ? at : at + height, y);
+		if (quality != SIM_VALUE_FAULT)
 			continue;
 		cairo_move_to(cairo, at, y);
 		cairo_line_to(cairo, at + height, y + height);
@@ -555,17 +555,17 @@ static guint64 stretch_end(const struct timing *timing, int line, guint64 scan)
 	return scan;
 }
 
-/* The plot behind the curve is grey where the value was not good. A stretch of one scan has a pixel at least. */
+/* The plot behind the curve is grey where the value was not good, and has the colour of forces where it was forced. A stretch of one scan has a pixel at least. */
 static void draw_stretches(struct drawing *drawing, int line, double top, cairo_t *cairo)
 {
 	const struct timing *timing = drawing->timing;
-	const GdkRGBA *color = &drawing->theme->color[TOKEN_COMMENT];
 	guint64 end;
 
 	cairo_set_line_width(cairo, 1);
 	cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
 	for (guint64 scan = scan_from(drawing); scan < timing_end(timing); scan = end) {
 		const enum sim_quality quality = timing_quality(timing, line, scan);
+		const GdkRGBA *color = &drawing->theme->color[quality == SIM_FORCED ? TOKEN_FORCE : TOKEN_COMMENT];
 		const double x = x_in_plot(drawing, scan);
 		double width;
 
@@ -579,7 +579,7 @@ static void draw_stretches(struct drawing *drawing, int line, double top, cairo_
 		cairo_rectangle(cairo, x, top + 4, width, ROW_PX - 8);
 		cairo_fill(cairo);
 		set_color(cairo, color, 0.6f);
-		hatch(cairo, x, top + 4, width, ROW_PX - 8, quality == SIM_VALUE_FAULT);
+		hatch(cairo, x, top + 4, width, ROW_PX - 8, quality);
 	}
 }
 
@@ -722,7 +722,8 @@ static void draw_name(struct drawing *drawing, int line, double top)
 	text(drawing, LETTER_SYMBOL, TOKEN_INK, name, 14,
 	     top + (quality == SIM_GOOD ? 22 : 15), NAMES_PX - 100);
 	if (quality != SIM_GOOD)
-		text(drawing, LETTER_ADDRESS, TOKEN_ERROR, live_quality_text(quality), 14, top + 29, NAMES_PX - 100);
+		text(drawing, LETTER_ADDRESS, quality == SIM_FORCED ? TOKEN_FORCE : TOKEN_ERROR, live_quality_text(quality), 14, top + 29,
+		     NAMES_PX - 100);
 	text(drawing, LETTER_VALUE, TOKEN_ACCENT, value, NAMES_PX - 78, top + 22, 74);
 	g_free(name);
 }

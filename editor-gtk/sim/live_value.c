@@ -106,6 +106,7 @@ const char *live_quality_text(enum sim_quality quality)
 {
 	static const char *const text[] = {
 		[SIM_GOOD] = "", [SIM_STALE] = N_("⚠ stale"), [SIM_VALUE_FAULT] = N_("✖ fault"),
+		[SIM_FORCED] = N_("◆ forced"),
 	};
 
 	return *text[quality] ? _(text[quality]) : "";

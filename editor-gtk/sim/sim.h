@@ -234,7 +234,8 @@ bool ladder_sim_may_miss(LadderSim *sim);
 bool ladder_sim_knows(LadderSim *sim, struct location at);
 /* How good the value of an input or output is, as the board says. STALE: it has had no new one for the time of
  * the I/O map; FAULT: its device is gone, answers with errors, or measures what cannot be. */
-enum sim_quality { SIM_GOOD, SIM_STALE, SIM_VALUE_FAULT };
+/* SIM_FORCED: of the timing chart only, which has no other mark for it. */
+enum sim_quality { SIM_GOOD, SIM_STALE, SIM_VALUE_FAULT, SIM_FORCED };
 /** ladder_sim_quality - at the scan that is shown: as the board says or has recorded it; in a simulation as the
  * inputs of the driver `quality` of the I/O map say. */
 enum sim_quality ladder_sim_quality(LadderSim *sim, struct location at);

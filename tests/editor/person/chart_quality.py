@@ -114,6 +114,33 @@ def simulated(screen):
     until(lambda: not told(chart), 'the words to go')
 
 
+def forced(screen):
+    """a value that a person holds: the chart has a mark of its own for that time"""
+    editor = Editor(screen, files(screen))
+    editor.to_sheet()
+    scans(editor, 5)
+    toggle(editor, 'NO', 'Good')
+    editor.click(editor.beside(editor.element('NO', 'Full')))
+    editor.keys('ctrl+shift+f')
+    editor.find('Full, %IX10.0, off, forced')
+    scans(editor, 5)
+    editor.keys('ctrl+shift+f')
+    until(lambda: not editor.all('Full, %IX10.0, off, forced'), 'the force to end')
+    scans(editor, 5)
+    editor.says('scan 15')
+    chart = chart_of(editor)
+    x, y, width, _height = editor.place(chart)
+    at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 60)
+    editor.drag(at(4), at(8))
+    editor.says('PAST · scan 8')
+    until(lambda: told(chart) == 'Full: forced', 'what a screen reader says')
+    editor.hover(at(7))
+    editor.shot('quality-forced')
+    editor.click(at(13))
+    editor.says('PAST · scan 13')
+    until(lambda: not told(chart), 'the words to go')
+
+
 def recorded(screen):
     """a board: what was not good is marked in what it sent, in its record, and in the file of that"""
     board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng io')
@@ -127,6 +154,8 @@ def recorded(screen):
     until(lambda: 'stale' in board.ask('get', 'Level'), 'the value to be stale')
     gateway.io_put((LEVEL, client.INT, 15), (FULL, client.BOOL, False))
     until(lambda: board.ask('get', 'Level', 'Full') == 'Level=15\nFull=0\n', 'all to be good')
+    board.ask('force', 'Full=1')
+    until(lambda: board.ask('get', 'Full') == 'Full=1 forced\n', 'the force')
     file = os.path.join(screen.home, 'plant.record')
     board.ask('record', '-o', file)
     board.stop()
@@ -142,7 +171,7 @@ def recorded(screen):
     until(lambda: told(chart) == 'Level: stale, Full: stale', 'two values that are not good')
     editor.shot('quality-record')
     editor.keys('End')
-    until(lambda: not editor.all('Level, %IW0, stale'), 'the value to be good')
+    until(lambda: 'Full: forced' in told(chart), 'what somebody held when the record ended')
 
 
 def chinese(screen):
@@ -159,4 +188,4 @@ def chinese(screen):
 
 
 if __name__ == '__main__':
-    main([simulated, recorded, chinese])
+    main([simulated, forced, recorded, chinese])
