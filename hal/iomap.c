@@ -278,7 +278,7 @@ bool take_address(struct reader *reader, struct iec_addr addr, const struct map_
 		const uint8_t mask = (uint8_t)(1u << i % 8);
 
 		if (taken->byte[i / 8] & mask)
-			return complain(reader, DIAG_IO_TWICE, word);
+			return complain_owner(reader, addr, word);
 		taken->byte[i / 8] |= mask;
 	}
 	return true;
@@ -313,9 +313,7 @@ static bool check_twice(struct reader *reader, const struct io_point *point,
 		if (same_text(other->line, point->line) ||
 		    (same_text(other->chip, point->chip) &&
 		     other->offset == point->offset))
-			return complain(reader, other->output == point->output ?
-					DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS,
-					word);
+			return complain_line_twice(reader, point, other, word);
 	}
 	return true;
 }

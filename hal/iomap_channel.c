@@ -89,12 +89,44 @@ struct line_reader {
 	struct io_channel channel;
 	uint32_t count;          /* values                                    */
 	uint64_t seen;           /* options, a bit each                       */
-	struct map_word at, substitute, safe, limits, threshold; /* len 0: none  */
+	struct map_word range, at, substitute, safe, limits, threshold; /* len 0: none  */
 	int ask_column;          /* of ask=, in the line of the address       */
 	double hysteresis;
 	enum io_unit at_unit, limits_unit, threshold_unit, hysteresis_unit;
 	const struct module_type *module;
 };
+
+/* ---- owners ---- */
+
+bool complain_owner(struct reader *reader, struct iec_addr addr, const struct map_word *word)
+{
+	const uint32_t first = 8 * addr.byte + addr.bit;
+	char text[24];
+
+	for (int i = 0; i < reader->map.count; i++) {
+		const struct iec_addr other = reader->map.point[i].addr;
+		const uint32_t from = 8 * other.byte + other.bit;
+
+		if (other.area != addr.area || first >= from + other.bits || from >= first + addr.bits)
+			continue;
+		iec_addr_print(other, text, sizeof(text));
+		return complain_about(reader, DIAG_IO_TWICE, word, text);
+	}
+	return complain(reader, DIAG_IO_TWICE, word);
+}
+
+bool complain_line_twice(struct reader *reader, const struct io_point *point, const struct io_point *first,
+			 const struct map_word *word)
+{
+	char line[LIMIT_ARG], text[24];
+	struct map_word named = *word;
+
+	io_line_print(point, line, sizeof(line));
+	iec_addr_print(first->addr, text, sizeof(text));
+	named.text = line;
+	named.len = strlen(line);
+	return complain_about(reader, first->output == point->output ? DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS, &named, text);
+}
 
 /* ---- addresses ---- */
 
@@ -195,6 +227,7 @@ static bool set_range(struct line_reader *line, const struct option_word *option
 
 	good = read_range(option->value, option->len, &channel->value_low, &channel->value_high, &unit) &&
 	       unit == UNIT_NONE;
+	line->range = option->word;
 	channel->scaled = true;
 	channel->at_low = channel->value_low;
 	channel->at_high = channel->value_high;
@@ -531,7 +564,7 @@ static bool settle_scale(struct line_reader *line)
 	const bool raw = channel->scaled && line->at_unit == UNIT_NONE;
 
 	if (channel->scaled && channel->value_low >= channel->value_high)
-		return complain(line->reader, DIAG_IO_RANGE, &line->address);
+		return complain(line->reader, DIAG_IO_RANGE, &line->range);
 	if (channel->scaled && channel->at_low == channel->at_high)
 		return complain(line->reader, DIAG_IO_RANGE, &line->at);
 	if (channel->limited && channel->least >= channel->most)
@@ -548,6 +581,19 @@ static bool settle_scale(struct line_reader *line)
 	return true;
 }
 
+/* @bits: the width that the address must have: the message shows one. */
+static bool complain_width(struct line_reader *line, const char *word, uint32_t bits)
+{
+	struct iec_addr addr = line->point.addr;
+	char text[24], wanted[48];
+
+	addr.bits = (uint8_t)bits;
+	addr.bit = 0;
+	iec_addr_print(addr, text, sizeof(text));
+	snprintf(wanted, sizeof(wanted), "%s (%s)", word, text);
+	return complain_about(line->reader, DIAG_IO_WIDTH, &line->address, wanted);
+}
+
 /* Whether the width of the address fits what the device has. */
 static bool settle_width(struct line_reader *line)
 {
@@ -557,19 +603,17 @@ static bool settle_width(struct line_reader *line)
 	const uint32_t size = channel->type ? iec_type_row(channel->type)->size : 0;
 
 	if (channel->type && (bit ? channel->type != IEC_BOOL : channel->type == IEC_BOOL || 8 * size != addr.bits))
-		return complain_about(line->reader, DIAG_IO_WIDTH, &line->address,
-				      iec_type_row(channel->type)->word);
+		return complain_width(line, iec_type_row(channel->type)->word, channel->type == IEC_BOOL ? 1 : 8 * size);
 	if (!channel->type)
 		channel->type = type_of(addr);
 	if (bit_of(line->point.driver) & (ON_SIM | ON_PEER | ON_QUALITY))
 		return true;
 	if (bits ? !bit : bit && !channel->switches && channel->reg_bit < 0)
-		return complain_about(line->reader, DIAG_IO_WIDTH, &line->address,
-				      bits ? "BOOL" : "WORD");
+		return complain_width(line, bits ? "BOOL" : "WORD", bits ? 1 : 16);
 	if (!bit && (channel->switches || channel->reg_bit >= 0))
-		return complain_about(line->reader, DIAG_IO_WIDTH, &line->address, "BOOL");
+		return complain_width(line, "BOOL", 1);
 	if (is_register(channel->table) && addr.bits == 8)
-		return complain_about(line->reader, DIAG_IO_WIDTH, &line->address, "WORD");
+		return complain_width(line, "WORD", 16);
 	return true;
 }
 
@@ -699,7 +743,7 @@ static void keep_group(struct line_reader *line)
 		}
 		channel->reg_bit = channel->reg_bit < 0 ? -1 : 0;
 		if (next > UINT16_MAX && i + 1 < line->count && channel->table != TABLE_NONE) {
-			complain(line->reader, DIAG_IO_GROUP, &line->address);
+			complain(line->reader, DIAG_IO_LAST, &line->address);
 			return;
 		}
 		channel->reg = (uint16_t)next;

@@ -51,6 +51,9 @@ bool take_address(struct reader *reader, struct iec_addr addr, const struct map_
 bool add_point(struct reader *reader, const struct io_point *point, const struct map_word *word);
 
 #ifdef RUNGBOARD_SMALL
+#define complain_owner(reader, addr, word) complain(reader, DIAG_IO_TWICE, word)
+#define complain_line_twice(reader, point, first, word) \
+	complain(reader, (first)->output == (point)->output ? DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS, word)
 static inline bool read_statement(struct reader *reader, const struct map_word *word)
 {
 	(void)reader, (void)word;
@@ -83,6 +86,11 @@ static inline int channel_line_print(const struct io_point *point, char *out, si
 	return (int)size;
 }
 #else
+/** complain_owner - LD506: a bit of @addr has a line; names that one. Returns false. */
+bool complain_owner(struct reader *reader, struct iec_addr addr, const struct map_word *word);
+/** complain_line_twice - LD507 or LD518: @first has the line of @point. Returns false. */
+bool complain_line_twice(struct reader *reader, const struct io_point *point, const struct io_point *first,
+			 const struct map_word *word);
 static inline bool has_channel(const struct io_point *point)
 {
 	return point->channel;

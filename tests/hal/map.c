@@ -88,7 +88,7 @@ static void test_refusals(void)
 	BAD("%QX0.0 gpio line=A safe=holds", "write it like safe=0, safe=1 or safe=hold");
 	BAD("%QX0.0 gpio line=A safe=", "LD505");
 	BAD("%IX0.0 sim\nI0 sim", "test.io:3:1: error LD506");
-	BAD("%IX0.0 gpio line=A\n%IX0.1 gpio line=A", "LD507");
+	BAD("%IX0.0 gpio line=A\n%IX0.1 gpio line=A", "LD507: \"A\" is used twice in the map, first for %IX0.0");
 	BAD("%IX0.0 gpio chip=A offset=1\n%IX0.1 gpio chip=A offset=1",
 	    "LD507");
 	BAD("%IX0.0 gpio line=A\n%QX0.1 gpio line=A", "LD518");
@@ -211,7 +211,7 @@ static void test_fits(void)
 	CHECK(scan(&b, 0));
 	bench_end(&b);
 	CHECK(refused(&b, "%IX8191.7 sim\n%IX8191.7 sim",
-		      "\"%IX8191.7\" is in the map twice; remove one of the two lines"));
+		      "\"%IX8191.7\" is in the map twice, first as %IX8191.7; remove one of the two lines"));
 	CHECK(refused_like(&b, "%IX8192.0 sim", "LD502: \"%IX8192.0\" "));
 }
 
