@@ -10,6 +10,7 @@
 #include "ladderd/link.h"
 #include "ladderd/conf.h"
 #include "ladderd/control.h"
+#include "ladderd/disk.h"
 #include "ladderd/download.h"
 #include "ladderd/gateways.h"
 #include "ladderd/machine.h"
@@ -1391,12 +1392,14 @@ static bool set_up(struct link *link, struct cycle *cycle)
 static struct link *open_socket(struct link *link, const struct options *options)
 {
 	const int error = options->link ? listen_at(link, options->link) : 0;
+	char why[160];
 
 	if (!error)
 		return link;
+	snprintf(why, sizeof(why), "%s; %s", strerror(-error), disk_hint(error));
 	return refuse(link, "--link", options->link,
 		      error == -EADDRINUSE ? "another ladderd listens there" :
-		      error == -EEXIST ? "there is a file, and it is no socket" : strerror(-error));
+		      error == -EEXIST ? "there is a file, and it is no socket" : why);
 }
 
 static struct link *open_serial(struct link *link, const struct options *options)

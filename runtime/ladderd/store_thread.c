@@ -455,19 +455,22 @@ static struct store *refuse(const struct store_wish *wish, const char *why)
 	return NULL;
 }
 
+static struct store *refuse_file(const struct store_wish *wish, int error)
+{
+	if (error == -EWOULDBLOCK)
+		return refuse(wish, "another ladderd has it");
+	if (error == -ENOTSUP)
+		return refuse(wish, "not a file");
+	fprintf(stderr, "ladderd: --retain %s: %s; %s\n", wish->path, strerror(-error), disk_hint(error));
+	return NULL;
+}
+
 /* Is the error one of the command line, not of the disk? */
 static bool is_mistake(int error)
 {
 	return error == -ENOENT || error == -ENOTDIR || error == -ENOTSUP ||
 	       error == -ENAMETOOLONG || error == -EWOULDBLOCK ||
 	       error == -ENOMEM;
-}
-
-static const char *reason(int error)
-{
-	if (error == -EWOULDBLOCK)
-		return "another ladderd has it";
-	return error == -ENOTSUP ? "not a file" : strerror(-error);
 }
 
 struct store *store_open(const struct store_wish *wish,
@@ -507,5 +510,5 @@ struct store *store_open(const struct store_wish *wish,
 		return store;
 	*status = error == -EWOULDBLOCK ? 1 : 2;
 	store_close(store);
-	return refuse(wish, reason(error));
+	return refuse_file(wish, error);
 }

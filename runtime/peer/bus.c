@@ -137,6 +137,27 @@ const char *bus_problem(int error)
 	}
 }
 
+const char *bus_hint(int error)
+{
+	switch (-error) {
+	case ENODEV:
+	case ENXIO:
+		return "`ip link` lists those of this machine";
+	case EADDRNOTAVAIL:
+		return "give it one";
+	case ENETUNREACH:
+	case ENETDOWN:
+		return "plug its cable in and switch it on";
+	case EADDRINUSE:
+		return "end that program, or write another port in group=";
+	case EPERM:
+	case EACCES:
+		return "let it pass UDP to this group";
+	default:
+		return "the end of `dmesg` may say why";
+	}
+}
+
 bool bus_send(struct bus *bus, const uint8_t *bytes, size_t len)
 {
 	const struct sockaddr_in to = { .sin_family = AF_INET, .sin_port = htons(bus->port), .sin_addr = bus->group_at };

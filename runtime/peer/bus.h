@@ -34,6 +34,8 @@ void bus_init(struct bus *bus, const char *interface, const char *group, uint16_
 bool bus_keep(struct bus *bus);
 /** bus_problem - why a bus is not open or does not send, from bus->error: at most 30 bytes. */
 const char *bus_problem(int error);
+/** bus_hint - what a person can do about it. Static. */
+const char *bus_hint(int error);
 void bus_close(struct bus *bus);
 /** bus_send - Fails: false; bus->error. */
 bool bus_send(struct bus *bus, const uint8_t *bytes, size_t len);

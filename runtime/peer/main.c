@@ -171,8 +171,9 @@ static void keep_buses(struct peer *peer)
 		if (bus->error == peer->told[i])
 			continue;
 		peer->told[i] = bus->error;
-		fprintf(stderr, "ladder-peer: %s on %s: %s\n", bus->group, bus->interface,
-			bus->error ? bus_problem(bus->error) : "ready");
+		fprintf(stderr, "ladder-peer: %s on %s: %s%s%s\n", bus->group, bus->interface,
+			bus->error ? bus_problem(bus->error) : "ready", bus->error ? "; " : "",
+			bus->error ? bus_hint(bus->error) : "");
 	}
 }
 

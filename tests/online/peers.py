@@ -388,13 +388,13 @@ def test_the_interface_goes_and_comes():
         there = BUS.replace('eth0', 'eth9')
         with PeerBoard(network, 'pump', PUMP, PUMP_MAP.replace(BUS, there)) as pump, \
                 PeerBoard(network, 'tank', TANK, TANK_MAP) as tank:
-            says(pump, f'ladder-peer: {GROUP} on eth9: no such network interface\n')
+            says(pump, f'ladder-peer: {GROUP} on eth9: no such network interface; `ip link` lists those of this machine\n')
             until(lambda: gateway_text(pump) == '0 datagrams sent, 0 strange, no such network interface')
             # It comes, without an address at first.
             ip('-n', network.prefix + 'pump', 'link', 'set', 'eth0', 'down')
             ip('-n', network.prefix + 'pump', 'link', 'set', 'eth0', 'name', 'eth9')
             ip('-n', network.prefix + 'pump', 'addr', 'flush', 'dev', 'eth9')
-            says(pump, f'ladder-peer: {GROUP} on eth9: the interface has no address\n')
+            says(pump, f'ladder-peer: {GROUP} on eth9: the interface has no address; give it one\n')
             ip('-n', network.prefix + 'pump', 'addr', 'add', '10.77.0.1/24', 'dev', 'eth9')
             ip('-n', network.prefix + 'pump', 'link', 'set', 'eth9', 'up')
             says(pump, f'ladder-peer: {GROUP} on eth9: ready\n')
@@ -402,7 +402,7 @@ def test_the_interface_goes_and_comes():
             # It is switched off on the board itself.
             ip('-n', network.prefix + 'pump', 'link', 'set', 'eth9', 'down')
             soon(tank, {'Level': -1})
-            says(pump, f'ladder-peer: {GROUP} on eth9: the interface is down\n')
+            says(pump, f'ladder-peer: {GROUP} on eth9: the interface is down; plug its cable in and switch it on\n')
             until(lambda: gateway_text(pump).endswith(', the interface is down'))
             ip('-n', network.prefix + 'pump', 'link', 'set', 'eth9', 'up')
             soon(tank, {'Level': 5})
@@ -410,7 +410,7 @@ def test_the_interface_goes_and_comes():
             until(lambda: gateway_text(pump).endswith(' strange'))
             # It is pulled out and another one is plugged in, of the same name.
             ip('-n', network.prefix + 'tank', 'link', 'del', 'eth0')
-            says(tank, f'ladder-peer: {GROUP} on eth0: no such network interface\n')
+            says(tank, f'ladder-peer: {GROUP} on eth0: no such network interface; `ip link` lists those of this machine\n')
             soon(tank, {'Level': -1})
             network.add(2, 'tank')
             says(tank, f'ladder-peer: {GROUP} on eth0: ready\n', 2)
@@ -426,7 +426,7 @@ def test_another_program_has_the_port():
         with subprocess.Popen(network.command('pump', sys.executable, '-c', code), stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
             assert holder.stdout.readline() == b'\n'
             with PeerBoard(network, 'pump', PUMP, PUMP_MAP) as pump:
-                says(pump, f'ladder-peer: {GROUP} on eth0: another program has this port\n')
+                says(pump, f'ladder-peer: {GROUP} on eth0: another program has this port; end that program, or write another port in group=\n')
                 until(lambda: gateway_text(pump) == '0 datagrams sent, 0 strange, another program has this port')
                 holder.communicate(b'\n', 30)
                 says(pump, f'ladder-peer: {GROUP} on eth0: ready\n')
