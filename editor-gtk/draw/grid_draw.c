@@ -741,6 +741,15 @@ unsigned int grid_mark_of(const struct diag *diag)
 #define FORCED "F"
 #define TWICE  "2\xc3\x97"
 #define FAILED "!"
+#define STALE  "\xe2\x9a\xa0"
+#define FAULT  "\xe2\x9c\x96"
+
+/* The value is not good: at the left, so that a force has room. */
+static void mark_quality(const struct pen *pen, unsigned int marks, float x, float y)
+{
+	if (marks & (MARK_STALE | MARK_FAULT))
+		badge(pen, TOKEN_ERROR, marks & MARK_FAULT ? FAULT : STALE, x, y);
+}
 
 static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
 {
@@ -759,6 +768,7 @@ static void mark_framed(const struct pen *pen, unsigned int marks, const struct 
 	float x = middle + framed.width / 2 + FRAMED_SIDE + 2;
 
 	mark_wrong(pen, marks, middle - 22, y + framed.up + 2, 44);
+	mark_quality(pen, marks, middle - framed.width / 2 - FRAMED_SIDE - 20, y + 2);
 	if (marks & (MARK_FORCED | MARK_TWICE))
 		badge(pen, TOKEN_FORCE, marks & MARK_FORCED ? FORCED : TWICE, x,
 		      y - 15);
@@ -784,6 +794,7 @@ static void mark_element(const struct pen *pen, unsigned int marks, int row, int
 	float behind = middle + address / 2 + 2;
 	bool fits = address > 0 && behind + 13 < r->origin.x + r->size.width;
 	mark_wrong(pen, marks, middle - 22, y + RUNG_HALF + 2, 44);
+	mark_quality(pen, marks, middle - half - 20, y + 2);
 	if (marks & MARK_FORCED && fits)
 		badge(pen, TOKEN_FORCE, FORCED, behind, y - 28);
 	else if (marks & MARK_FORCED)
@@ -811,7 +822,8 @@ static void mark_box(const struct pen *pen, unsigned int marks, int row, int col
 	if (marks & MARK_TWICE)
 		x += badge(pen, TOKEN_FORCE, TWICE, x, y) + 2;
 	if (marks & MARK_FAILED)
-		badge(pen, TOKEN_ERROR, FAILED, x, y);
+		x += badge(pen, TOKEN_ERROR, FAILED, x, y) + 2;
+	mark_quality(pen, marks, x, y);
 }
 
 /* Stands in the place of the value. */

@@ -49,6 +49,8 @@ enum mark {
 	MARK_CHANGED = 512,  /* changed, in a comparison                        */
 	MARK_FAILED = 2048,  /* it failed in the scan that is shown               */
 	MARK_FOUND_NOW = 4096, /* the current one of those, beside MARK_FOUND    */
+	MARK_STALE = 8192,   /* the input or output has no new value             */
+	MARK_FAULT = 16384,  /* its device does not answer, or wrongly           */
 	MARK_BLOCKS = 1024,  /* it blocks power; scene.note gives the reason     */
 };
 struct grid_mark { int row, column; unsigned int marks; };

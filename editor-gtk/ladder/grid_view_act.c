@@ -575,6 +575,8 @@ void act_tip(LadderGridView *view, int rung, int row, int col, GString *text)
 	}
 	if (live->bits[row * live->cols + col] & LIVE_FORCED)
 		g_string_append_printf(text, "\n%s", _("forced"));
+	if (cell->quality != SIM_GOOD)
+		g_string_append_printf(text, "\n%s", live_quality_word((enum sim_quality)cell->quality));
 	if (live->bits[row * live->cols + col] & LIVE_FAILED)
 		g_string_append_printf(text, "\n%s", _("ENO is FALSE: it failed in this "
 							"scan"));
@@ -599,6 +601,8 @@ void act_said(LadderGridView *view, int rung, int row, int col, GString *text)
 				       _("off"));
 	if (bits & LIVE_FORCED)
 		g_string_append_printf(text, ", %s", _("forced"));
+	if (cell->quality != SIM_GOOD)
+		g_string_append_printf(text, ", %s", live_quality_word((enum sim_quality)cell->quality));
 	if (bits & LIVE_FAILED)
 		g_string_append_printf(text, ", %s", _("ENO is FALSE: it failed in this "
 						       "scan"));

@@ -76,6 +76,22 @@ static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 	return number;
 }
 
+/* How good the inputs and outputs are that it shows. True: one has another quality. */
+static bool judge(LadderGridView *view, struct live_rung *live)
+{
+	bool other = false;
+
+	for (int i = 0; i < live->rows * live->cols; i++) {
+		struct live_cell *cell = &live->cell[i];
+		const uint8_t quality = cell->kind == LIVE_NOTHING || cell->at.type == IEC_NONE ? SIM_GOOD :
+					(uint8_t)ladder_sim_quality(view->canvas->sim, cell->at);
+
+		other |= quality != cell->quality;
+		cell->quality = quality;
+	}
+	return other;
+}
+
 /* ---- updating ---- */
 
 static void say_later(LadderGridView *view);
@@ -86,6 +102,7 @@ bool live_look(LadderGridView *view, int rung)
 	struct strip *strip = strip_of(view, rung);
 	const struct rung *shown = sheet_rung(view, rung);
 	unsigned int changed;
+	bool judged;
 
 	if (!canvas_is_live(LADDER_CANVAS(view)) || shown == view->preview ||
 	    strip->looked == view->live.stamp)
@@ -101,11 +118,12 @@ bool live_look(LadderGridView *view, int rung)
 		return false;
 	changed = live_rung_look(strip->live, &ladder_sim_twin(view->canvas->sim)->resource,
 				 g_get_monotonic_time(), flashes(view));
-	if (changed & LIVE_OTHER_STATE)
+	judged = judge(view, strip->live);
+	if (changed & LIVE_OTHER_STATE || judged)
 		say_later(view);
 	else if (changed & LIVE_OTHER_TEXT)
 		say_values_later(view);
-	return changed != LIVE_SAME;
+	return changed != LIVE_SAME || judged;
 }
 
 const struct live_rung *live_rung_of(LadderGridView *view, int rung)
@@ -287,10 +305,12 @@ void ladder_grid_view_set_blockers(LadderGridView *view, int rung,
 		strips_redraw(view, rung);
 }
 
-static unsigned int marks_of(uint8_t bits)
+static unsigned int marks_of(const struct live_rung *live, int i)
 {
-	return (bits & LIVE_FORCED ? MARK_FORCED : 0) |
-	       (bits & LIVE_FAILED ? MARK_FAILED : 0);
+	const uint8_t bits = live->bits[i], quality = live->cell[i].quality;
+
+	return (bits & LIVE_FORCED ? MARK_FORCED : 0) | (bits & LIVE_FAILED ? MARK_FAILED : 0) |
+	       (quality == SIM_STALE ? MARK_STALE : quality == SIM_VALUE_FAULT ? MARK_FAULT : 0);
 }
 
 void live_marks(LadderGridView *view, int rung, GArray *marks)
@@ -301,11 +321,11 @@ void live_marks(LadderGridView *view, int rung, GArray *marks)
 	if (shown == view->preview)
 		return;
 	for (int i = 0; live && i < live->rows * live->cols; i++)
-		if (marks_of(live->bits[i]))
+		if (marks_of(live, i))
 			mark_push(marks, i / live->cols,
 				  grid_display_column(shown, view->columns, i / live->cols,
 						      i % live->cols),
-				  marks_of(live->bits[i]));
+				  marks_of(live, i));
 	for (guint i = 0; rung == view->live.blocked && i < view->live.blockers->len; i++) {
 		const struct grid_blocker *one =
 			&g_array_index(view->live.blockers, struct grid_blocker, i);

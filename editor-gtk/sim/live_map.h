@@ -103,6 +103,7 @@ struct live_cell {
 	gint64 changed, flash; /* us: last change, last change that was marked   */
 	float part;            /* 0 to 1 of the bar, as drawn; -1: no bar        */
 	char text[48];         /* as drawn; "": no value is shown               */
+	uint8_t quality;       /* enum sim_quality of the value at its place, of the sheet */
 };
 #define LIVE_NOWHERE UINT32_MAX
 /** live_cell_bit - the value of a cell's operand, when the value at its place is @number: a bit of

@@ -79,6 +79,11 @@ def toggle(editor, *parts):
     editor.keys('space')
 
 
+def in_sheet(editor, name, word):
+    """Does the element of this value say the word?"""
+    return any(name in cell and cell.endswith(', ' + word) for cell in editor.cells())
+
+
 def session(screen):
     """Five scans, in which Level is stale; five in which all is good; five more with Level stale again."""
     editor = Editor(screen, files(screen))
@@ -97,6 +102,8 @@ def simulated(screen):
     editor.says('scan 15')
     editor.find('Level, %IW0, stale')
     assert not editor.all('Full, %IX10.0, off, fault')
+    until(lambda: in_sheet(editor, 'Level < 20', 'stale'), 'the element of the ladder to say it')
+    assert not in_sheet(editor, 'Full', 'stale') and not in_sheet(editor, 'Full', 'fault')
     chart = chart_of(editor)
     x, y, width, _height = editor.place(chart)
     at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 20)
@@ -105,6 +112,7 @@ def simulated(screen):
     editor.drag(at(3), at(7))
     editor.says('PAST · scan 7')
     until(lambda: not editor.all('Level, %IW0, stale'), 'the value to be good')
+    until(lambda: not in_sheet(editor, 'Level < 20', 'stale'), 'the element, too')
     editor.keys('Left', 'Left', 'Left')
     editor.says('PAST · scan 4')
     editor.find('Level, %IW0, stale')
