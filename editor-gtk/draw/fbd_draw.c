@@ -469,6 +469,8 @@ static void draw_frame(const struct pen *pen, unsigned int marks, const graphene
 		badge(pen, TOKEN_FORCE, "2\xc3\x97", x, r->origin.y + 2);
 	if (marks & MARK_FAILED)
 		badge(pen, TOKEN_ERROR, "!", x, r->origin.y + 16);
+	if (marks & (MARK_STALE | MARK_FAULT)) /* a force stands at the other end */
+		badge(pen, TOKEN_ERROR, marks & MARK_FAULT ? "\xe2\x9c\x96" : "\xe2\x9a\xa0", r->origin.x - 18, r->origin.y + 2);
 	if (marks & MARK_CHANGED)
 		badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r->origin.x + 1, r->origin.y + r->size.height - 14);
 }

@@ -63,6 +63,7 @@ static GArray *marks_of(LadderFbdView *view, int network)
 
 		push_at(marks, network, found->at, found->marks);
 	}
+	fbd_live_marks(view, network, marks);
 	push_at(marks, network, view->link, MARK_SELECTED);
 	push_at(marks, network, view->drop, MARK_DROP);
 	push_at(marks, network, view->cursor, MARK_CURSOR);

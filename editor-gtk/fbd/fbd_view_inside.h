@@ -113,6 +113,8 @@ struct location fbd_live_variable(LadderFbdView *view, struct fbd_pos at, char *
 void fbd_live_end(LadderFbdView *view, bool all);
 /** fbd_live_watch - results of a board are computed only while @view is visible. */
 void fbd_live_watch(LadderFbdView *view);
+/** fbd_live_marks - adds what is forced or not good. */
+void fbd_live_marks(LadderFbdView *view, int network, GArray *marks);
 /** fbd_live_text - the value at a place, for a name. Caller frees; NULL: not known. */
 char *fbd_live_text(LadderFbdView *view, struct fbd_pos at);
 

@@ -286,6 +286,32 @@ bool fbd_live_look(LadderFbdView *view, int network, struct fbd_live *out)
 	return true;
 }
 
+static void mark_value(LadderFbdView *view, struct location at, int box, int pin, GArray *marks)
+{
+	LadderSim *sim = view->canvas->sim;
+	const enum sim_quality quality = at.type == IEC_NONE ? SIM_GOOD : ladder_sim_quality(sim, at);
+	const struct fbd_mark mark = { box, pin, (at.type != IEC_NONE && live_value_is_forced(sim, false, at) ? MARK_FORCED : 0u) |
+		(quality == SIM_STALE ? MARK_STALE : quality == SIM_VALUE_FAULT ? MARK_FAULT : 0u) };
+
+	if (mark.marks)
+		g_array_append_val(marks, mark);
+}
+
+void fbd_live_marks(LadderFbdView *view, int network, GArray *marks)
+{
+	const struct fbd_graph *graph = fbd_graph_of(view, network);
+	struct fbd_live live;
+
+	if (!fbd_live_look(view, network, &live))
+		return;
+	for (int i = 0; i < graph->pin_count; i++)
+		if (!graph->pin[i].output && graph->pin[i].operand && !graph->pin[i].previous)
+			mark_value(view, view->strip[network].places->pin[i], graph->pin[i].box, i, marks);
+	for (int i = 0; i < graph->box_count; i++)
+		if (graph->box[i].kind == FBD_STORE && graph->box[i].target)
+			mark_value(view, find(view, graph->box[i].target), i, -1, marks);
+}
+
 /* Where the value at a place is; type IEC_NONE: not known. */
 static struct location place_of_value(LadderFbdView *view, struct fbd_pos at)
 {
@@ -342,20 +368,25 @@ char *fbd_live_text(LadderFbdView *view, struct fbd_pos at)
 {
 	struct location place = place_of_value(view, at);
 	const struct fbd_places *places = at.network >= 0 && at.network < view->count ? view->strip[at.network].places : NULL;
+	LadderSim *sim = view->canvas->sim;
 	const struct image *image;
 	char text[IEC_VALUE_TEXT];
+	const char *quality;
+	bool computed = false;
 
-	if (!canvas_is_live(LADDER_CANVAS(view)) || !ladder_sim_twin(view->canvas->sim))
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !ladder_sim_twin(sim))
 		return NULL;
-	image = &ladder_sim_twin(view->canvas->sim)->resource.image;
+	image = &ladder_sim_twin(sim)->resource.image;
 	if (places && at.pin >= 0 && places->computed[at.pin]) {
+		computed = true;
 		place = places->pin[at.pin];
 		image = image_of(places, at.pin);
 	}
 	if (place.type == IEC_NONE)
 		return NULL;
 	live_value_print(place.type, image_get(image, place), text, sizeof(text));
-	return g_strdup(text);
+	quality = computed ? "" : live_quality_word(ladder_sim_quality(sim, place));
+	return g_strdup_printf("%s%s%s", text, *quality ? ", " : "", quality);
 }
 
 /* ---- why ---- */

@@ -149,6 +149,34 @@ def forced(screen):
     until(lambda: not told(chart), 'the words to go')
 
 
+NETWORK = PROGRAM[:PROGRAM.index('PROGRAM Main LD')] + '''PROGRAM Main FBD
+NETWORK
+  Motor := AND(Good, Full, LT(IN1 := Level, IN2 := 20))
+END_PROGRAM
+'''
+
+
+def network(screen):
+    """a network: its places have the same marks, and say them"""
+    path = new_file(screen, NETWORK, 'plant.rung')
+    with open(os.path.join(screen.home, 'plant.io'), 'w') as out:
+        out.write(MAP)
+    editor = Editor(screen, path)
+    part = lambda name: until(lambda: [node for node in editor.all(role='table cell') if node.name == name], name)
+    part('LT, input IN1: Level')
+    scans(editor, 3)
+    part('LT, input IN1: Level, 0, stale')
+    editor.click(part('AND, input IN2: Full, FALSE')[0])
+    editor.keys('ctrl+shift+f')
+    scans(editor, 1)
+    part('AND, input IN2: Full, TRUE')
+    editor.shot('quality-network')
+    toggle_good = [node for node in editor.all('Good', 'check box') if node.box()[2] > 0][0]
+    editor.click(toggle_good)
+    scans(editor, 1)
+    part('LT, input IN1: Level, 0')
+
+
 def recorded(screen):
     """a board: what was not good is marked in what it sent, in its record, and in the file of that"""
     board = Board(screen, 'plant', program=PROGRAM, board=MAP, role='eng io')
@@ -196,4 +224,4 @@ def chinese(screen):
 
 
 if __name__ == '__main__':
-    main([simulated, forced, recorded, chinese])
+    main([simulated, forced, network, recorded, chinese])
