@@ -161,15 +161,10 @@ bool sim_program_open_image(struct sim_program *program, const void *bytes, gsiz
 
 bool sim_program_runs(const struct sim_program *program, const struct program *image)
 {
-	guint8 a[32], b[32];
-
 	if (program->program->header->crc == image->header->crc)
 		return true;
-	if (program->program->header->data_size != image->header->data_size)
-		return false;
-	code_identity(program->program, a);
-	code_identity(image, b);
-	return memcmp(a, b, sizeof(a)) == 0;
+	return program->program->header->data_size == image->header->data_size &&
+	       code_is_same(program->program, image);
 }
 
 /* The text without its VIEW part. Caller frees. */
@@ -198,15 +193,10 @@ static bool is_map_same(const struct sim_program *a, const struct sim_program *b
 static bool is_code_same(const struct sim_program *a, const struct sim_program *b)
 {
 	const struct code_header *x = a->program->header, *y = b->program->header;
-	guint8 left[32], right[32];
 
 	if (x->size == y->size && memcmp(a->program->base, b->program->base, x->size) == 0)
 		return true;
-	if ((!a->form && !b->form) || x->data_size != y->data_size)
-		return false;
-	code_identity(a->program, left);
-	code_identity(b->program, right);
-	return memcmp(left, right, sizeof(left)) == 0;
+	return (a->form || b->form) && x->data_size == y->data_size && code_is_same(a->program, b->program);
 }
 
 void sim_program_set_form(struct sim_program *program, char *form)

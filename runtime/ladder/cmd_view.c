@@ -100,12 +100,11 @@ enum status cmd_show(struct call *call)
 	return status;
 }
 
-/* Compares the identity of code and data, if one of the two is an image. */
+/* Compares code and data, if one of the two is an image. */
 static enum status compare(struct call *call, struct ladder *a,
 			   struct ladder *b)
 {
 	struct ladder *both[] = { a, b };
-	uint8_t identity[2][32];
 	bool json = call_flag(call, "--json");
 
 	for (int i = 0; i < 2; i++) {
@@ -113,9 +112,8 @@ static enum status compare(struct call *call, struct ladder *a,
 			report_diags(ladder_diags(both[i]));
 			return STATUS_WRONG;
 		}
-		code_identity(ladder_program(both[i]), identity[i]);
 	}
-	bool same = !memcmp(identity[0], identity[1], sizeof(identity[0]));
+	bool same = code_is_same(ladder_program(a), ladder_program(b));
 
 	if (json)
 		sink_text(&call->out, same ? "[]\n" :

@@ -725,13 +725,7 @@ static bool make_moves(struct carry_plan *plan, struct arena *arena,
 /* Only names, comments or drawings changed: all offsets are the same. */
 static bool is_same_code(const struct program *a, const struct program *b)
 {
-	uint8_t one[32], other[32];
-
-	if (a->header->data_size != b->header->data_size)
-		return false;
-	code_identity(a, one);
-	code_identity(b, other);
-	return memcmp(one, other, sizeof(one)) == 0;
+	return a->header->data_size == b->header->data_size && code_is_same(a, b);
 }
 
 const struct carry_plan *carry_plan_new(const struct program *to,

@@ -498,6 +498,32 @@ void code_identity(const struct program *p, uint8_t out[32])
 	digest_sha256_end(&sha, out);
 }
 
+static bool is_section_same(const struct program *a, const struct program *b, int kind)
+{
+	const struct code_section *x = &a->header->section[kind], *y = &b->header->section[kind];
+
+	return x->size == y->size && (!x->size || memcmp(a->base + x->offset, b->base + y->offset, x->size) == 0);
+}
+
+bool code_is_same(const struct program *a, const struct program *b)
+{
+	const struct code_header *x = a->header, *y = b->header;
+	const size_t runs = x->core_runs * sizeof(struct code_run);
+	bool same = x->retain_offset == y->retain_offset && x->retain_size == y->retain_size &&
+		x->budget == y->budget && x->core_runs == y->core_runs &&
+		a->entry_count == b->entry_count && a->task_count == b->task_count &&
+		memcmp(x->area_bytes, y->area_bytes, sizeof(x->area_bytes)) == 0 &&
+		(!runs || memcmp(a->run, b->run, runs) == 0);
+
+	for (uint32_t i = 0; same && i < a->entry_count; i++)
+		same = memcmp(&a->entry[i], &b->entry[i], 2 * sizeof(uint32_t)) == 0;
+	for (uint32_t i = 0; same && i < a->task_count; i++)
+		same = memcmp(&a->task[i], &b->task[i], offsetof(struct code_task, name)) == 0;
+	for (int kind = CODE_INIT; same && kind <= CODE_TEXT; kind++)
+		same = is_section_same(a, b, kind);
+	return same;
+}
+
 _Static_assert(AREA_COUNT <= CODE_AREAS, "no room for the sizes of all areas");
 
 /* The size of each area and of all together is within its bounds. */

@@ -360,6 +360,9 @@ enum word code_instance(const struct program *program, uint32_t offset);
 /** code_identity - SHA-256 of code and data layout, without the maps that a target may
  * drop. @out gets 32 bytes. Scan-safe: no (slow). */
 void code_identity(const struct program *program, uint8_t out[32]);
+/** code_is_same - whether code_identity() of both is the same; without the digests, which take milliseconds.
+ * Scan-safe: no (slow). */
+bool code_is_same(const struct program *a, const struct program *b);
 /**
  * code_strip - an image without its maps, for small targets
  * @image: verified

@@ -569,6 +569,52 @@ static void identity(const void *bytes, size_t size, uint8_t out[32])
 	arena_free(&scratch);
 }
 
+static bool is_same_as(const struct program *other)
+{
+	struct arena scratch;
+	struct program program;
+	enum diag_id why;
+	bool same;
+
+	arena_init(&scratch);
+	same = code_open(image, len, &scratch, &program, &why, &where) && code_is_same(&program, other);
+	arena_free(&scratch);
+	return same;
+}
+
+/* Each byte of the image in turn is another one. */
+static void same_as_by_identity(void)
+{
+	struct program whole, changed;
+	uint8_t first[32], second[32];
+	int same = 0, other = 0, wrong = 0;
+	struct arena scratch, again;
+	enum diag_id why;
+
+	arena_init(&scratch);
+	if (!CHECK(code_open(good, len, &scratch, &whole, &why, &where)))
+		return;
+	code_identity(&whole, first);
+	for (size_t at = offsetof(struct code_header, data_size); at < len; at++) {
+		arena_init(&again);
+		image[at] ^= 1;
+		seal();
+		if (code_open(image, len, &again, &changed, &why, &where)) {
+			const bool is_same = code_is_same(&whole, &changed);
+
+			code_identity(&changed, second);
+			wrong += is_same != (memcmp(first, second, 32) == 0);
+			same += is_same;
+			other += !is_same;
+		}
+		arena_free(&again);
+		fresh();
+	}
+	arena_free(&scratch);
+	CHECK_AS(wrong == 0, "code_is_same() says what code_identity() says");
+	CHECK(same > 100 && other > 100);
+}
+
 static void watching_is_no_other_program(void)
 {
 	uint8_t watched[32], bare[32];
@@ -578,6 +624,7 @@ static void watching_is_no_other_program(void)
 	if (rig_open(&rig, source, false)) {
 		code_identity(ladder_program(rig.ladder), bare);
 		CHECK(memcmp(watched, bare, 32) == 0);
+		CHECK(is_same_as(ladder_program(rig.ladder)));
 		CHECK(ladder_program(rig.ladder)->watch_words == 0);
 	}
 	rig_close(&rig);
@@ -647,6 +694,7 @@ static void all_checks(void)
 	refuses_maps();
 	names_symbols();
 	watching_is_no_other_program();
+	same_as_by_identity();
 	drops_maps();
 }
 
