@@ -63,6 +63,10 @@ $(call obj,$(ENGINE)): WARN += $(FRAME)
 $(call obj,$(addprefix runtime/engine/scan/,fn_real.c math_angle.c fb_sun.c)): CPPFLAGS += -fno-math-errno
 # Files that run once per load are compiled for size; for boards, also some that make loading fast here.
 OFTEN    := $(addprefix runtime/ladderd/,$(if $(CROSS)$(STATIC),,cycle.c) stats.c wall.c)
+# Not for boards: those that run most while somebody who has changed a long text waits for it.
+OFTEN    += $(if $(CROSS)$(STATIC)$(filter 1,$(SMALL)),,$(addprefix runtime/engine/,check/check_il.c check/check_operand.c \
+            check/check_st.c check/infer.c check/scope.c scan/code.c scan/code_text.c text/read_st.c text/reader.c text/write_st.c \
+            translate/pack_image.c))
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c scan/declared.c \
             scan/retain_*.c scan/still_table.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \

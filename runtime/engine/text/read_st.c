@@ -312,9 +312,14 @@ static enum st_kind kind_at(struct st_reader *s, const struct lex *lex)
 {
 	const struct st_block *block = s->depth > 0 ? &s->block[s->depth - 1] : NULL;
 
-	for (int i = 0; i < ST_SET && lex->token.kind == TOKEN_NAME; i++)
-		if (*st_form((enum st_kind)i)->word && lex_is(lex, st_form((enum st_kind)i)->word))
+	const char first = lex->token.len ? ascii_upper(*lex->token.text) : '\0';
+
+	for (int i = 0; i < ST_SET && lex->token.kind == TOKEN_NAME; i++) {
+		const char *word = st_form((enum st_kind)i)->word;
+
+		if (*word == first && lex_is(lex, word))
 			return (enum st_kind)i;
+	}
 	if (lex_is(lex, ";"))
 		return ST_EMPTY;
 	if (block && block->kind == ST_CASE && block->choice && !block->other && is_case_label(s, *lex))

@@ -887,7 +887,7 @@ bool read_ends_block(const struct reader *r)
 	if (r->lex.token.kind != TOKEN_NAME)
 		return false;
 	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
-		found = lex_is(&r->lex, words[i]);
+		found = *words[i] == ascii_upper(*r->lex.token.text) && lex_is(&r->lex, words[i]);
 	found |= begins_member(r);
 	if (r->plain && !ascii_same(r->lex.token.text, "END_", 4) &&
 	    (reader_peek(r, "(") || reader_peek(r, "[") || reader_peek(r, ".")))

@@ -640,12 +640,16 @@ static uint32_t bit_of(enum st_kind kind)
 	return 1u << kind;
 }
 
-/* The kinds of the statements that begin in a line, as bits; 0: none does. */
-static uint32_t st_kinds_in(const struct st *st, uint32_t line)
+/* The kinds of the statements that begin in a line, as bits; 0: none does. @from: where to look first, and where the
+ * next line is likely. */
+static uint32_t st_kinds_in(const struct st *st, uint32_t line, int *from)
 {
 	int low = 0, high = st ? st->count : 0;
 	uint32_t kinds = 0;
 
+	if (*from > 0 && *from < high && (uint32_t)st->item[*from - 1].line < line &&
+	    (uint32_t)st->item[*from].line >= line)
+		low = high = *from;
 	while (low < high) {
 		const int middle = low + (high - low) / 2;
 
@@ -656,6 +660,7 @@ static uint32_t st_kinds_in(const struct st *st, uint32_t line)
 	}
 	for (; st && low < st->count && (uint32_t)st->item[low].line == line; low++)
 		kinds |= bit_of((enum st_kind)st->item[low].kind);
+	*from = low;
 	return kinds;
 }
 
@@ -663,7 +668,7 @@ static uint32_t st_kinds_in(const struct st *st, uint32_t line)
 static uint32_t kinds_of(struct list *list, uint32_t line)
 {
 	if (line != list->kinds_line || !list->kinds_line) {
-		list->kinds = st_kinds_in(list->pou->st, line);
+		list->kinds = st_kinds_in(list->pou->st, line, &list->kinds_item);
 		list->kinds_line = line;
 	}
 	return list->kinds;

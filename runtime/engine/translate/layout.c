@@ -37,14 +37,14 @@ static const struct word_row *layout_row(const struct assembler *as, enum word w
 
 static bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size)
 {
-	struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
-		.file = as->translation->project->file };
-
 	if (size <= LIMIT_DATA && offset <= LIMIT_DATA - (uint32_t)size)
 		return true;
-	if (!as->failed)
-		diag_add(as->translation->diags, diag, "%u",
-			 (unsigned)LIMIT_DATA);
+	if (!as->failed) {
+		const struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
+			.file = as->translation->project->file };
+
+		diag_add(as->translation->diags, diag, "%u", (unsigned)LIMIT_DATA);
+	}
 	as->failed = true;
 	return false;
 }

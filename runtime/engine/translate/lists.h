@@ -68,6 +68,7 @@ struct list {
 	uint8_t *looped;              /* by folded name: a jump leads back to it */
 	uint32_t label_count;
 	uint32_t kinds_line, kinds;   /* kinds of the statements of the line that was looked at last */
+	int kinds_item;               /* the statement behind them             */
 	struct fixup { uint32_t word, fold; bool jump; } *fixup; /* jump: of JMP */
 	int fixup_count;
 };
