@@ -838,7 +838,14 @@ static void begin_keys(LadderSimPanel *panel)
 
 /* ---- the program and its values ---- */
 
-/* The lines of another program. If they are the same, their widgets stay. */
+static gboolean free_rows(gpointer rows)
+{
+	g_ptr_array_unref(rows);
+	return G_SOURCE_REMOVE;
+}
+
+/* The lines of another program. If they are the same, their widgets stay. The window is idle when the other rows, which
+ * may be thousands, are freed. */
 static void look_at_program(LadderSimPanel *panel)
 {
 	GPtrArray *rows = sim_rows_new(panel->sim);
@@ -847,7 +854,7 @@ static void look_at_program(LadderSimPanel *panel)
 		for (guint i = 0; i < rows->len; i++)
 			sim_row_become(g_ptr_array_index(panel->rows, i),
 				       g_ptr_array_index(rows, i));
-		g_ptr_array_unref(rows);
+		g_idle_add_full(G_PRIORITY_LOW, free_rows, rows, NULL);
 		return;
 	}
 	let_go(panel);

@@ -37,6 +37,8 @@ struct maker {
 	LadderSimRow *last;         /* instance whose pins follow               */
 	gsize last_len;             /* length of its name                      */
 	LadderSimRow *whole;        /* own block, array or structure whose parts follow */
+	char *first;                /* the name that was asked last if it is a POU's */
+	int pou;                    /* its POU; -1: it is none                 */
 };
 
 /* ---- comments ---- */
@@ -470,13 +472,24 @@ static const struct var *var_in(const struct maker *maker, const struct var_tabl
 	return at < 0 ? NULL : &vars->var[at];
 }
 
+/* -1: no POU has this name. Parts of one variable come one after another. */
+static int find_pou(struct maker *maker, const char *name, gsize len)
+{
+	if (!maker->first || strncmp(maker->first, name, len) != 0 || maker->first[len]) {
+		g_free(maker->first);
+		maker->first = g_strndup(name, len);
+		maker->pou = project_find_pou(maker->project, name, len);
+	}
+	return maker->pou;
+}
+
 /* The declaration of a name as in head_len(); NULL: of another table. A name without its POU is
  * that of a global, or of the only local with this name. */
-static const struct var *declared(const struct maker *maker, const char *name, gsize head)
+static const struct var *declared(struct maker *maker, const char *name, gsize head)
 {
 	const struct project *project = maker->project;
 	const char *dot = memchr(name, '.', head);
-	const int pou = dot ? project_find_pou(project, name, (gsize)(dot - name)) : -1;
+	const int pou = dot ? find_pou(maker, name, (gsize)(dot - name)) : -1;
 	const struct var *var = NULL;
 
 	if (pou >= 0)
@@ -490,7 +503,7 @@ static const struct var *declared(const struct maker *maker, const char *name, g
 }
 
 /* `Low.N1`, `Low.P1`: the wire of a network, whose name is not declared, and its value of the scan before. */
-static bool is_wire(const struct maker *maker, const char *name, gsize head)
+static bool is_wire(struct maker *maker, const char *name, gsize head)
 {
 	const char *tail = name + head;
 
@@ -499,10 +512,10 @@ static bool is_wire(const struct maker *maker, const char *name, gsize head)
 }
 
 /* Length of the declared name at the beginning of @name, with its POU if that is before it. */
-static gsize head_len(const struct maker *maker, const char *name)
+static gsize head_len(struct maker *maker, const char *name)
 {
 	const gsize len = strcspn(name, ".[");
-	const gsize head = name[len] == '.' && project_find_pou(maker->project, name, len) >= 0 ?
+	const gsize head = name[len] == '.' && find_pou(maker, name, len) >= 0 ?
 			   len + 1 + strcspn(name + len + 1, ".[") : len;
 
 	return is_wire(maker, name, head) ? strlen(name) : head;
@@ -510,7 +523,7 @@ static gsize head_len(const struct maker *maker, const char *name)
 
 /* A structure is a variable, as an array of values is; an instance, and an array of them, are
  * blocks. */
-static bool is_instance(const struct maker *maker, const char *name, gsize head)
+static bool is_instance(struct maker *maker, const char *name, gsize head)
 {
 	const struct var *var = declared(maker, name, head);
 
@@ -629,6 +642,7 @@ static void add_program(struct maker *maker)
 	g_hash_table_unref(maker->starts);
 	g_hash_table_unref(maker->taken);
 	g_hash_table_unref(maker->steps);
+	g_clear_pointer(&maker->first, g_free);
 }
 
 /* ---- pins and places of the I/O map beside the project ---- */

@@ -730,10 +730,12 @@ void sim_thread_step(struct sim_thread *thread, enum stops_step step)
 	tell(thread, &(struct order){ .kind = ORDER_STEP, .step = step });
 }
 
+/* With one processor the window would else draw a frame first. */
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
 {
 	tell(thread, &(struct order){ .kind = ORDER_CHANGE,
 				      .program = sim_program_ref(program) });
+	g_thread_yield();
 }
 
 /* ---- lateness ---- */

@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/name_fold.h"
 #include "editor-gtk/text/st_typing.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/name.h"
 
 #include <stdlib.h>
@@ -247,15 +248,35 @@ static const char *line_of(const char *text, int line)
 	return text;
 }
 
+/* Is the cursor behind a number? No word begins so, and a long text need not be looked at for each digit. */
+static bool is_number(GtkTextBuffer *buffer)
+{
+	GtkTextIter at;
+	gunichar first = 0, before;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	for (before = 0; gtk_text_iter_backward_char(&at); first = before) {
+		before = gtk_text_iter_get_char(&at);
+		if (!g_unichar_isalnum(before) && before != '_')
+			break;
+	}
+	return first < 128 && ascii_digit((char)first) && before != '%' && before != '#' && before != '.';
+}
+
 static GListStore *words_here(LadderWords *words, gsize *prefix_len)
 {
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view));
 	int line, column;
-	char *text = text_of_buffer(gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view)),
-				    &line, &column);
-	char *list = text_range_whole(words->part, text);
-	GListStore *found = text_complete_words(words->document, *words->pou, list,
-						words->part->lines + line, column, prefix_len);
+	char *text, *list;
+	GListStore *found;
 
+	*prefix_len = 0;
+	if (is_number(buffer))
+		return g_list_store_new(LADDER_TYPE_PROPOSAL);
+	text = text_of_buffer(buffer, &line, &column);
+	list = text_range_whole(words->part, text);
+	found = text_complete_words(words->document, *words->pou, list, words->part->lines + line, column,
+				    prefix_len);
 	if (*prefix_len && is_whole(found, line_of(text, line) + column - *prefix_len,
 				    *prefix_len))
 		g_list_store_remove_all(found);
