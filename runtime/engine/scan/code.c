@@ -498,29 +498,23 @@ void code_identity(const struct program *p, uint8_t out[32])
 	digest_sha256_end(&sha, out);
 }
 
-static bool is_section_same(const struct program *a, const struct program *b, int kind)
-{
-	const struct code_section *x = &a->header->section[kind], *y = &b->header->section[kind];
-
-	return x->size == y->size && (!x->size || memcmp(a->base + x->offset, b->base + y->offset, x->size) == 0);
-}
-
 bool code_is_same(const struct program *a, const struct program *b)
 {
 	const struct code_header *x = a->header, *y = b->header;
-	const size_t runs = x->core_runs * sizeof(struct code_run);
-	bool same = x->retain_offset == y->retain_offset && x->retain_size == y->retain_size &&
-		x->budget == y->budget && x->core_runs == y->core_runs &&
-		a->entry_count == b->entry_count && a->task_count == b->task_count &&
+	const size_t from = offsetof(struct code_header, retain_offset), end = offsetof(struct code_header, words);
+	bool same = memcmp((const char *)x + from, (const char *)y + from, end - from) == 0 &&
 		memcmp(x->area_bytes, y->area_bytes, sizeof(x->area_bytes)) == 0 &&
-		(!runs || memcmp(a->run, b->run, runs) == 0);
+		a->entry_count == b->entry_count && a->task_count == b->task_count &&
+		memcmp(a->run, b->run, x->core_runs * sizeof(struct code_run)) == 0;
 
 	for (uint32_t i = 0; same && i < a->entry_count; i++)
 		same = memcmp(&a->entry[i], &b->entry[i], 2 * sizeof(uint32_t)) == 0;
 	for (uint32_t i = 0; same && i < a->task_count; i++)
 		same = memcmp(&a->task[i], &b->task[i], offsetof(struct code_task, name)) == 0;
 	for (int kind = CODE_INIT; same && kind <= CODE_TEXT; kind++)
-		same = is_section_same(a, b, kind);
+		same = x->section[kind].size == y->section[kind].size &&
+			memcmp(a->base + x->section[kind].offset, b->base + y->section[kind].offset,
+			       x->section[kind].size) == 0;
 	return same;
 }
 
