@@ -58,6 +58,23 @@ alike() {
 	! msgcat --no-wrap "editor-gtk/po/$1.po" | grep '^msgstr.* …"$'
 }
 
+# pointed LANGUAGE - a number has the point of its original: the editor writes all numbers with one
+pointed() {
+	msgcat --no-wrap "${2:-editor-gtk/po/$1.po}" | perl -CSD -00 -ne '
+		next unless /^msgid ((?:".*"\n)+)msgstr ((?:".*"\n?)+)/m;
+		my ($of, $said) = ($1, $2);
+		next if $of eq "\"\"\n";
+		my ($points, $kept) = map { join " ", sort /(?<![\d.])\d+\.\d+(?![\d.])/g } $of, $said;
+		if ($points ne $kept) { print "$points, not $kept: $of"; $bad = 1 }
+		END { exit($bad ? 1 : 0) }'
+}
+
+# comma - tests the test: one decimal comma is noticed
+comma() {
+	sed '/^msgstr/s/0\.5 s TRUE/0,5 s TRUE/' editor-gtk/po/de.po >"$work/comma.po"
+	! pointed de "$work/comma.po" >/dev/null
+}
+
 # kept - French texts have a no-break blank (U+00A0) before a colon and inside of quotes, a narrow
 # one (U+202F) before ; ! ? so that no line begins with the sign. An original that has " : "
 # itself shows a declaration.
@@ -97,9 +114,11 @@ for language in $(cat editor-gtk/po/LINGUAS); do
 	told "$language: formats, plurals, access keys agree" msgfmt -c \
 		--check-accelerators=_ -o /dev/null "editor-gtk/po/$language.po"
 	told "$language: an ellipsis stands at its word" alike "$language"
+	told "$language: numbers have the point of the original" pointed "$language"
 	told "$language: is of these sources" current "$language"
 done
 told "a missing text would be noticed" noticed de
+told "de: a decimal comma would be noticed" comma
 told "fr: no line can begin with : ; ! ? or a closing quote" kept
 told "fr: an ordinary blank there would be noticed" breaks
 echo "1..$count"

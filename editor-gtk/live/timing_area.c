@@ -477,7 +477,7 @@ static void draw_ruler(struct drawing *drawing)
 		if (x > drawing->width)
 			return;
 		fill(drawing, TOKEN_LINE, 1, x, 0, 1, top + 5);
-		live_time_print((gint64)(round(ns / step) * step), label, sizeof(label));
+		live_time_print_tick((gint64)(round(ns / step) * step), (gint64)step, label, sizeof(label));
 		text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, label, x + 4, top + 15, 0);
 	}
 }

@@ -216,14 +216,14 @@ static double step_of(double least)
 	       10 * ten;
 }
 
-static void draw_time(struct drawing *drawing, double ns)
+static void draw_time(struct drawing *drawing, double ns, double step)
 {
 	const double x = x_of(drawing, ns);
 	PangoLayout *layout;
 	char text[32];
 	int width;
 
-	live_time_print((gint64)ns, text, sizeof(text));
+	live_time_print_tick((gint64)(round(ns / step) * step), (gint64)step, text, sizeof(text));
 	layout = gtk_widget_create_pango_layout(GTK_WIDGET(drawing->lane), text);
 
 	pango_layout_get_pixel_size(layout, &width, NULL);
@@ -245,7 +245,7 @@ static void draw_ruler(struct drawing *drawing)
 	fill(drawing, TOKEN_LINE, 0, 0, drawing->width, 1);
 	for (double ns = ceil(drawing->from_ns / step) * step; x_of(drawing, ns) < drawing->width;
 	     ns += step)
-		draw_time(drawing, ns);
+		draw_time(drawing, ns, step);
 }
 
 /* ---- the widget ---- */

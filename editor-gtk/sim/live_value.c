@@ -322,6 +322,23 @@ void live_time_print_short(int64_t ns, char *out, size_t size)
 	print_time(ns, few_digits(ns, unit_of(ns)), out, size);
 }
 
+/* Digits of a unit that tell apart times which are @step ns apart. */
+static int step_digits(int64_t ns, int64_t step)
+{
+	const enum unit unit = unit_of(ns);
+	int64_t part = unit == UNIT_MS ? VALUE_MS : SECOND;
+	int digits = 0;
+
+	for (; step > 0 && part > 1 && step % part != 0; digits++)
+		part /= 10;
+	return digits;
+}
+
+void live_time_print_tick(int64_t ns, int64_t step_ns, char *out, size_t size)
+{
+	print_time(ns, ns == 0 ? ALL_DIGITS : step_digits(ns, step_ns), out, size);
+}
+
 /* Both have the unit of the goal. The unit of hours and minutes is written once, at the end. */
 static void print_times(int64_t ns, int64_t goal, char *out, size_t size)
 {

@@ -90,6 +90,9 @@ void live_time_print_short(int64_t ns, char *out, size_t size);
  * snprintf; IEC_VALUE_TEXT bytes are enough. */
 int live_value_format(enum live_format format, enum iec_type type, union iec_value value,
 		      char *out, size_t size);
+/** live_time_print_tick - for a ruler whose marks stand @step_ns apart: all have the digits that tell
+ * them from each other, and no more ("1.990 s", "1.995 s", "2.000 s"). */
+void live_time_print_tick(int64_t ns, int64_t step_ns, char *out, size_t size);
 /**
  * live_value_parse - what a person types for a value in this format
  * @room: gets the bytes of a STRING, which @out then points to

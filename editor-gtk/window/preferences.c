@@ -96,7 +96,7 @@ static void add_looks(AdwPreferencesPage *page)
 	const char *power[] = { _("green"), _("blue"), NULL };
 	const char *show[] = { _("symbol and address"), _("symbols"), _("addresses"),
 			       NULL };
-	const char *spelling[] = { _("IEC 61131-3: %IX0.0 %MW4"), _("Siemens: I0.0 MW4"), NULL };
+	const char *spelling[] = { _("IEC: %IX0.0"), _("Siemens: I0.0"), NULL };
 	AdwPreferencesGroup *group = add_group(page, _("Drawing"));
 
 	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);

@@ -22,7 +22,7 @@
 
 #define NARROW 1200 /* px of a window that has no room for both sides             */
 #define PANEL 280   /* px of the panel; both for letters of the usual size        */
-#define TITLE_PADDING 12 /* px beside the texts of the title                     */
+#define TITLE_PADDING 24 /* px beside the texts of the title                     */
 #define WHEN_US 200000 /* us between updates of the title                        */
 
 /* ---- its text ---- */

@@ -81,6 +81,7 @@ def session(screen, language):
     names |= editor.names()
     editor.keys('Escape')
     keys_fit(editor, language)
+    choices_fit(editor, language)
     editor.keys('ctrl+Page_Up')
     headings_fit(editor, language)
     editor.click(editor.grid(60, 3))
@@ -127,6 +128,19 @@ def keys_fit(editor, language):
     for window in editor.windows():
         size = dict(line.split('=') for line in sh('xdotool', 'getwindowgeometry', '--shell', window).split())
         assert int(size['WIDTH']) <= 1024 and int(size['HEIGHT']) <= 700, size
+    editor.keys('Escape')
+    until(lambda: len(editor.windows()) == 1, 'it to be closed')
+
+
+def choices_fit(editor, language):
+    """Each choice of the preferences that holds is shown whole beside the words below its name."""
+    editor.brought('ctrl+comma')
+    editor.shot('language-%s-preferences' % language)
+    for text in 'as the desktop', 'green', 'symbol and address', 'IEC: %IX0.0':
+        said = editor.shown_as(text)
+        boxes = until(lambda: [n.box() for n in editor.all(text, 'label') if n.name == said and n.box()[2] > 0], text)
+        # One that is cut has less than a third of a line for each letter.
+        assert all(wide >= len(said) * high / 3 for _, _, wide, high in boxes), (said, boxes)
     editor.keys('Escape')
     until(lambda: len(editor.windows()) == 1, 'it to be closed')
 

@@ -124,6 +124,32 @@ static void test_counts(void)
 	CHECK(counts(0, 0, "0 s / 0 s"));
 }
 
+/* The texts of @count marks from @from on, with blanks between them. */
+static bool are_ticks(int64_t from, int64_t step, int count, const char *expected)
+{
+	char all[256] = "", text[32];
+
+	for (int i = 0; i < count; i++) {
+		live_time_print_tick(from + i * step, step, text, sizeof(text));
+		g_strlcat(all, i ? ", " : "", sizeof(all));
+		g_strlcat(all, text, sizeof(all));
+	}
+	if (strcmp(all, expected) == 0)
+		return true;
+	printf("# %s\n", all);
+	return false;
+}
+
+static void test_ticks(void)
+{
+	CHECK(are_ticks(0, 2 * S, 3, "0 s, 2 s, 4 s"));
+	CHECK(are_ticks(1985 * MS, 5 * MS, 4, "1.985 s, 1.990 s, 1.995 s, 2.000 s"));
+	CHECK(are_ticks(980 * MS, 10 * MS, 3, "980 ms, 990 ms, 1.00 s"));
+	CHECK(are_ticks(MS / 2, MS / 2, 3, "0.5 ms, 1.0 ms, 1.5 ms"));
+	CHECK(are_ticks(59 * S, S / 2, 4, "59.0 s, 59.5 s, 1:00.0 min, 1:00.5 min"));
+	CHECK(are_ticks(3590 * S, 20 * S, 2, "59:50 min, 1:00:10 h"));
+}
+
 /* What counts in a box: the pins of the standard and those of ClassicLadder. */
 static void test_pins(void)
 {
@@ -146,6 +172,7 @@ int main(void)
 	test_units();
 	test_sweep();
 	test_counts();
+	test_ticks();
 	test_pins();
 	return tap_done();
 }
