@@ -174,6 +174,8 @@ static GtkWidget *label_new(GtkWidget *box, const char *class)
 	return label;
 }
 
+#define ITEM "compare-item" /* of the content of a row: its GtkListItem, borrowed */
+
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
@@ -193,6 +195,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_label_set_lines(GTK_LABEL(words), 4);
 	gtk_label_set_ellipsize(GTK_LABEL(words), PANGO_ELLIPSIZE_END);
 	gtk_label_set_width_chars(GTK_LABEL(words), 10);
+	g_object_set_data(G_OBJECT(box), ITEM, item);
 	gtk_list_item_set_child(item, box);
 }
 
@@ -403,18 +406,34 @@ void ladder_compare_view_enter(LadderCompareView *view)
 
 /* ---- stepping and going ---- */
 
+/* The widget of a row; NULL: it is out of sight. Borrowed. */
+static GtkWidget *widget_of(LadderCompareView *view, guint at)
+{
+	for (GtkWidget *row = gtk_widget_get_first_child(view->list); row;
+	     row = gtk_widget_get_next_sibling(row)) {
+		GtkWidget *box = gtk_widget_get_first_child(row);
+		GtkListItem *item = box ? g_object_get_data(G_OBJECT(box), ITEM) : NULL;
+
+		if (item && gtk_list_item_get_position(item) == at)
+			return row;
+	}
+	return NULL;
+}
+
 void ladder_compare_view_step(LadderCompareView *view, bool back)
 {
 	const guint at = gtk_single_selection_get_selected(view->selection);
 	const guint all = g_list_model_get_n_items(G_LIST_MODEL(view->store));
 	const guint to = back ? at - 1 : at + 1;
+	GtkWidget *row;
 
 	if (at == GTK_INVALID_LIST_POSITION || (back ? at == 0 : to >= all))
 		return;
 	gtk_single_selection_set_selected(view->selection, to);
 	list_scroll_to(view->list, to);
-	if (gtk_widget_get_focus_child(view->list)) /* the mark of the focus goes along */
-		gtk_widget_grab_focus(view->list);
+	row = widget_of(view, to);
+	if (row && gtk_widget_get_focus_child(view->list)) /* the focus goes along, and arrow keys go on from there */
+		gtk_widget_grab_focus(row);
 }
 
 static void step(GtkWidget *widget, const char *name, GVariant *unused)

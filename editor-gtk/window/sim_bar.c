@@ -74,6 +74,15 @@ static void shorten(AdwWindowTitle *title, char *text)
 	}
 }
 
+/* With tenths, also of whole seconds: a title that is longer by two signs each second would jump. */
+static void print_now(gint64 ns, char *out, size_t size)
+{
+	if (ns >= G_GINT64_CONSTANT(1000000000) && ns < G_GINT64_CONSTANT(60000000000))
+		live_time_print_tick(ns, 100000000, out, size);
+	else
+		live_time_print_short(ns, out, size);
+}
+
 static void show_when(struct sim_bar *bar)
 {
 	const struct twin *twin = ladder_sim_twin(bar->core->sim);
@@ -83,7 +92,7 @@ static void show_when(struct sim_bar *bar)
 	if (!twin)
 		return;
 	live_time_print(twin->period_ns, period, sizeof(period));
-	live_time_print_short(twin->now_ns, now, sizeof(now));
+	print_now(twin->now_ns, now, sizeof(now));
 	if (board)
 		text = g_strdup_printf(ladder_sim_is_recording(bar->core->sim) ?
 				       _("Recording: %s · %s · scan %llu") :

@@ -138,6 +138,11 @@ def revisions(screen):
     editor.find('Line 2', 'picture')
     editor.keys('p')
     editor.find('Step Fill', 'picture')
+    editor.says('%d of %d' % (len(rows) - 1, len(rows)))
+    editor.keys('Up')  # goes on from the row of the picture
+    editor.says('%d of %d' % (len(rows) - 2, len(rows)))
+    editor.keys('n')
+    editor.find('Step Fill', 'picture')
     editor.keys('Return')
     until(lambda: editor.find('Chart').has(12), 'the focus on the chart')
     editor.says('Step Fill')

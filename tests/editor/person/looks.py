@@ -3,6 +3,7 @@
 """looks - the window is used in the dark, with high contrast, on a small and on a very large screen."""
 import gettext
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -135,6 +136,30 @@ def last_tab(screen):
     until(lambda: max(n.box()[0] + n.box()[2] for n in editor.all('Close Tab')) <= panel.box()[0],
           'the last tab to be in sight')
     editor.shot('looks-tab')
+
+
+def title(screen):
+    """1024 px in French: in whole seconds of a simulation, too, the title has tenths, so it does not jump"""
+    path = new_file(screen, GOOD.replace('END_PROGRAM\n', '''END_PROGRAM
+
+CONFIGURATION Plant
+  RESOURCE Station ON PLC
+    TASK Slow(INTERVAL := T#1s, PRIORITY := 1);
+    PROGRAM One WITH Slow : Main;
+  END_RESOURCE
+END_CONFIGURATION
+'''))
+    editor = French(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+m')
+
+    def stands():
+        found = [node for node in editor.all(role='label') if re.search(r' · \w+ [1-9]\d* · \d+(\.\d)? s$', node.name)]
+        return found and found[0]
+    label = until(stands, 'whole seconds in the title')
+    editor.shot('looks-title')
+    assert re.search(r' · \d+\.0 s$', label.name), label.name
+
 
 def small(screen):
     """a rung drawn on a screen of 1024x700"""
@@ -318,7 +343,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = symbols.size = french.size = '1024x700x24'
+small.size = title.size = narrow.size = edge.size = beside.size = columns.size = large_letters.size = last_tab.size = symbols.size = french.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, narrow, edge, beside, columns, symbols, last_tab, french, large_letters, large, sharp])
+main([light, dark, high, small, narrow, edge, beside, columns, symbols, last_tab, title, french, large_letters, large, sharp])
