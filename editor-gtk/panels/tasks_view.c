@@ -24,6 +24,7 @@ enum { TASKS_FIXED = 1 }; /* LadderPanelRow.flags */
 struct _LadderTasksView {
 	GtkWidget parent_instance;
 	GtkWidget *box, *program_button, *hint, *chart;
+	GtkMenuButton *columns;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
@@ -586,7 +587,7 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/tasks_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderTasksView, name)
-	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(chart);
+	CHILD(box); CHILD(program_button); CHILD(columns); CHILD(hint); CHILD(chart);
 #undef CHILD
 	panel_bind_list(widget, LadderTasksView);
 	panel_bind_message(widget, LadderTasksView);
@@ -600,6 +601,7 @@ static void add_columns(LadderTasksView *view)
 		{ TASKS_WHEN, 120 }, { TASKS_PRIORITY, 70 }, { TASKS_WATCHDOG, 90 },
 		{ TASKS_COMMENT, 140 },
 	};
+	static const int leaving[] = { TASKS_COMMENT, TASKS_WATCHDOG, TASKS_PRIORITY };
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
 		.choosable = 1u << TASKS_KIND | 1u << TASKS_PROGRAM, .choices = choices,
@@ -611,6 +613,7 @@ static void add_columns(LadderTasksView *view)
 				column[i].field == TASKS_NAME ? PANEL_BOLD : 0,
 				column[i].width);
 	panel_list_unsort(&view->list);
+	panel_list_may_leave(&view->list, leaving, G_N_ELEMENTS(leaving), view->columns);
 	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
 }
 

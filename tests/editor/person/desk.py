@@ -109,8 +109,13 @@ class Editor(Finder):
         urge(lambda: self.find(name, 'text').has(12), lambda: self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
 
     def tab(self, name):
-        """Clicks the tab of exactly that name, below the sheets or in a panel."""
-        self.click(until(lambda: [node for node in self.all(name, 'page tab') if node.name == name], 'the tab ' + name)[0])
+        """Clicks the tab of exactly that name, below the sheets or in a panel, until it is in front: the row of tabs may
+        still move when a mode has just begun."""
+        def tabs():
+            return [node for node in self.all(name, 'page tab') if node.name == name]
+        self.click(until(tabs, 'the tab ' + name)[0])
+        urge(lambda: any(node.states >> 23 & 1 for node in tabs()), lambda: self.click(tabs()[0]), 'the tab %s in front' % name,
+             wait=5)
 
     def drag(self, start, end, steps=10, key=None, look=None, ready=None):
         """@key: held down meanwhile; @look: name of a picture taken before the release; @ready: what to wait for

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """tasks - the page of the tasks: cells, rows that come, go and move, a project without a CONFIGURATION, what runs
 when."""
+import gettext
 import os
 import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import BUILD, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROGRAMS = '''
 PROGRAM Quick LD
@@ -443,4 +444,38 @@ def paced(screen):
     editor.shot('tasks-paced')
 
 
-main([table, rows, tree, below_tasks, last_program, implicit, picture, simulated, paced])
+class German(Editor):
+    """The same, with the texts to look for in German."""
+
+    @staticmethod
+    def said(text):
+        return gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['de']).gettext(text)
+
+    def shown_as(self, text):
+        return self.said(text)
+
+
+def narrow(screen):
+    """1024 px in German, simulating: a column without any entry leaves, so that no text is cut; it comes back by the menu"""
+    editor = German(screen, new_file(screen, PLANT), LANGUAGE='de')
+    editor.to_sheet()
+    editor.command('Tasks')  # the same word in German
+    kind, watchdog = ('Fast, ' + editor.said(name) for name in ('Kind', 'Watchdog'))
+    editor.find(kind)
+    editor.keys('ctrl+m')
+    editor.find('Columns')
+    until(lambda: not editor.all(watchdog), 'the empty column to leave')
+    editor.shot('tasks-narrow')
+    said = editor.said('Cyclic')
+    _, _, wide, high = editor.find(kind).box()
+    assert wide >= len(said) * high / 4, (said, wide, high)
+    editor.click(editor.find('Columns'))
+    editor.find('Watchdog', 'menu item')
+    editor.step_to(lambda: editor.find('Watchdog', 'menu item').has(12), 'Down', 'the column')
+    editor.keys('Return')
+    until(lambda: editor.all(watchdog), 'the column Watchdog')
+
+
+narrow.size = '1024x700x24'
+
+main([table, rows, tree, below_tasks, last_program, implicit, picture, simulated, paced, narrow])
