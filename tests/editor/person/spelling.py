@@ -76,9 +76,9 @@ def choose(editor, key, sheet=True):
     for name in 'Contrast', 'Colour of power', 'Above an element', 'Addresses':
         editor.keys('Tab')
         editor.focus_on(name)
-    rows = len(editor.all('IEC 61131-3', 'label'))
+    rows = len(editor.all('IEC: %IX0.0', 'label'))
     editor.keys('Return')
-    until(lambda: len(editor.all('IEC 61131-3', 'label')) > rows, 'the list')
+    until(lambda: len(editor.all('IEC: %IX0.0', 'label')) > rows, 'the list')
     editor.keys(key, 'Return')
     editor.shot('spelling-chosen')
     until(lambda: editor.keys('Escape') or not editor.all('Contrast'), 'the preferences to be gone')
