@@ -151,6 +151,19 @@ static int find_further_input(const struct word_row *row, const char *name,
 	return last + number - known;
 }
 
+/* Index of the input of SR or RS that CODESYS and TwinCAT name in their own way, or -1. */
+static int find_latch_input(const struct word_row *row, const char *name, size_t len)
+{
+	static const struct { enum word word; const char *input[2]; } latch[] = {
+		{ FB_SR, { "SET1", "RESET" } }, { FB_RS, { "SET", "RESET1" } },
+	};
+
+	for (int i = 0; i < 4; i++)
+		if (row == word_row(latch[i / 2].word) && name_is(latch[i / 2].input[i % 2], name, len))
+			return i % 2;
+	return -1;
+}
+
 int word_pin_find(const struct word_row *row, const char *name, size_t len)
 {
 	for (int i = 0; i < row->pin_count; i++) {
@@ -160,6 +173,8 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len)
 		    name_is(pin->name, name, len))
 			return i;
 	}
+	if (row->kind == WORD_FB)
+		return find_latch_input(row, name, len);
 	return find_further_input(row, name, len);
 }
 

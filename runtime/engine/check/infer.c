@@ -169,7 +169,7 @@ static enum iec_type infer_call(struct infer *c, const struct expr_node *node)
 	if (word == WORD_COUNT ||
 	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
 		return IEC_NONE;
-	if (infer_is_whole_power(c, word, &args))
+	if (infer_is_whole_power(c, word, &args) || infer_is_root(c, word, &args))
 		return infer_power(c, args.arg[0].at, args.arg[1].at);
 	row = scope_row(c->scope, infer_overload(c, word, &args));
 	if (word_shares(row))
@@ -205,6 +205,14 @@ bool infer_is_whole_power(struct infer *c, enum word word, const struct expr_arg
 {
 	return word == FN_EXPT && args->count == 2 && !args->more && args->arg[0].pin == 0 &&
 	       infer_is_power(c, args->arg[0].at, args->arg[1].at);
+}
+
+/* EXPT(integer, real); @args: its arguments. */
+bool infer_is_root(struct infer *c, enum word word, const struct expr_args *args)
+{
+	return word == FN_EXPT && args->count == 2 && !args->more && args->arg[0].pin == 0 &&
+	       iec_type_row(infer_type(c, args->arg[0].at))->class & ANY_INT &&
+	       iec_type_row(infer_type(c, args->arg[1].at))->class & CLASS_REAL;
 }
 
 /* 2 * T#1s is T#1s * 2, and T#1h + Begin is Begin + T#1h: the functions take the other first. */

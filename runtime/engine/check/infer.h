@@ -53,4 +53,7 @@ bool infer_is_power(struct infer *c, int base, int exponent);
 enum iec_type infer_power(struct infer *c, int base, int exponent);
 /** infer_is_whole_power - EXPT(base, exponent) of integers; @args: its arguments. */
 bool infer_is_whole_power(struct infer *c, enum word word, const struct expr_args *args);
+
+/** infer_is_root - EXPT(base, exponent) of an integer and a REAL or LREAL; @args: its arguments. */
+bool infer_is_root(struct infer *c, enum word word, const struct expr_args *args);
 #endif

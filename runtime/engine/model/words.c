@@ -144,9 +144,13 @@ enum word words_find_short(const char *text, size_t len)
 	return WORD_COUNT;
 }
 
-/* ADD_LTOD_LTIME is ADD_TOD_TIME: the types with L are those without. MUL_TIME is MULTIME. */
+/* ADD_LTOD_LTIME is ADD_TOD_TIME: the types with L are those without. Other functions have two names. */
 static enum word find_long(const char *text, size_t len)
 {
+	static const struct { const char *name; enum word word; } other[] = {
+		{ "MUL_TIME", FN_MULTIME }, { "DIV_TIME", FN_DIVTIME }, { "FROM_BIG_ENDIAN", FN_BIG_ENDIAN_TO },
+		{ "FROM_LITTLE_ENDIAN", FN_LITTLE_ENDIAN_TO },
+	};
 	static const char *const types[] = { "TIME", "TOD", "DATE", "DT" };
 	char out[LIMIT_NAME];
 	size_t used = 0;
@@ -160,10 +164,9 @@ static enum word find_long(const char *text, size_t len)
 		if (!is_long)
 			out[used++] = text[i];
 	}
-	if (ascii_is("MUL_TIME", out, used))
-		return FN_MULTIME;
-	if (ascii_is("DIV_TIME", out, used))
-		return FN_DIVTIME;
+	for (size_t i = 0; i < sizeof(other) / sizeof(*other); i++)
+		if (ascii_is(other[i].name, out, used))
+			return other[i].word;
 	return used < len && used ? word_find(out, used) : WORD_COUNT;
 }
 

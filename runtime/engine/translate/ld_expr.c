@@ -1254,8 +1254,11 @@ static struct value chain_call(struct chain *c, int index, enum iec_type hint,
 		c->ld->failed = true;
 		return none;
 	}
-	if (infer_is_whole_power(&c->in, word, &args) && !(iec_type_row(hint)->class & CLASS_REAL))
+	if (infer_is_whole_power(&c->in, word, &args) &&
+	    (!(iec_type_row(hint)->class & CLASS_REAL) || is_integer(infer_type(&c->in, args.arg[0].at))))
 		return compute_power(c, args.arg[0].at, args.arg[1].at, hint, target);
+	if (infer_is_root(&c->in, word, &args))
+		return compute_root(c, args.arg[0].at, args.arg[1].at, hint, target);
 	if (!word_is_own(word) && word_is_test(ld_row(c->ld, word)) &&
 	    (args.count > ld_row(c->ld, word)->most_inputs ||
 	     (c->ld->fbd && args.count > 1 && !args.more && tests_plain(c, word, &args))))
