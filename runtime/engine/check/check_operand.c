@@ -952,6 +952,22 @@ static bool use_fbd_word(struct operand_check *c, struct operand_spot at, struct
 	return true;
 }
 
+/* F(A := 1) of a function that also has B. Only Structured Text may leave it out; boxes and lists give all. */
+static bool check_left_out(struct operand_check *c, struct operand_spot at, const struct expr_node *call,
+			   const struct word_row *row, const struct expr_args *args)
+{
+	const struct word_pin *pin = expr_left_out(row, args);
+	const bool may = c->pou->language == LANGUAGE_ST;
+	char text[2 * LIMIT_NAME + 2];
+
+	if (!pin)
+		return true;
+	snprintf(text, sizeof(text), "%.*s.%.*s", call->len < LIMIT_NAME ? call->len : LIMIT_NAME, call->text,
+		 LIMIT_NAME, pin->name);
+	operand_report(c, may ? DIAG_LEFT_OUT : DIAG_MISSING_INPUT, at, text);
+	return may;
+}
+
 static void check_call(struct operand_check *c, struct operand_spot at, struct expr *expr,
 		       const struct expr_node *call)
 {
@@ -1000,7 +1016,7 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 	} else if (why != DIAG_COUNT) {
 		report_call(c, at, why, call, row, &args);
 	}
-	if (why != DIAG_COUNT)
+	if (why != DIAG_COUNT || !check_left_out(c, at, call, row, &args))
 		return;
 	if (word_is_own(word) && row->owner >= 0 && c->project->pou[row->owner].no_result &&
 	    !(c->item && c->item->kind == ST_CALL && call == &expr->node[expr->root]))

@@ -261,11 +261,19 @@ static bool is_given(const struct expr_args *args, int pin)
 	return false;
 }
 
-static bool is_needed(const struct word_row *row, const struct expr_args *args, int pin)
+static bool is_needed(const struct word_row *row, const struct expr_args *args, int pin, bool named)
 {
 	if (is_own(row))
-		return takes(row, pin) && !row->pin[pin].has_init;
+		return takes(row, pin) && !row->pin[pin].has_init && (!named || row->pin[pin].dir == PIN_IN_OUT);
 	return pin < row->pin_count || args->count > pin;
+}
+
+const struct word_pin *expr_left_out(const struct word_row *row, const struct expr_args *args)
+{
+	for (int pin = 0; is_own(row) && pin < row->pin_count; pin++)
+		if (takes(row, pin) && !row->pin[pin].has_init && !is_given(args, pin))
+			return &row->pin[pin];
+	return NULL;
 }
 
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
@@ -273,13 +281,16 @@ enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 {
 	enum diag_id why = collect(expr, call, out);
 	int most = most_of(row);
+	bool named = false;
 
 	if (why == DIAG_COUNT)
 		why = find_others(expr, row, out);
 	if (why == DIAG_COUNT)
 		why = find_pins(expr, row, out);
+	for (int i = 0; i < out->count && why == DIAG_COUNT; i++)
+		named |= expr->node[out->arg[i].at].len > 0;
 	for (int pin = 0; pin < most && why == DIAG_COUNT; pin++)
-		if (is_needed(row, out, pin) && !is_given(out, pin))
+		if (is_needed(row, out, pin, named) && !is_given(out, pin))
 			return fail(out, DIAG_MISSING_INPUT, pin, NULL);
 	for (int i = 0; i < out->count && why == DIAG_COUNT; i++)
 		out->arg[i].at = expr->node[out->arg[i].at].left;

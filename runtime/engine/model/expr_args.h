@@ -57,6 +57,9 @@ bool expr_bound(struct expr *expr, const struct expr_node *call, struct expr_bou
  */
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 			const struct word_row *row, struct expr_args *out);
+/** expr_left_out - the first input of a function of the project that has neither an argument nor an initial value in
+ * its declaration, which a call with names may leave out; NULL: none. Scan-safe: yes. */
+const struct word_pin *expr_left_out(const struct word_row *row, const struct expr_args *args);
 /** expr_has_wrong_call - does it call a built-in function with other arguments than that has?
  * Scan-safe: no. */
 bool expr_has_wrong_call(const struct expr *expr, struct word_table *words);
