@@ -47,8 +47,9 @@ bool reserved_of_rungs(const char *name)
 
 bool reserved_generated(const char *name)
 {
-	if (name[0] != '_' || ascii_upper(name[1]) < 'A' ||
-	    ascii_upper(name[1]) > 'Z' || !name[2])
+	const char letter = *name == '_' ? ascii_upper(name[1]) : '\0';
+
+	if (!letter || !strchr("ELNPSTVX", letter) || name[2] == '0' || !name[2])
 		return false;
 	for (name += 2; ascii_digit(*name); name++)
 		;

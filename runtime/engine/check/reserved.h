@@ -12,7 +12,8 @@
 const char *reserved_word(int i);
 /** reserved_of_rungs - a reserved word that only rung files have. Scan-safe: yes. */
 bool reserved_of_rungs(const char *name);
-/** reserved_generated - `_T12`: translation makes names of this form. Scan-safe: yes. */
+/** reserved_generated - `_T12`: translation makes names of this form, with one of eight letters and a number from 1
+ * on. Scan-safe: yes. */
 bool reserved_generated(const char *name);
 /**
  * reserved_fault - why nothing can have this name, wherever it stands

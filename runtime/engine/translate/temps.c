@@ -12,7 +12,7 @@
 
 bool is_temporary(const char *name, char letter)
 {
-	if (name[0] != '_' || name[1] != letter || !name[2])
+	if (name[0] != '_' || name[1] != letter || !name[2] || name[2] == '0')
 		return false;
 	for (name += 2; *name; name++)
 		if (*name < '0' || *name > '9')
