@@ -29,7 +29,7 @@ struct expr_node *expr_measured(struct expr *expr, const struct expr_node *call,
 	};
 	struct expr_node *arg = call->left >= 0 ? &expr->node[call->left] : NULL;
 
-	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || arg->len)
+	if (call->op != EXPR_CALL || !arg || arg->right >= 0 || (arg->len && !ascii_is("IN", arg->text, arg->len)))
 		return NULL;
 	for (size_t i = 0; i < sizeof(rows) / sizeof(*rows); i++)
 		if (ascii_is(rows[i].word, call->text, call->len)) {
