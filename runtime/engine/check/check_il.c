@@ -1052,10 +1052,10 @@ static bool check_result(struct il_check *c, const struct il_line *arg,
 }
 
 /* Adds a diagnostic for an input that is neither given nor has a default. Structured Text may leave it out, with a
- * warning that it has had. */
+ * warning that it has had; boxes have been checked. */
 static bool check_inputs(struct il_check *c, int at, const struct word_row *row)
 {
-	for (int i = 0; i < row->pin_count && c->fn.pou->language != LANGUAGE_ST; i++)
+	for (int i = 0; i < row->pin_count && c->fn.pou->language == LANGUAGE_IL; i++)
 		if (row->pin[i].dir == PIN_IN && !row->pin[i].has_init &&
 		    !has_arg(c, at, row->pin[i].name))
 			return il_report(&c->fn, &c->fn.il->line[at], DIAG_MISSING_INPUT,

@@ -957,7 +957,7 @@ static bool check_left_out(struct operand_check *c, struct operand_spot at, cons
 			   const struct word_row *row, const struct expr_args *args)
 {
 	const struct word_pin *pin = expr_left_out(row, args);
-	const bool may = c->pou->language == LANGUAGE_ST;
+	const bool may = c->item || c->pou->language == LANGUAGE_ST;
 	char text[2 * LIMIT_NAME + 2];
 
 	if (!pin)
