@@ -94,6 +94,15 @@ like($rung, qr/Name\s*: STRING\[12\] := 'it';/, 'a text without its quotes');
 like($rung, qr/Sum\s*: INT; \(\* of all \*\)/, 'documentation');
 trace_is('types', "\@print Sum\n.\n", "1 t=10 Sum=16\n");
 
+# ---- a WSTRING is a STRING here, with its texts ----
+($rung, $said) = imported('wide', project('', pou('Main', 'program', '<localVars>'
+	. variable('Name', '<wstring/>', '<initialValue><simpleValue value="&quot;none&quot;"/></initialValue>') . variable('Plain', '<string/>') . variable('Same', 'BOOL') . '</localVars>',
+	text_body('ST', q{Name := "it's $"so$" $$1"; (* "as it is" *)} . "\nPlain := 'a \"b\"';\n" . q{Same := Name = "it's $"so$" $$1";}))));
+like($rung, qr/^  Name\s*: STRING := 'none';/m, 'the value of a WSTRING');
+like($rung, qr/Name := 'it\$'s "so" \$\$1';\s+\(\* "as it is" \*\)/, 'its texts have the quotes of a STRING, a comment stays');
+like($rung, qr/Plain := 'a "b"';/, 'and so does the text of a STRING');
+trace_is('wide', "\@print Same Plain\n.\n", "1 t=10 Same=1 Plain='a \"b\"'\n");
+
 # ---- what extensions of Beremiz have ----
 ($rung, $said) = imported('places', project('', pou('Main', 'program', '<localVars>'
 	. variable('Level', 'HMI_INT') . variable('Count', 'HMI_UDINT')

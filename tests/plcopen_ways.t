@@ -469,6 +469,18 @@ like($made, qr/Add\(N\);.*Work_active\(N\);\n    In\(P1\);\n    In\(P0\);.*ACTIO
 spew('script', "\@print MAIN.A MAIN.B MAIN.N MAIN.M MAIN.One.Sum MAIN.One.Ins MAIN.One.Drive.Turns\n.\nGo=1\n. x3\nGVL.Go=0\n. x2\n");
 is(`$ladder trace application.rung script 2>trouble`, '', 'it runs');
 
+# An action of a chart that a text calls: another action of it, a step as well, and a program from outside.
+(my $calling = $application) =~ s{Sum := Sum \+ 1;}{Sum := Sum + 1; More();};
+$calling =~ s{(<action name="In">)}{'<action name="More">' . st('Outs := Outs + 10;') . "</action>$1"}e;
+$calling =~ s{(<attribute guid="$main">Add</attribute>)}{$1<attribute guid="$entry">More</attribute>};
+$calling =~ s{(?<=">)N := N \+ 1;}{N := N + 1; One.More();};
+spew('calling.xml', $calling);
+$report = `$ladder import calling.xml -o calling.rung 2>&1`;
+is($?, 0, 'an action of a chart that others call: imported') or diag($report);
+like(slurp('calling.rung'), qr/^END_FUNCTION_BLOCK\n\nACTION More:\n  Outs := Outs \+ 10;\nEND_ACTION\n/m, 'it stands behind the chart, which texts reach') or diag(slurp('calling.rung'));
+spew('script', "\@print MAIN.One.Sum MAIN.One.Outs\n.\n. x3\nGo=1\n.\n");
+like(join(' ', `$ladder trace calling.rung script 2>trouble` =~ /(?:Outs|Sum)=\d+/g), qr/Sum=1 Outs=30 Sum=2 Outs=50$/, 'and all of them call it') or diag(slurp('trouble') . slurp('calling.rung'));
+
 # The places that the schema has may be there or not: what is made is the same, with a second application behind the first, too.
 for my $second ('', data('application', '<resource name="App2"><addData>' . data('pou', '<pou name="Further" pouType="program"><interface/>' . st(';') . '</pou>') . data('datatype', '<dataType name="Many"><baseType><INT/></baseType></dataType>') . '</addData></resource>')
 	. data('pou', '<pou name="Last" pouType="program"><interface/>' . st(';') . '</pou>')) {

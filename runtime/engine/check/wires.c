@@ -17,6 +17,7 @@
 #include <string.h>
 
 #define ROUNDS_MOST 8
+#define AHEAD_MOST 100 /* lines that are looked at for a reader of constants */
 
 struct wiring {
 	struct project *project;
@@ -169,7 +170,43 @@ static bool set_whole(struct wiring *w, int wire)
 	return true;
 }
 
-/* The wire that an expression is stored to. */
+static int wire_at(struct wiring *w, const struct expr_node *node)
+{
+	return node->op == EXPR_NAME && !memchr(node->text, '.', node->len) ?
+	       fbd_wire(&w->project->names, w->pou, w->network, node->text, node->len) : -1;
+}
+
+/* The type of the variable that an assignment of the wire alone stores to; IEC_NONE: it is none. Spoils w->expr. */
+static enum iec_type stored_type(struct wiring *w, int wire, const struct st_item *item)
+{
+	const struct meaning *m;
+	struct st_walk walk;
+	struct st_part part;
+	enum diag_id why;
+
+	st_begin(&walk, &w->project->names, item);
+	if (item->kind == ST_COMMENT || item->kind == ST_CALL ||
+	    !st_next(&walk, &part, w->expr, w->ignored, (struct diag){ .id = DIAG_COUNT }) || part.role != ST_ASSIGNED ||
+	    wire_at(w, &w->expr->node[w->expr->root]) != wire || w->expr->target_index >= 0 || w->expr->target_points ||
+	    w->expr->target_bit.len)
+		return IEC_NONE;
+	m = scope_find(w->scope, w->pou, names_intern(&w->project->names, w->expr->target, w->expr->target_len), &why);
+	return m && m->kind == MEANING_VARIABLE && iec_type_row(m->type)->class & (ANY_NUM | CLASS_BITS) ? m->type : IEC_NONE;
+}
+
+/* Constants alone have the type of the first variable that takes them. */
+static enum iec_type type_of_constants(struct wiring *w, int wire)
+{
+	const struct fbd_network *network = &w->pou->fbd->network[w->network];
+	const struct st_item *end = w->pou->st->item + network->first + network->count;
+	enum iec_type type = IEC_NONE;
+
+	for (const struct st_item *item = w->item + 1; item < end && item <= w->item + AHEAD_MOST && type == IEC_NONE; item++)
+		type = stored_type(w, wire, item);
+	return type != IEC_NONE ? type : IEC_DINT;
+}
+
+/* The wire that an expression is stored to. Spoils w->expr. */
 static void type_of_value(struct wiring *w, int wire)
 {
 	const enum iec_type type = infer_type(&w->in, w->expr->root);
@@ -177,13 +214,7 @@ static void type_of_value(struct wiring *w, int wire)
 	if (type != IEC_NONE)
 		set_type(w, wire, type);
 	else if (!set_whole(w, wire) && w->pou->vars.var[wire].type == IEC_NONE)
-		set_type(w, wire, IEC_DINT); /* constants alone */
-}
-
-static int wire_at(struct wiring *w, const struct expr_node *node)
-{
-	return node->op == EXPR_NAME && !memchr(node->text, '.', node->len) ?
-	       fbd_wire(&w->project->names, w->pou, w->network, node->text, node->len) : -1;
+		set_type(w, wire, type_of_constants(w, wire));
 }
 
 /* `ENO => Sure` and the like of functions in the expression. */

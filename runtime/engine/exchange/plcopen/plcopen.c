@@ -324,6 +324,7 @@ static void put_all(struct plcopen *c, struct xml_node *project)
 	plc_find_renames(c, project);
 	plc_find_addresses(c, project);
 	plc_find_short_calls(c);
+	plc_find_called(c);
 	put_header(c, project);
 	if (xml_child(types, "dataTypes"))
 		plc_types(c, xml_look(types, "dataTypes"));

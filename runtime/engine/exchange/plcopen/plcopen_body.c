@@ -293,8 +293,8 @@ bool plc_instance_action(const struct plcopen *c, const struct plcopen_pou *pou,
 	}
 }
 
-/* An action of a chart has no networks; another one is a body like that of its POU. */
-static void put_action_body(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body)
+/* An action inside of a chart has no networks; another one is a body like that of its POU. */
+static void put_action_body(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body, bool behind)
 {
 	struct xml_node *element;
 	const enum plcopen_language language = plc_language(body, &element);
@@ -305,7 +305,7 @@ static void put_action_body(struct plcopen *c, struct plcopen_pou *pou, struct x
 			   report_said(c->report, REPORTED("an action that is a chart itself does nothing here")));
 		return;
 	}
-	if (pou->language == PLCOPEN_SFC || !element || language <= PLCOPEN_IL) {
+	if (!behind || !element || language <= PLCOPEN_IL) {
 		plc_put_inner(c, pou, body, "  ");
 		return;
 	}
@@ -314,18 +314,18 @@ static void put_action_body(struct plcopen *c, struct plcopen_pou *pou, struct x
 	put_drawn(c, pou, language, element);
 }
 
-void plc_actions(struct plcopen *c, struct plcopen_pou *pou)
+void plc_actions(struct plcopen *c, struct plcopen_pou *pou, bool behind)
 {
 	struct xml_node *list = pou->kind == POU_FUNCTION ? NULL : xml_child(pou->node, "actions");
 
 	for (struct xml_node *each = list ? list->first : NULL; each; each = each->next) {
 		const char *name = xml_take(each, "name");
 
-		if (!xml_is(each, "action") || !name)
+		if (!xml_is(each, "action") || !name || (pou->language == PLCOPEN_SFC && plc_is_called(pou, name) != behind))
 			continue;
 		each->taken = true;
 		c->at = each->line;
-		if (pou->language != PLCOPEN_SFC)
+		if (behind)
 			c->pou_name = plc_print(c, "%s.%s", pou->name, name);
 		plc_put(c, "\n");
 		if (*plc_documentation(c, each)) {
@@ -333,7 +333,7 @@ void plc_actions(struct plcopen *c, struct plcopen_pou *pou)
 			plc_put(c, "\n");
 		}
 		plc_put(c, "ACTION %s:\n", plc_renamed(c, name));
-		put_action_body(c, pou, xml_child(each, "body"));
+		put_action_body(c, pou, xml_child(each, "body"), behind);
 		plc_put(c, "END_ACTION\n");
 		c->pou_name = pou->name;
 	}
@@ -390,22 +390,20 @@ static void put_pou(struct plcopen *c, struct plcopen_pou *pou)
 	c->added = plc_part_begin(c);
 	plc_part_swap(c, &c->added);
 	language = put_body(c, pou);
-	if (language != PLCOPEN_SFC) {
-		behind = plc_part_begin(c);
-		plc_actions(c, pou);
+	if (language == PLCOPEN_SFC)
 		plc_part_append(c, &c->added);
-		plc_part_swap(c, &behind);
-	} else {
+	behind = plc_part_begin(c);
+	plc_actions(c, pou, true);
+	if (language != PLCOPEN_SFC)
 		plc_part_append(c, &c->added);
-	}
+	plc_part_swap(c, &behind);
 	plc_part_swap(c, &before);
 	put_heading(c, pou, language);
 	plc_interface(c, pou);
 	plc_part_append(c, &before);
 	c->at = pou->node->line;
 	plc_put(c, "END_%s\n", word_of(pou));
-	if (language != PLCOPEN_SFC)
-		plc_part_append(c, &behind);
+	plc_part_append(c, &behind);
 	c->count.pous++;
 	c->pou_name = NULL;
 }

@@ -119,9 +119,68 @@ const char *plc_plain_calls(struct plcopen *c, const char *text)
 	return plc_built(c, &all);
 }
 
-/* ---- calls of functions without some inputs ---- */
-
 enum { MOST_WORK = 20000000 }; /* names that are compared: a hostile file may have many */
+
+/* ---- actions of charts ---- */
+
+bool plc_is_called(const struct plcopen_pou *pou, const char *name)
+{
+	for (int i = 0; i < pou->called.count; i++)
+		if (plc_same(pou->called.name[i], name))
+			return true;
+	return false;
+}
+
+/* @name, or Pump.@name, is called in @pou. */
+static void note_call(struct plcopen *c, struct plcopen_pou *pou, const char *name)
+{
+	const char *part = strrchr(name, '.');
+
+	for (int i = 0; i < c->pous; i++) {
+		struct plcopen_pou *owner = &c->pou[i];
+		const char **added = NULL;
+
+		if (owner->language == PLCOPEN_SFC && (part || owner == pou) && plc_has_action(c, owner, part ? part + 1 : name) &&
+		    !plc_is_called(owner, part ? part + 1 : name))
+			added = arena_push(c->arena, &owner->called.name, &owner->called.count, sizeof(*added));
+		if (added)
+			*added = part ? part + 1 : name;
+	}
+}
+
+static void find_called(struct plcopen *c, struct plcopen_pou *pou, const char *text, long *work)
+{
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	while (*work > 0 && lex_next(&lex) != TOKEN_END) {
+		const struct token name = lex.token;
+		struct lex ahead = lex;
+
+		if (name.kind != TOKEN_NAME || lex_next(&ahead) == TOKEN_END || !lex_is(&ahead, "("))
+			continue;
+		*work -= c->pous;
+		note_call(c, pou, plc_print(c, "%.*s", (int)name.len, name.text));
+	}
+}
+
+void plc_find_called(struct plcopen *c)
+{
+	long work = MOST_WORK;
+	bool charts = false;
+
+	for (int i = 0; i < c->pous; i++)
+		charts |= c->pou[i].language == PLCOPEN_SFC;
+	for (int i = 0; charts && i < c->pous; i++)
+		for (const struct xml_node *node = c->pou[i].node, *end = node->next; node && node != end; node = xml_next(node)) {
+			if (node->text && strchr(node->text, '('))
+				find_called(c, &c->pou[i], node->text, &work);
+			if (xml_is(node, "block") && xml_value(node, "typeName") && work-- > 0)
+				note_call(c, &c->pou[i], xml_value(node, "typeName"));
+		}
+}
+
+/* ---- calls of functions without some inputs ---- */
 
 static int inputs_of(const struct plcopen_pou *pou)
 {

@@ -22,6 +22,7 @@ struct plcopen_pou {
 	struct xml_node *body;          /* the element of its language; NULL: none */
 	enum plcopen_language language; /* that of the file                        */
 	bool called_short;              /* a function: a call names only some inputs */
+	struct { const char **name; int count; } called; /* actions of a chart that a text calls */
 	const char *result;             /* the type that its own text names; NULL: none */
 };
 
@@ -89,7 +90,7 @@ bool plc_is_name(const char *name);
 const char *plc_trim(struct plcopen *c, const char *text);
 /** plc_leftovers - reports each element and attribute below @root that is not marked as taken. */
 void plc_leftovers(struct plcopen *c, struct xml_node *root);
-/** plc_renamed - @text with the names that the import changes. */
+/** plc_renamed - @text with the names that the import changes, and texts in the quotes of a STRING. */
 const char *plc_renamed(struct plcopen *c, const char *text);
 /** plc_declared - the name that a declared variable gets. */
 const char *plc_declared(struct plcopen *c, const struct xml_node *variable);
@@ -111,6 +112,10 @@ const char *plc_labels(struct plcopen *c, struct plcopen_pou *pou, const struct 
 /* ---- plcopen_calls.c ---- */
 /** plc_is_action - whether any POU has an action of this name. */
 bool plc_is_action(const struct plcopen *c, const char *name);
+/** plc_find_called - which actions of charts are called by a text, which reaches those behind the chart only. */
+void plc_find_called(struct plcopen *c);
+/** plc_is_called - whether @name is such an action of @pou. */
+bool plc_is_called(const struct plcopen_pou *pou, const char *name);
 /** plc_find_short_calls - which functions are called without some of their inputs. */
 void plc_find_short_calls(struct plcopen *c);
 /** plc_plain_calls - @text with calls of actions that have no inputs. */
@@ -191,8 +196,8 @@ bool plc_has_action(const struct plcopen *c, const struct plcopen_pou *pou, cons
 /** plc_instance_action - whether @name, Pump.Start or Plant.Pump.Start, is an action of the block that a variable of @pou
  * is, or, of a variable from outside, of any block. */
 bool plc_instance_action(const struct plcopen *c, const struct plcopen_pou *pou, const char *name);
-/** plc_actions - the actions of a POU. */
-void plc_actions(struct plcopen *c, struct plcopen_pou *pou);
+/** plc_actions - the actions of a POU; of a chart those inside of it, or those @behind it. */
+void plc_actions(struct plcopen *c, struct plcopen_pou *pou, bool behind);
 /** plc_put_inner - the body of an action: text, rungs or statements. false: it has none of these. */
 bool plc_put_inner(struct plcopen *c, struct plcopen_pou *pou, struct xml_node *body,
 		   const char *indent);

@@ -289,10 +289,8 @@ static void put_value(struct plcopen *c, struct xml_node *variable, const char *
 	if (!value)
 		return;
 	/* Beremiz takes a text without its quotes, and a number for a BOOL. */
-	if (ascii_same(type, "STRING", 6) && *value != '\'' && *value != '"' && !strchr(value, '#'))
+	if (ascii_same(type, "STRING", 6) && *value != '\'' && !strchr(value, '#'))
 		value = plc_print(c, "'%s'", value);
-	else if (*value == '"' && ascii_same(type, "STRING", 6))
-		value = plc_print(c, "'%.*s'", (int)strlen(value) - 2, value + 1);
 	plc_put(c, " := %s", value);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * plcopen_names - names that nothing can have here get another one, wherever they stand.
+ * plcopen_names - names that nothing can have here get another one, wherever they stand. Texts of a WSTRING get the
+ * quotes of a STRING.
  */
 #include "engine/exchange/plcopen/plcopen_convert.h"
 
@@ -191,13 +192,29 @@ void plc_find_renames(struct plcopen *c, struct xml_node *project)
 	}
 }
 
+/* "a'b" as 'a$'b' */
+static void add_narrow(struct plc_build *all, struct token text)
+{
+	char one[3] = "$";
+
+	plc_add_text(all, "'");
+	for (size_t i = 1; i + 1 < text.len; i++) {
+		const bool escape = text.text[i] == '$' && i + 2 < text.len;
+
+		i += escape;
+		one[1] = text.text[i];
+		plc_add_text(all, (escape && one[1] != '"') || one[1] == '\'' ? one : one + 1);
+	}
+	plc_add_text(all, "'");
+}
+
 const char *plc_renamed(struct plcopen *c, const char *text)
 {
 	const char *from = text;
 	struct plc_build all;
 	struct lex lex;
 
-	if (!c->rename.count && !strchr(text, '%'))
+	if (!c->rename.count && !strpbrk(text, "%\""))
 		return text;
 	plc_build(&all);
 	lex_init(&lex, text, strlen(text));
@@ -211,6 +228,11 @@ const char *plc_renamed(struct plcopen *c, const char *text)
 				plc_add_text(&all, plc_print(c, "%.*s%s", (int)(at - from), from, to));
 				from = end;
 			}
+		}
+		if (lex.token.kind == TOKEN_STRING) {
+			plc_add_text(&all, plc_print(c, "%.*s", (int)(at - from), from));
+			add_narrow(&all, lex.token);
+			from = end;
 		}
 		if (lex.token.kind != TOKEN_NAME)
 			continue;

@@ -267,7 +267,7 @@ static bool is_qualifier(const char *text)
 	return false;
 }
 
-/* An action that calls @name, an action of an instance. */
+/* An action that calls @name, an action of an instance or behind the chart. */
 static const char *calling(struct chart *chart, const struct plc_element *step, const char *name)
 {
 	struct plcopen *c = chart->c;
@@ -289,7 +289,8 @@ static const char *action_name(struct chart *chart, const struct plc_element *st
 	struct plc_part before;
 
 	if (reference && name && *name)
-		return plc_instance_action(c, chart->pou, name) ? calling(chart, step, name) : name;
+		return plc_instance_action(c, chart->pou, name) || plc_is_called(chart->pou, name) ?
+		       calling(chart, step, name) : name;
 	if (!body)
 		return NULL;
 	xml_take(body, "name");
@@ -340,7 +341,7 @@ static void put_set_action(struct chart *chart, const struct plc_element *step, 
 	struct plcopen *c = chart->c;
 	const char *made;
 
-	if (strchr(name, '.') || !plc_has_action(c, chart->pou, name)) {
+	if (strchr(name, '.') || !plc_has_action(c, chart->pou, name) || plc_is_called(chart->pou, name)) {
 		made = plc_print(c, "%s_%s", step->name, set->end);
 		plc_part_swap(c, &chart->root->actions);
 		plc_put(c, "\nACTION %s:\n  %s();\nEND_ACTION\n", made, plc_renamed(c, name));
@@ -603,5 +604,5 @@ void plc_chart(struct plcopen *c, struct plcopen_pou *pou)
 	if (chart.compute)
 		plc_put(c, "END_ACTION\n");
 	plc_part_append(c, &chart.actions);
-	plc_actions(c, pou);
+	plc_actions(c, pou, false);
 }
