@@ -144,6 +144,49 @@ for (["  | NO Go | COIL Lamp |\nRUNG\n  | NO Hot | NC Cold | STOP |\n", 'LD', 'R
 	is($is =~ s/\s+/ /gr =~ s/\(\* (.*?) \*\)/\/\/ $1/gr, $was =~ s/\s+/ /gr, 'VAR_CONFIG comes back from the XML alone');
 }
 
+# Namespaces: names stand without them, but where a variable of the POU has the same name. Other tools get globals that
+# a POU reads in its interface.
+{
+	my $spaces = "RUNGBOARD 1\n\nNAMESPACE Plant\n\nVAR_GLOBAL\n  Go AT %IX0.0 : BOOL;\n  n : INT := 3;\n  m : INT;\n  Lamp : BOOL;\nEND_VAR\n\nEND_NAMESPACE\n\n"
+		. "PROGRAM Main ST\nVAR\n  x : INT;\nEND_VAR\n  IF Plant.Go THEN\n    Plant.n := Plant.n + 1; // Plant.n\n  END_IF;\n  x := n;\n  m := x;\nEND_PROGRAM\n\n"
+		. "PROGRAM Rungs LD\nRUNG\n  | NO Plant.Go | [ Plant.n > 4 ] | COIL Plant.Lamp |\nEND_PROGRAM\n\n"
+		. "PROGRAM Chart SFC\n  INITIAL_STEP A:\n    Add(N);\n  END_STEP\n\n  STEP B:\n  END_STEP\n\n  TRANSITION FROM A TO B := Plant.n > 6; END_TRANSITION\n"
+		. "  TRANSITION FROM B TO A := Plant.n < 6; END_TRANSITION\n\n  ACTION Add:\n    Plant.m := Plant.m + 100;\n    More();\n  END_ACTION\nEND_PROGRAM\n\nACTION More:\n  Plant.m := Plant.m + 1000;\nEND_ACTION\n";
+	spew('spaces.rung', $spaces);
+	my $said = `$ladder export --as plcopen spaces.rung -o spaces.xml 2>&1`;
+	is($?, 0, 'namespaces: exported') or diag($said);
+	like($said, qr/^spaces\.rung: changed: the format has no namespaces: names stand without them$/m, 'which the report says');
+	my $drawn = bare(slurp('spaces.xml'));
+	is(PlcopenShape::wrong(slurp('spaces.xml')), '', 'the XML is as TC6 2.01 has it');
+	is(join(' ', grep { !m{^Plant\.n$} } $drawn =~ /Plant\.\w+/g), '', 'no namespace is left') or diag($drawn);
+	is(scalar(() = $drawn =~ m{<externalVars>}g), 3, 'each POU has what it reads of them in its interface');
+	spew('bare.xml', $drawn);
+	my $report = `$ladder import bare.xml -o bare.rung 2>&1`;
+	is($?, 0, 'the drawing alone is imported') or diag($report);
+	like(slurp('bare.rung'), qr/^ACTION More:\n  m := m \+ 1000;/m, 'an action behind a chart is there');
+	spew('script', "\@print n m x Lamp\nGo=1\n. x8\nGo=0\n. x3\n");
+	my ($was, $is) = map { traced($_, '') =~ s/ \w+\.x=/ x=/gr } 'spaces.rung', 'bare.rung';
+	ok($is eq $was && $was =~ /Lamp=1/ && $was =~ /m=1\d{3}/, 'and does the same') or diag(first_difference($was, $is) . "\n$was$is");
+	system("$ladder import spaces.xml -o back.rung >trouble 2>&1");
+	like(slurp('back.rung'), qr/^NAMESPACE Plant\n.*Plant\.n := Plant\.n \+ 1;.*^END_PROGRAM\n\nACTION More:/ms, 'with the text beside it all of it comes back');
+
+	# A variable of the POU hides the other one.
+	spew('hidden.rung', $spaces =~ s/  x : INT;/  x : INT;\n  n : INT;/r);
+	$said = `$ladder export --as plcopen hidden.rung -o hidden.xml 2>&1`;
+	like($said, qr/^hidden\.rung:\d+: lost: (?:Main: )?the format has no namespaces: other tools do not find Plant\.n$/m, 'a name that means another variable without its namespace is told') or diag($said);
+	like(slurp('hidden.xml'), qr/ {4}Plant\.n := Plant\.n \+ 1;/, 'and stays');
+}
+
+# What a function stores into a variable right behind it, with an order for both, comes back as one line.
+{
+	my $lines = "NETWORK\n  A := MOVE(EN := Go, IN := 5, ENO => MOVEENO_1)\n  B := MOVE(EN := MOVEENO_1, IN := 6)\n  Ok := MOVEENO_1\n";
+	spew('stores.rung', "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n  A : INT;\n  B : INT;\n  Ok : BOOL;\nEND_VAR\n\nPROGRAM Main FBD\n${lines}END_PROGRAM\n");
+	system("$ladder export --as plcopen stores.rung -o stores.xml 2>trouble");
+	spew('bare.xml', bare(slurp('stores.xml')));
+	system("$ladder import bare.xml -o bare.rung >trouble 2>&1");
+	like(slurp('bare.rung'), qr/^\Q$lines\EEND_PROGRAM/m, 'a store right behind its function is one line again') or diag(slurp('bare.rung'));
+}
+
 # The look at the XML notices what is wrong: each of these changes of a good one.
 my $good = slurp('first.xml');
 for ([qr/ localId="\d+"/, ''], [qr/ (?:x|y)="\d+"\/>/, '/>'], [qr/<position [^>]*>/, ''], [qr/<connectionPointOut\/>/, '<connectionPointOut/><connectionPointOut/>'],

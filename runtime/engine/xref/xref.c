@@ -423,6 +423,7 @@ static void scan_head(struct scan *scan, const struct token *token)
 	const char *end = token->text + token->len;
 	const char *dot = memchr(token->text, '.', token->len);
 	size_t len = dot ? (size_t)(dot - token->text) : token->len;
+	struct token rest = *token;
 	const struct meaning *m;
 	int table;
 
@@ -432,6 +433,10 @@ static void scan_head(struct scan *scan, const struct token *token)
 	if (scan->walk->values && !dot && scan_value(scan, token->text, len))
 		return;
 	m = mean(scan, token->text, len);
+	if ((!m || !m->var) && words_strip(&scan->walk->project->words, &rest.text, &rest.len)) {
+		scan_head(scan, &rest); /* behind all of its namespaces */
+		return;
+	}
 	if (!m || !m->var) {
 		scan_other(scan, token, len);
 		return;

@@ -527,8 +527,31 @@ static void test_wires(void)
 	ladder_free(ladder);
 }
 
+static const char spaces[] = "RUNGBOARD 1\nNAMESPACE Plant\nVAR_GLOBAL\n  Level : INT;\nEND_VAR\nTYPE\n  Part : STRUCT\n    Size : INT;\n"
+	"  END_STRUCT;\nEND_TYPE\nVAR_GLOBAL\n  One : Plant.Part;\nEND_VAR\nEND_NAMESPACE\nPROGRAM Main ST\nVAR\n  I : INT;\nEND_VAR\n"
+	"  Plant.Level := Plant.Level + I;\n  I := Level + Plant.One.Size;\nEND_PROGRAM\n";
+
+static void test_spaces(void)
+{
+	struct ladder *ladder = loaded(spaces);
+	struct xref_target target = target_of(ladder, "Level");
+	struct ladder_rename how;
+	size_t len;
+	char *text = ladder_rename(ladder, &target, "Height", &len, &how);
+
+	CHECK_AS(text && how.places == 4 && strstr(text, "  Plant.Height := Plant.Height + I;\n  I := Height + Plant.One.Size;\n"),
+		 "a name behind its namespace is renamed");
+	free(text);
+	target = target_of(ladder, "One");
+	text = ladder_rename(ladder, &target, "First", &len, &how);
+	CHECK_AS(text && how.places == 2 && strstr(text, "Plant.First.Size;\n"), "also where a member follows");
+	free(text);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
+	test_spaces();
 	test_wires();
 	test_rich();
 	test_computed();

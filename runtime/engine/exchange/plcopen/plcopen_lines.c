@@ -283,6 +283,12 @@ static bool may_wait(const struct plc_lines *l, const struct plc_element *e, int
 	return false;
 }
 
+/* Does a variable take a result with nothing between them? */
+static bool is_next(const struct plc_element *e, const struct plc_element *user)
+{
+	return user->order > 0 ? user->order == e->order + 1 : e->order <= 0;
+}
+
 /* The variable that alone takes the result of a function, as it is; NULL: there is none. */
 static struct plc_element *only_store(const struct plc_lines *l, const struct plc_element *e, int result)
 {
@@ -291,7 +297,7 @@ static struct plc_element *only_store(const struct plc_lines *l, const struct pl
 		const struct plc_pin *pin = user->ins == 1 ? plc_in(l->graph, user, 0) : NULL;
 
 		if (pin && user->kind == PLC_OUT && pin->sources == 1 && !user->negated &&
-		    user->edge == PLC_NO_EDGE && user->storage == PLC_NO_STORAGE && user->order <= 0 &&
+		    user->edge == PLC_NO_EDGE && user->storage == PLC_NO_STORAGE && is_next(e, user) &&
 		    &l->graph->element[l->graph->source[pin->first].element] == e &&
 		    l->graph->source[pin->first].output == result)
 			return user;
@@ -341,7 +347,7 @@ static void call_function(struct plc_lines *l, struct plc_element *e, int depth)
 		return;
 	if (more && l->networks)
 		all = further_outputs(l, e, result, all);
-	user = more && l->networks && result >= 0 && plc_out(l->graph, e, result)->uses == 1 && e->order <= 0 ?
+	user = more && l->networks && result >= 0 && plc_out(l->graph, e, result)->uses == 1 ?
 	       only_store(l, e, result) : NULL;
 	if (user && !plc_out(l->graph, e, result)->negated) {
 		l->done[user - l->graph->element] = true;

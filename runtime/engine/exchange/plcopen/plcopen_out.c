@@ -178,11 +178,70 @@ const char *plco_numbers(struct out *out, const char *text)
 	return text;
 }
 
+static bool is_variable(const struct out *out, const struct var_table *table, const char *name, size_t len)
+{
+	struct names *names = &out->project->names;
+
+	return vars_find(table, names_fold(names, names_intern(names, name, len))) >= 0;
+}
+
+/* The bytes of a name that are its namespaces: 4 of GVL.Level. 0: it has none, or they are needed. */
+static size_t space_of(struct out *out, const struct token *name)
+{
+	const struct project *project = out->project;
+	const struct pou *pou = out->pou;
+	const char *rest = name->text;
+	size_t len = name->len;
+
+	if (!words_strip(&project->words, &rest, &len))
+		return 0;
+	if (pou && pou->kind == POU_ACTION && pou_owner(project, pou) >= 0)
+		pou = &project->pou[pou_owner(project, pou)];
+	if (is_variable(out, &project->globals, name->text, strcspn(name->text, ".")) ||
+	    (pou && is_variable(out, &pou->vars, name->text, strcspn(name->text, "."))))
+		return 0;
+	if (pou && is_variable(out, &pou->vars, rest, memchr(rest, '.', len) ? strcspn(rest, ".") : len)) {
+		plco_lost(out, REPORT_LOST, pou->line, 0, report_said(out->report,
+			 REPORTED("the format has no namespaces: other tools do not find %s")),
+			 plco_print(out, "%.*s", (int)name->len, name->text));
+		return 0;
+	}
+	return (size_t)(rest - name->text);
+}
+
+const char *plco_words(struct out *out, const char *text)
+{
+	const char *from;
+	struct sink_memory memory;
+	struct sink sink;
+	struct lex lex;
+
+	from = text = plco_numbers(out, text);
+	if (!out->project->words.space_count)
+		return text;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	lex_init(&lex, text, strlen(text));
+	while (lex_next(&lex) != TOKEN_END) {
+		const bool member = lex.token.text > text && lex.token.text[-1] == '.';
+		const size_t space = lex.token.kind == TOKEN_NAME && !member ? space_of(out, &lex.token) : 0;
+
+		if (!space)
+			continue;
+		sink_write(&sink, from, (size_t)(lex.token.text - from));
+		from = lex.token.text + space;
+	}
+	sink_text(&sink, from);
+	text = plco_print(out, "%s", memory.failed ? text : sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return text;
+}
+
 void plco_text(struct out *out, const char *name, const char *text)
 {
 	sink_repeat(&out->sink, "  ", out->depth);
 	sink_printf(&out->sink, "<%s>", name);
-	plco_escape(out, plco_numbers(out, text));
+	plco_escape(out, plco_words(out, text));
 	sink_printf(&out->sink, "</%s>\n", name);
 }
 

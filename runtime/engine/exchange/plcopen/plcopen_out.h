@@ -65,6 +65,8 @@ void plco_connection(struct out *out, int id, const char *pin);
 /** plco_numbers - @text with UDINT_TO_REAL instead of DWORD_TO_REAL if that means the same in this project
  * alone, as in files of CODESYS; in the arena. */
 const char *plco_numbers(struct out *out, const char *text);
+/** plco_words - the same, and names without their namespaces, which the format does not have; in the arena. */
+const char *plco_words(struct out *out, const char *text);
 /** plco_lost - a line of the report. */
 void plco_lost(struct out *out, enum report_kind kind, int line, int rung, const char *text, ...)
 	__attribute__((format(printf, 5, 6)));
@@ -96,8 +98,10 @@ void plco_rungs(struct out *out, const struct pou *pou, int first, int count);
 void plco_networks(struct out *out, const struct pou *pou);
 /* ---- plcopen_write_sfc.c ---- */
 void plco_chart(struct out *out, const struct pou *pou);
-/** plco_chart_actions - actions and transitions that have a name. */
+/** plco_chart_actions - the actions inside of it. */
 void plco_chart_actions(struct out *out, const struct pou *pou);
+/** plco_chart_transitions - transitions that have a name. */
+void plco_chart_transitions(struct out *out, const struct pou *pou);
 /* ---- plcopen_write_own.c ---- */
 /** plco_own - the project's own text, beside what the XML says. Nothing if it cannot stand there. */
 void plco_own(struct out *out);

@@ -76,7 +76,7 @@ static void put_written(struct out *out, const char *language, void (*write)(str
 	out->sink = sink_to_memory(&memory);
 	write(out);
 	out->sink = before;
-	plco_formatted(out, language, plco_numbers(out, sink_memory_text(&memory)));
+	plco_formatted(out, language, plco_words(out, sink_memory_text(&memory)));
 	sink_memory_free(&memory);
 }
 
@@ -193,20 +193,32 @@ static void put_used(struct out *out, const struct pou *pou, bool constant)
 		plco_close(out, "externalVars");
 }
 
-/* Of a POU that is no chart. */
+static bool has_actions(const struct out *out, const struct pou *owner)
+{
+	const struct project *project = out->project;
+	bool any = owner->language == LANGUAGE_SFC && owner->sfc->action_count;
+
+	for (int i = 0; i < project->pou_count && !any; i++)
+		any = project->pou[i].kind == POU_ACTION &&
+		      pou_owner(project, &project->pou[i]) == (int)(owner - project->pou);
+	return any;
+}
+
+/* Those of a chart stand inside of it or behind it. */
 static void put_actions(struct out *out, const struct pou *owner)
 {
 	const struct project *project = out->project;
-	bool open = false;
 
+	if (!has_actions(out, owner))
+		return;
+	plco_open(out, "actions");
+	if (owner->language == LANGUAGE_SFC)
+		plco_chart_actions(out, owner);
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *action = &project->pou[i];
 
 		if (action->kind != POU_ACTION || pou_owner(project, action) != (int)(owner - project->pou))
 			continue;
-		if (!open)
-			plco_open(out, "actions");
-		open = true;
 		plco_named(out, "action", "name", pou_own_name(project, action), false);
 		out->pou = action;
 		plco_body(out, action);
@@ -214,8 +226,7 @@ static void put_actions(struct out *out, const struct pou *owner)
 		plco_documentation(out, plco_id(out, action->comment));
 		plco_close(out, "action");
 	}
-	if (open)
-		plco_close(out, "actions");
+	plco_close(out, "actions");
 }
 
 static void put_pou(struct out *out, const struct pou *pou)
@@ -246,10 +257,9 @@ static void put_pou(struct out *out, const struct pou *pou)
 		put_used(out, pou, true);
 	}
 	plco_close(out, "interface");
+	put_actions(out, pou);
 	if (pou->language == LANGUAGE_SFC)
-		plco_chart_actions(out, pou);
-	else
-		put_actions(out, pou);
+		plco_chart_transitions(out, pou);
 	plco_body(out, pou);
 	plco_documentation(out, plco_id(out, pou->comment));
 	plco_close(out, "pou");
@@ -363,6 +373,9 @@ static void put_located(struct out *out)
 
 static void report_config(struct out *out, const struct config *config)
 {
+	if (out->project->words.space_count)
+		plco_lost(out, REPORT_CHANGED, 0, 0, "%s", report_said(out->report,
+			 REPORTED("the format has no namespaces: names stand without them")));
 	for (int i = 0; config && i < config->count; i++) {
 		const struct config_entry *entry = &config->entry[i];
 

@@ -56,7 +56,7 @@ static const char *function_of(struct diagram *d, const struct fbd_box *box)
 	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
 		if (!strcmp(signs[i].sign, box->type))
 			return signs[i].name;
-	return box->kind == FBD_VALUE ? "MOVE" : plco_numbers(d->out, box->type);
+	return box->kind == FBD_VALUE ? "MOVE" : plco_words(d->out, box->type);
 }
 
 /* IN1, IN2 … of an operator; IN of one with a single input. */

@@ -422,7 +422,7 @@ static void put_code(struct drawing *d, const char *text)
 	plco_open(out, "data name=\"http://www.3s-software.com/plcopenxml/stcode\" handleUnknown=\"implementation\"");
 	sink_repeat(&out->sink, "  ", out->depth);
 	sink_text(&out->sink, "<STCode xmlns=\"\">");
-	plco_escape(out, plco_numbers(out, text));
+	plco_escape(out, plco_words(out, text));
 	sink_text(&out->sink, "</STCode>\n");
 	plco_close(out, "data");
 	plco_close(out, "addData");

@@ -275,7 +275,7 @@ static void put_condition(struct chart *c, int number)
 	plco_open(out, "condition");
 	if (body->kind == BODY_EXPRESSION) {
 		plco_named(out, "inline", "name", "", false);
-		plco_formatted(out, "ST", expression_of(c, body));
+		plco_formatted(out, "ST", plco_words(out, expression_of(c, body)));
 		plco_close(out, "inline");
 	} else {
 		plco_named(out, "reference", "name", condition_name(c, number), true);
@@ -442,7 +442,7 @@ static void put_text(struct chart *c, const struct sfc_body *body)
 		text_write_st(c->out->project, &(struct st){ .item = c->pou->st->item + body->first,
 							     .count = body->count }, &c->out->sink);
 	c->out->sink = before;
-	plco_formatted(c->out, body->kind == BODY_LIST ? "IL" : "ST", sink_memory_text(&memory));
+	plco_formatted(c->out, body->kind == BODY_LIST ? "IL" : "ST", plco_words(c->out, sink_memory_text(&memory)));
 	sink_memory_free(&memory);
 }
 
@@ -466,18 +466,20 @@ static void put_body(struct chart *c, const struct sfc_body *body, const char *c
 void plco_chart_actions(struct out *out, const struct pou *pou)
 {
 	struct chart c = { .out = out, .pou = pou, .sfc = pou->sfc, .macro = -1 };
-	bool any = false;
 
-	if (c.sfc->action_count)
-		plco_open(out, "actions");
 	for (int i = 0; i < c.sfc->action_count; i++) {
 		plco_named(out, "action", "name", plco_id(out, c.sfc->action[i].name), false);
 		put_body(&c, &c.sfc->action[i].body, NULL);
 		plco_documentation(out, plco_id(out, c.sfc->action[i].comment));
 		plco_close(out, "action");
 	}
-	if (c.sfc->action_count)
-		plco_close(out, "actions");
+}
+
+void plco_chart_transitions(struct out *out, const struct pou *pou)
+{
+	struct chart c = { .out = out, .pou = pou, .sfc = pou->sfc, .macro = -1 };
+	bool any = false;
+
 	for (int i = 0; i < c.sfc->transition_count; i++) {
 		if (c.sfc->transition[i].condition.kind == BODY_EXPRESSION)
 			continue;
