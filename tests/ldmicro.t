@@ -169,9 +169,22 @@ def order(folder):
     ok(text.count('RUNG\n') == 1 and not any('became' in line for line in told), 'another one stays whole', text)
 
 
+def limits(folder):
+    """The limit of a counter may be a variable: a narrower one is widened, a wider one has no place in the cell."""
+    for narrow, wide in ((1, 2), (1, 4), (2, 4), (2, 2)):
+        path = put(folder, ['RUNG', 'MOVE most 3', 'END', 'RUNG', 'CONTACTS Xa 0', 'CTU Cn most 0 /', 'COIL Ya 0 0 0', 'END'],
+                   head=f'LDmicro0.2\nCYCLE=10000\n\nVAR LIST\n  {narrow} bytes most\n  {wide} bytes Cn\nEND')
+        steps = os.path.join(folder, 'steps')
+        with open(steps, 'w', encoding='utf-8') as out:
+            out.write('@print Cn Ya\n' + 'Xa=1\nXa=0\n' * 4)
+        status, said, wrong = run('trace', path, steps)
+        ok(status == 0 and re.findall(r'Cn=(\d) Ya=(\d)', said)[::2] == [('1', '0'), ('2', '0'), ('3', '1'), ('3', '1')],
+           f'{narrow} bytes limit {wide} bytes', said + wrong)
+
+
 def periods(folder):
     for head, period in (('LDmicro0.1\nCYCLE=2500', '2.5'), ('LDmicro0.1\nCYCLE=0', '10'), ('LDmicro0.2', '10'),
-                         ('LDmicro0.1\nCYCLE=50', '0.1')):
+                         ('LDmicro0.1\nCYCLE=50', '0.1'), ('LDmicro\r\nCYCLE=2500', '2.5'), ('LDmicro\nCYCLE=5000', '5')):
         path = put(folder, ['RUNG', 'CONTACTS Xa 0', 'COIL Ya 0 0 0', 'END'], head=head)
         steps = os.path.join(folder, 'steps')
         with open(steps, 'w', encoding='utf-8') as out:
@@ -220,6 +233,7 @@ with tempfile.TemporaryDirectory() as work:
     names(work)
     order(work)
     periods(work)
+    limits(work)
     large(work)
     cut(work)
 print(f'1..{tests}')

@@ -506,6 +506,21 @@ static void make_timer(struct making *m)
 				var->ours);
 }
 
+/* At a pin in a cell, which takes no calls and widens by itself. */
+static const char *pin_value(struct making *m, const char *text, int bytes)
+{
+	const struct ldmicro_var *var;
+	long long value;
+
+	if (ldmicro_number(text, &value))
+		return w_text(&m->c->w, "%lld", wrap(value, bytes));
+	var = var_of(m->c, text, false);
+	if (var->bytes > bytes)
+		return operand(m, text, bytes);
+	reads(m, var);
+	return var->ours;
+}
+
 static void make_counter(struct making *m)
 {
 	static const enum ldmicro_block block[] = {
@@ -517,7 +532,7 @@ static void make_counter(struct making *m)
 	const char *type = block_of(c, block[m->node->word], var->bytes);
 	const char *kinds = "/\\-o", *kind = m->node->args > 3 && *arg(m, 3) ? strchr(kinds, *arg(m, 3)) : kinds;
 	const char *from = m->node->args > 2 ? arg(m, 2) : "0";
-	const char *most = operand(m, arg(m, 1), var->bytes), *start = operand(m, from, var->bytes);
+	const char *most = pin_value(m, arg(m, 1), var->bytes), *start = pin_value(m, from, var->bytes);
 
 	reads(m, var);
 	if (*m->before || !kind) { /* a limit wider than the count */
@@ -527,10 +542,7 @@ static void make_counter(struct making *m)
 	m->piece->kind = PIECE_BOX;
 	m->piece->cell = w_text(w, "%s %s MOST:=%s%s%s%s%s N:=%s", type,
 				instance_new(c, type, w_text(w, "%s_%s", arg(m, 0), type + 4)),
-				is_number(arg(m, 1)) ? w_text(w, "%lld", wrap(value_at(m, 1), var->bytes)) : most,
-				strcmp(from, "0") ? " FROM:=" : "",
-				strcmp(from, "0") ? is_number(from) ? w_text(w, "%lld", wrap(value_at(m, 2), var->bytes)) :
-						    start : "",
+				most, strcmp(from, "0") ? " FROM:=" : "", strcmp(from, "0") ? start : "",
 				is_number(from) ? "" : " LATE:=TRUE",
 				kind > kinds ? w_text(w, " KIND:=%d", (int)(kind - kinds) + 1) : "", var->ours);
 }

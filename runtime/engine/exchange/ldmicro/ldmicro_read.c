@@ -32,7 +32,12 @@ struct reader {
 
 bool ldmicro_is(const void *bytes, size_t len)
 {
-	return len > 9 && !memcmp(bytes, "LDmicro0.", 9);
+	static const char *const heads[] = { "LDmicro0.", "LDmicro\r\n", "LDmicro\n" }; /* later branches write no version */
+
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+		if (len > 9 && !memcmp(bytes, heads[i], strlen(heads[i])))
+			return true;
+	return false;
 }
 
 static bool fail(struct reader *r, enum diag_id id, const char *what)
