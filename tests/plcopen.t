@@ -94,6 +94,12 @@ like($rung, qr/Name\s*: STRING\[12\] := 'it';/, 'a text without its quotes');
 like($rung, qr/Sum\s*: INT; \(\* of all \*\)/, 'documentation');
 trace_is('types', "\@print Sum\n.\n", "1 t=10 Sum=16\n");
 
+# ---- signs of XML in attributes ----
+($rung, $said) = imported('signs', project('', pou('Main', 'program', '<localVars>' . variable('Name', '<string/>', '<initialValue><simpleValue value="\'a &amp; b &#38;#38; &lt;c&gt; &quot;d&quot; &#x26;\'"/></initialValue>') . '</localVars>',
+	text_body('ST', "Name := Name;"))) =~ s/productName="P"/productName="This &amp; that"/r =~ s/contentHeader name="All"/contentHeader name="One &amp; &amp;two"/r);
+like($rung, qr/^PROJECT "One & &two"/m, 'an & in the name of a project');
+like($rung, qr/Name : STRING := 'a & b &#38; <c> "d" &';/, 'and in a value');
+
 # ---- a WSTRING is a STRING here, with its texts ----
 ($rung, $said) = imported('wide', project('', pou('Main', 'program', '<localVars>'
 	. variable('Name', '<wstring/>', '<initialValue><simpleValue value="&quot;none&quot;"/></initialValue>') . variable('Plain', '<string/>') . variable('Same', 'BOOL') . '</localVars>',

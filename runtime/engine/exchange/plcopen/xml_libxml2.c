@@ -120,6 +120,19 @@ static void settle_text(struct reader *reader)
 	reader->len = 0;
 }
 
+/* libxml2 leaves an & of an attribute as &#38;, which stands for nothing else there. */
+static void plain_ampersands(char *text)
+{
+	static const char code[] = "&#38;";
+	char *to = text;
+
+	for (const char *from = text; *from; to++) {
+		*to = *from;
+		from += strncmp(from, code, sizeof(code) - 1) ? 1 : sizeof(code) - 1;
+	}
+	*to = '\0';
+}
+
 static void add_attributes(struct reader *reader, struct xml_node *node, int count,
 			   const xmlChar **list)
 {
@@ -127,14 +140,16 @@ static void add_attributes(struct reader *reader, struct xml_node *node, int cou
 
 	for (int i = 0; i < count; i++, list += 5) {
 		struct xml_attribute *attribute = arena_alloc(reader->arena, sizeof(*attribute));
+		char *value;
 
 		if (!attribute)
 			return;
 		attribute->name = intern(reader, list[0]);
-		attribute->value = arena_copy(reader->arena, (const char *)list[3],
-					      (size_t)(list[4] - list[3]));
-		if (!attribute->value)
+		value = arena_copy(reader->arena, (const char *)list[3], (size_t)(list[4] - list[3]));
+		if (!value)
 			return;
+		plain_ampersands(value);
+		attribute->value = value;
 		*last = attribute;
 		last = &attribute->next;
 	}
