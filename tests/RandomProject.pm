@@ -74,6 +74,9 @@ sub statement {
 	return "${indent}IF " . condition(1) . " THEN\n" . $own->() . "${indent}ELSIF " . condition(1) . " THEN\n" . $own->() . "${indent}ELSE\n" . $own->() . "${indent}END_IF;\n" if $n < 0.8;
 	return "${indent}CASE " . one_of(@num) . " OF\n$indent  1, 2:\n" . $own->() . "$indent  3..5:\n" . $own->() . "${indent}ELSE\n" . $own->() . "${indent}END_CASE;\n" if $n < 0.88;
 	return "${indent}FOR Num3 := 1 TO 3 DO\n$indent  " . one_of(@num[0, 1]) . " := LIMIT(-99, Num1 + Num3, 99);\n${indent}END_FOR;\n" if $n < 0.94;
+	return "${indent}Arr[LIMIT(0, " . one_of(@num) . ", 3)] := " . amount(1) . ";\n$indent" . one_of(@num) . " := Arr[" . int(rand 4) . "] + 1;\n" if $n < 0.96;
+	return "${indent}Num3 := 0;\n${indent}WHILE Num3 < 4 DO\n$indent  Num3 := Num3 + 1;\n$indent  IF " . condition(0) . " THEN\n$indent    " . one_of('EXIT', 'CONTINUE') . ";\n$indent  END_IF;\n$indent  " . one_of(@bit) . ' := ' . condition(1) . ";\n${indent}END_WHILE;\n" if $n < 0.97 && $depth > 1;
+	return "${indent}IF " . condition(0) . " THEN\n$indent  RETURN;\n${indent}END_IF;\n" if $n < 0.98 && $indent eq '  ';
 	return "${indent}Box(Run := " . condition(0) . ", Step := " . amount(0) . ", Sum => Num2);\n";
 }
 sub st { return join '', map { statement(2, '  ') } 1 .. 1 + int rand 4 }
@@ -93,21 +96,28 @@ sub contact {
 }
 sub rungs {
 	my $wait = 0;
+	my $count = 1 + int rand 3;
 	return join '', map {
 		my $width = 1 + int rand 3;
 		my @row = (join(' | ', map({ contact(\$wait) } 1 .. $width), one_of('COIL ', 'COILNOT ', 'S ', 'R ') . one_of(@bit)));
 		$row[0] =~ s/\| [^|]*$/'| ' . one_of('[ Num1 := Num1 + 1 ]', '[ Num2 := Num1 * 2 ]', 'MOVE IN:=Num1 OUT=>Num2')/e if rand() < 0.2;
 		push @row, join(' | ', map { contact(\$wait) } 1 .. $width) . ' ^' if rand() < 0.4;
-		'RUNG' . maybe(0.1, ' OFF') . maybe(0.4, ' "' . one_of('A title', 'x < y & z') . '"') . "\n" . join '', map { "  | $_ |\n" } @row;
-	} 1 .. 1 + int rand 3;
+		@row = (join(' | ', map { contact(\$wait) } 1 .. $width) . one_of(' | EXECUTE Lines | COIL Bit1', " | JMP Label" . ($_ + 1), ' | Adder Box Step:=Num1 Sum=>Num2')) if rand() < 0.4 && $_ < $count;
+		"RUNG" . maybe(0.1, ' OFF') . ($_ > 1 ? " Label$_" : '') . maybe(0.4, ' "' . one_of('A title', 'x < y & z') . '"') . "\n" . join('', map { "  | $_ |\n" } @row) . ("@row" =~ /EXECUTE/ ? "  EXECUTE Lines:\n" . st() =~ s/^/  /gmr . "  END_EXECUTE\n" : '');
+	} 1 .. $count;
 }
 sub networks {
-	my $wait = 0;
-	return join '', map { 'NETWORK' . maybe(0.1, ' OFF') . maybe(0.4, ' "A title <b>"') . "\n" . join '', map { one_of(
+	my ($wait, $wire, $box) = (0, 0, 0);
+	my $count = 1 + int rand 3;
+	return join '', map { my $here = $_; 'NETWORK' . maybe(0.1, ' OFF') . ($here > 1 ? " Label$here" : '') . maybe(0.4, ' "A title <b>"') . "\n" . join('', map { one_of(
 		sub { '  ' . one_of(@bit) . ' := ' . condition(2) . "\n" }, sub { '  ' . one_of(@num) . ' := ' . amount(2) . "\n" },
+		sub { my $w = 'W' . ++$wire; "  $w := SEL(" . condition(0) . ', ' . int(rand 9) . ', ' . amount(0) . ")\n  Num1 := $w\n  Num2 := LIMIT(-40, $w + Num3, 40)\n" },
+		sub { my $w = 'W' . ++$wire; "  $w := " . condition(1) . "\n  Bit1 := $w\n  Bit2 := NOT $w AND " . condition(0) . "\n" },
+		sub { my $w = 'W' . ++$wire; "  $w := SEL(" . condition(0) . ", 2, 7)\n  Num3 := $w\n" },
+		sub { $box++ ? '' : '  Box(Run := ' . condition(0) . ', Step := ' . amount(0) . ")\n  " . one_of(@num) . " := Box.Sum\n" },
 		sub { '  ' . one_of(@bit) . one_of(' S= ', ' R= ') . condition(1) . "\n" }, sub { '  ' . one_of(@bit) . ' := ' . one_of('R_EDGE(', 'F_EDGE(') . one_of(@in) . ")\n" },
 		sub { $wait++ ? '  ' . one_of(@num) . " := ADD(EN := " . condition(0) . ', IN1 := ' . one_of(@num) . ", IN2 := 1)\n" : '  Wait(IN := ' . condition(1) . ", PT := T#30ms)\n  " . one_of(@bit) . " := Wait.Q\n" })->()
-		} 1 .. 1 + int rand 2 } 1 .. 1 + int rand 3;
+		} 1 .. 1 + int rand 2) . ($here < $count ? maybe(0.3, '  JMP Label' . ($here + 1) . ' IF ' . condition(1) . "\n") : '') } 1 .. $count;
 }
 sub chart {
 	my @more = map { one_of('N', 'P1', 'P0', 'S', 'R', 'P', 'L, T#30ms', 'D, T#20ms') } 1 .. 3;
@@ -134,7 +144,7 @@ sub project {
 	my @programs = map { ["Main$_", $languages[$_ - 1]] } 1 .. 1 + int rand 3;
 	my $text = "RUNGBOARD 1\n" . maybe(0.3, "PROJECT \"A <name> & more\"\n") . "\nTYPE\n  Color : (Red, Green := 5, Blue);\n  Percent : INT (0..100)" . maybe(0.5, ' := 7') . ";\n  Speed : REAL" . maybe(0.5, ' := 2.5') . ";\n"
 		. "  Table : ARRAY[1..2] OF REAL;\n  Part : STRUCT\n    Size : INT" . maybe(0.5, ' := 9') . ";\n    Name : STRING[8];\n    Flags : ARRAY[0..2] OF BOOL;\n  END_STRUCT;\nEND_TYPE\n\n"
-		. "VAR\n" . join('', map { "  $in[$_] AT %IX0.$_ : BOOL;\n" } 0 .. $#in) . join('', map { "  $bit[$_]" . maybe(0.3, " AT %QX0.$_") . " : BOOL;\n" } 0 .. $#bit) . join('', map { "  $num[$_]" . maybe(0.3, ' AT %MW' . 2 * $_) . " : INT;\n" } 0 .. $#num) . "END_VAR\n\n"
+		. "VAR\n" . join('', map { "  $in[$_] AT %IX0.$_ : BOOL;\n" } 0 .. $#in) . join('', map { "  $bit[$_]" . maybe(0.3, " AT %QX0.$_") . " : BOOL;\n" } 0 .. $#bit) . join('', map { "  $num[$_]" . maybe(0.3, ' AT %MW' . 2 * $_) . " : INT;\n" } 0 .. $#num) . "  Arr : ARRAY[0..3] OF INT;\nEND_VAR\n\n"
 		. block(\%all, one_of('VAR', 'VAR RETAIN', 'VAR CONSTANT'), 'glob', 1) . "\n"
 		. head("FUNCTION TwiceOf : INT ST\nVAR_INPUT\n  X : INT;\nEND_VAR\n  TwiceOf := LIMIT(-30, X * 2, 30);\nEND_FUNCTION\n\n")
 		. head("FUNCTION_BLOCK Adder ST\nVAR_INPUT\n  Run : BOOL" . maybe(0.3, ' := TRUE') . ";\n  Step : INT := 1;\nEND_VAR\nVAR_OUTPUT\n  Sum : INT;\nEND_VAR\nVAR\n  Was : BOOL;\nEND_VAR\n  IF Run AND NOT Was THEN\n    Sum := LIMIT(-99, Sum + Step, 99);\n  END_IF;\n  Was := Run;\nEND_FUNCTION_BLOCK\n\n")
