@@ -187,6 +187,16 @@ for (["  | NO Go | COIL Lamp |\nRUNG\n  | NO Hot | NC Cold | STOP |\n", 'LD', 'R
 	like(slurp('bare.rung'), qr/^\Q$lines\EEND_PROGRAM/m, 'a store right behind its function is one line again') or diag(slurp('bare.rung'));
 }
 
+# A comment stands above its network, also where the one before ends as near to it.
+{
+	my $lines = "NETWORK\n  A := R_EDGE(Go)\n(* of the second *)\nNETWORK\n  B := F_EDGE(Go)\n";
+	spew('titles.rung', "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n  A : BOOL;\n  B : BOOL;\nEND_VAR\n\nPROGRAM Main FBD\n${lines}END_PROGRAM\n");
+	system("$ladder export --as plcopen titles.rung -o titles.xml 2>trouble");
+	spew('bare.xml', bare(slurp('titles.xml')));
+	system("$ladder import bare.xml -o bare.rung >trouble 2>&1");
+	like(slurp('bare.rung'), qr/^\Q$lines\EEND_PROGRAM/m, 'a comment between two networks is of the second one') or diag(slurp('bare.rung'));
+}
+
 # The look at the XML notices what is wrong: each of these changes of a good one.
 my $good = slurp('first.xml');
 for ([qr/ localId="\d+"/, ''], [qr/ (?:x|y)="\d+"\/>/, '/>'], [qr/<position [^>]*>/, ''], [qr/<connectionPointOut\/>/, '<connectionPointOut/><connectionPointOut/>'],

@@ -148,6 +148,7 @@ static void find_unknown(struct parts *p)
 	}
 }
 
+/* A comment rather stands above its network: what is above the comment counts as twice as far away. */
 static int distance(const struct plc_graph *graph, const struct plc_group *group,
 		    const struct plc_element *comment)
 {
@@ -156,8 +157,8 @@ static int distance(const struct plc_graph *graph, const struct plc_group *group
 	for (int i = 0; i < group->count; i++) {
 		const int down = step_of(graph, group->first + i)->y - comment->y;
 
-		if (abs(down) < least)
-			least = abs(down);
+		if ((down < 0 ? -2 * down : down) < least)
+			least = down < 0 ? -2 * down : down;
 	}
 	return least;
 }
