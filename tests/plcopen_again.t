@@ -189,7 +189,7 @@ for (["  | NO Go | COIL Lamp |\nRUNG\n  | NO Hot | NC Cold | STOP |\n", 'LD', 'R
 
 # A comment stands above its network, also where the one before ends as near to it.
 {
-	my $lines = "NETWORK\n  A := R_EDGE(Go)\n(* of the second *)\nNETWORK\n  B := F_EDGE(Go)\n";
+	my $lines = "NETWORK One\n  A := R_EDGE(Go)\n(* of the second *)\nNETWORK Two\n  B := F_EDGE(Go)\n";
 	spew('titles.rung', "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n  A : BOOL;\n  B : BOOL;\nEND_VAR\n\nPROGRAM Main FBD\n${lines}END_PROGRAM\n");
 	system("$ladder export --as plcopen titles.rung -o titles.xml 2>trouble");
 	spew('bare.xml', bare(slurp('titles.xml')));
