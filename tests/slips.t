@@ -68,11 +68,11 @@ sub judge {
 			push @wrong, "$slip: another place: $told[0]";
 		} elsif ($message !~ /^error \w+: "/) {
 			push @wrong, "$slip: quotes nothing first: $message";
-		} elsif ($message =~ /; write: (.*)$/) {
+		} elsif ($message =~ /; write(?:, with [^:]*)?: (.*)$/) {
 			my ($again, @more) = said($head, $1);
 
 			$mended++;
-			push @wrong, "$slip: the line to write is refused: $1: $more[0]" if @more && $more[0] !~ /LD32[0-9]|LD301: "Name"/;
+			push @wrong, "$slip: the line to write is refused: $1: $more[0]" if @more && $more[0] !~ /LD32[0-9]|LD381|LD301: "Name"/;
 		} elsif ($message !~ $may) {
 			push @wrong, "$slip: no line to write: $message";
 		}
@@ -276,6 +276,102 @@ for my $chain (@chains) {
 }
 ok(!@unlike, 'comparisons with three sides: ' . 3 * @chains . ' lines, each with the line to write');
 diag($_) for @unlike;
+
+# Slips whose one right line is known: each of @slips is the slip and that line.
+sub meant {
+	my ($name, @slips) = @_;
+	my @wrong;
+
+	for (@slips) {
+		my ($slip, $right, $head) = @$_;
+		my ($number, @told) = said($head // "PROGRAM Main LD\nRUNG", $slip);
+		my ($line) = @told ? $told[0] =~ /; write(?:, with [^:]*)?: (.*)$/ : ();
+
+		print "# $slip\n#    ", $told[0] // "good\n" if $show;
+		push @wrong, "$slip: another place: $told[0]" if @told && $told[0] !~ /^slip\.rung:$number\b/;
+		push @wrong, "$slip: " . @told . ' errors' if @told != 1;
+		push @wrong, "$slip: not $right: " . ($line // $told[0] // 'good') if ($line // '') ne $right;
+		my (undef, @more) = said($head // "PROGRAM Main LD\nRUNG", $right);
+		push @wrong, "$slip: $right is refused: $more[0]" if @more && $more[0] !~ /LD381/;
+	}
+	ok(!@wrong, "$name: " . scalar(@slips) . ' slips with the one right line');
+	diag($_) for @wrong;
+}
+
+# A row drawn with characters: every style with contacts and coils of every kind.
+my @drawings;
+my %drawn_contact = ('' => 'NO', '/' => 'NC', 'P' => 'P', 'N' => 'N');
+my %drawn_coil = ('' => 'COIL', '/' => 'COILNOT', 'S' => 'S', 'R' => 'R', 'P' => 'COILP', 'N' => 'COILN');
+my @styles = (sub { "| $_[0]$_[1] |" }, sub { "|$_[0]| $_[1] " }, sub { "|$_[0]| $_[1] |" }, sub { "[$_[0]$_[1]]" }, sub { "[$_[0]] $_[1] " },
+	sub { "]$_[0]$_[1]\[" });
+my @ends = (['--', '--'], ['|--', '--|'], ['---', '---|'], ['|-', '-']);
+
+for my $contact (sort keys %drawn_contact) {
+	for my $coil (sort keys %drawn_coil) {
+		for my $style (0 .. $#styles) {
+			my ($left, $right) = @{$ends[($style + length $contact) % @ends]};
+			my $first = $styles[$style]->($contact . ($contact =~ /\w/ && $style !~ /[124]/ ? ' ' : ''), 'Ready');
+			my $second = $styles[$style]->('/', 'Horn');
+			my $inside = $coil =~ /\w/ ? "$coil " : $coil;
+			my $last = $style % 2 ? "($coil) Lamp " : "( ${inside}Lamp )";
+			my $meant = "| $drawn_contact{$contact} Ready | NC Horn | $drawn_coil{$coil} Lamp |";
+
+			push @drawings, ["$left$first--$second--$last$right", $meant];
+		}
+	}
+}
+push @drawings, ['--| |--( )--', '| NO %IX0.0 | COIL %QX0.0 |'], ['--| |--|/|--( )--', '| NO %IX0.0 | NC %IX0.1 | COIL %QX0.0 |'],
+	['--[ A > 5 ]--( Lamp )--', '| [ A > 5 ] | COIL Lamp |'], ['|---[ Ready ]---[ Horn ]---|', '| NO Ready | COIL Horn |'],
+	['--|%IX0.3|--(%QX0.1)--', '| NO %IX0.3 | COIL %QX0.1 |'], ['--| I:0/3 |--( O:0/1 )--', '| NO %IX0.3 | COIL %QX0.1 |'],
+	['--| XIC Ready |--( OTE Lamp )--', '| NO Ready | COIL Lamp |'], ['--| Ready |--+--( Lamp )--', '| NO Ready | COIL Lamp |'];
+meant('drawn rows', grep { $_->[0] !~ m{I:0/3} } @drawings);
+
+# Words that compare, with a sign; a name behind the values; no name; no value; parentheses.
+my @single_line;
+my %test_sign = (EQ => '=', NE => '<>', GT => '>', GE => '>=', LT => '<', LE => '<=', EQU => '=', NEQ => '<>', GRT => '>', GEQ => '>=',
+	LES => '<', LEQ => '<=');
+for my $word (sort keys %test_sign) {
+	my ($ours) = grep { $test_sign{$_} eq $test_sign{$word} && length == 2 } sort keys %test_sign;
+
+	for my $sign (':=', '=', $test_sign{$word}) {
+		push @single_line, ["| $word $_->[0] $sign $_->[1] | COIL Lamp |", "| $ours IN1:=$_->[0] IN2:=$_->[1] | COIL Lamp |"]
+			for ['A', 5], ['A + 1', 'B'], ['Parts.CV', 'Sum'];
+	}
+}
+@single_line = grep { $_->[0] !~ /A \+ 1/ } @single_line; # a pin computes nothing
+push @single_line, map { ["| CMP A $_ B | COIL Lamp |", "| [ A $_ B ] | COIL Lamp |"] } '=', '<>', '>', '<=', '>=', '<';
+for my $block (['TON', 'Delay', 'PT:=T#5s', 'T#5s'], ['TON', 'Delay', 'PT:=T#5s', '5s'], ['TOF', 'Rest', 'PT:=T#2s', '2s'], ['TP', 'Pulse', 'PT:=T#1s', 'T#1s'],
+	['CTU', 'Parts', 'PV:=9', '9'], ['CTD', 'Stock', 'PV:=9', '9']) {
+	my ($word, $name, $value, $bare) = @$block;
+	my $right = "| NO Ready | $word $name $value | COIL Lamp |";
+
+	push @single_line, map { ["| NO Ready | $word $_ | COIL Lamp |", $right] } "$value $name", "$bare $name", $value, $bare;
+	push @single_line, ["| NO Ready | $word | COIL Lamp |", "| NO Ready | $word $name | COIL Lamp |"];
+	my ($pin) = $value =~ /^(\w+)/;
+	push @single_line, ["| NO Ready | $word $name $pin:= | COIL Lamp |",
+		"| NO Ready | $word $name $pin:=" . ($pin eq 'PT' ? 'T#1s' : 1) . ' | COIL Lamp |'];
+}
+push @single_line, ['| NO Ready | CTU Parts CU:= |', '| NO Ready | CTU Parts |'], ['| NO Ready | CTU Parts CU:= PV:=5 |', '| NO Ready | CTU Parts PV:=5 |'],
+	['| NO Ready | TON Delay IN:= PT:=T#5s |', '| NO Ready | TON Delay PT:=T#5s |'],
+	['| NO Ready | P | COIL Lamp |', '| NO Ready | R_TRIG Rise | COIL Lamp |'], ['| NO Ready | N | COIL Lamp |', '| NO Ready | F_TRIG Fall | COIL Lamp |'],
+	['| NO Ready | ONS Horn | COIL Lamp |', '| NO Ready | R_TRIG Rise | COIL Lamp |'],
+	['| NO Ready | OSF Horn | COIL Lamp |', '| NO Ready | F_TRIG Fall | COIL Lamp |'],
+	['| NO Ready | INV | COIL Lamp |', '| NO Ready | NOT | COIL Lamp |'],
+	['| NC (A > 5) | COIL Lamp |', '| [ NOT (A > 5) ] | COIL Lamp |'], ['| NC (A > 5) AND Ready | COIL Lamp |', '| [ NOT ((A > 5) AND Ready) ] | COIL Lamp |'],
+	['| NC (A > 5) AND (B < 3) | COIL Lamp |', '| [ NOT ((A > 5) AND (B < 3)) ] | COIL Lamp |'],
+	['| NO Ready | COIL (/Lamp) |', '| NO Ready | COILNOT Lamp |'], ['| NO (/Ready) | COIL Lamp |', '| NC Ready | COIL Lamp |'],
+	['| [ (A > B ] | COIL Lamp |', '| [ (A > B) ] | COIL Lamp |'], ['| [ ((A > B) AND (B > 1 ] | COIL Lamp |', '| [ ((A > B) AND (B > 1)) ] | COIL Lamp |'],
+	['| [ A > B) ] | COIL Lamp |', '| [ A > B ] | COIL Lamp |'], ['| [ (A > B | COIL Lamp |', '| [ (A > B) ] | COIL Lamp |'],
+	['| NO Ready | [ A := A++ ] |', '| NO Ready | [ A := A + 1 ] |'], ['| NO Ready | TON Delay PT:=0:05 |', '| NO Ready | TON Delay PT:=T#5s |'],
+	['| NO Ready | TON Delay PT:=1:30 |', '| NO Ready | TON Delay PT:=T#90s |'], ['| NO Ready | MUL(A, 2) |', '| NO Ready | MUL IN1:=A IN2:=2 |'];
+push @single_line, map { ["| NO Ready $_ COIL Lamp |", '| NO Ready | COIL Lamp |'] } '\\', '/', 'I', 'l', '!', ';';
+for my $place (['0.00', '%IX0.0'], ['0.05', '%IX0.5'], ['1.11', '%IX3.3'], ['100.00', '%QX0.0'], ['101.15', '%QX3.7']) {
+	push @single_line, map { ["| $_ $place->[0] | COIL Lamp |", "| $_ $place->[1] | COIL Lamp |"] } 'NO', 'NC', 'P', 'N';
+	push @single_line, ["| LD $place->[0] | OUT 100.04 |", "| NO $place->[1] | COIL %QX0.4 |"];
+}
+push @single_line, ['| NO Ready | TIM 000 #50 |', '| NO Ready | TON T0 PT:=T#5s |'], ['| NO Ready | TIM 12 #5 |', '| NO Ready | TON T12 PT:=T#500ms |'],
+	['| NO Ready | CNT 001 #10 |', '| NO Ready | CTU C1 PV:=10 |'];
+meant('the one right line', @single_line);
 
 # One error for what stands behind a coil, or has the wrong name at a box, or gives a box its power.
 my @single = ('| COIL Lamp | NO Ready |', '| COIL Lamp | NC Ready | P Horn |', '| NO Horn | S Lamp | NO Ready |', '| EQ A := 5 | COIL Lamp |',

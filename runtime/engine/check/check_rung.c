@@ -269,7 +269,8 @@ static void check_power_pin(struct rung_check *c,
 		c->good &= diag_add(c->diags, place_of(c, DIAG_PIN_FIRST, e->row, e->col), "%s" DIAG_AND "%s %.*s",
 				    name, arg.inverse ? "NC" : "NO", (int)arg.value_len, arg.value);
 	else
-		report(c, DIAG_PIN_FIRST, e->row, e->col, name);
+		c->good &= diag_add(c->diags, place_of(c, DIAG_PIN_FIRST, e->row, e->col), "%s" DIAG_AND DIAG_AND "%.*s",
+				    name, arg.value_len < LIMIT_ARG ? (int)(arg.value + arg.value_len - arg.pin) : 0, arg.pin);
 }
 
 /* ---- the network ---- */

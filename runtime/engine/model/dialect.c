@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * dialect - tables of the addresses of STEP 7, Logix, GX Works and ClassicLadder; see dialect.h.
+ * dialect - tables of the addresses of STEP 7, Logix, GX Works, Omron and ClassicLadder; see dialect.h.
  */
 #include "engine/model/dialect.h"
 
@@ -116,6 +116,28 @@ static bool find_slash(const char *text, size_t len, struct dialect *out)
 		       put_bit(heads[i].area, word * 16 + bit, &out->addr);
 	}
 	return false;
+}
+
+/* ---- Omron ---- */
+
+/* CIO0.05, W3.11: a word and one of its 16 bits, with two digits. Inputs begin at 0 and outputs at 100; what lies
+ * between is one or the other. */
+static bool find_channel(const char *text, size_t len, struct dialect *out)
+{
+	const bool work = ascii_same(text, "W", 1);
+	const char *end = text + len, *at = text + (work ? 1 : 3);
+	int word, bit;
+
+	if (len < 5 || (!work && !ascii_same(text, "CIO", 3)) || !ascii_digit(*at))
+		return false;
+	word = number(&at, end, 10);
+	if (word < 0 || end - at != 3 || *at++ != '.' || !ascii_digit(*at))
+		return false;
+	bit = number(&at, end, 10);
+	if (bit < 0 || bit > 15 || (!work && ((word > 9 && word < 100) || word > 199)))
+		return false;
+	out->kind = DIALECT_ADDRESS;
+	return put_bit(work ? AREA_M : word < 100 ? AREA_I : AREA_Q, (work ? word : word % 100) * 16 + bit, &out->addr);
 }
 
 /* ---- ClassicLadder ---- */
@@ -301,7 +323,7 @@ static bool find(const char *text, size_t len, int index, struct dialect *out)
 		       (parts.attribute ? find_pin(&parts, index, out) :
 					  index == 0 && find_memory(&parts, out));
 	return index == 0 && (find_octal(text, len, out) || find_number(text, len, out) ||
-			      find_german(text, len, out) || find_slash(text, len, out) ||
+			      find_german(text, len, out) || find_slash(text, len, out) || find_channel(text, len, out) ||
 			      (take_apart(text, len, &parts) && parts.attribute &&
 			       find_own_pin(&parts, out)));
 }

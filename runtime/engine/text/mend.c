@@ -6,6 +6,7 @@
  * order until the line reads. It never changes the project.
  */
 #include "engine/text/mend.h"
+#include "engine/text/mend_drawn.h"
 #include "engine/text/mend_habits.h"
 #include "engine/text/mend_number.h"
 #include "engine/text/mend_steps.h"
@@ -92,7 +93,7 @@ static const struct rule {
 	{ "TIMER", "TON", IN_CELL }, { "TMR", "TON", IN_CELL }, { "RTO", "TONR", IN_CELL },
 	{ "COUNTER", "CTU", IN_CELL }, { "CTR", "CTU", IN_CELL },
 	{ "GOTO", "JMP", IN_CELL }, { "JUMP", "JMP", IN_CELL },
-	{ "RETURN", "RET", IN_CELL }, { "JSR", "CALL", IN_CELL },
+	{ "INV", "NOT", IN_CELL }, { "RETURN", "RET", IN_CELL }, { "JSR", "CALL", IN_CELL },
 	{ "MOV", "MOVE", IN_CELL }, { "COPY", "MOVE", IN_CELL }, { "EQU", "EQ", IN_CELL },
 	{ "NEQ", "NE", IN_CELL }, { "GRT", "GT", IN_CELL }, { "GEQ", "GE", IN_CELL },
 	{ "LES", "LT", IN_CELL }, { "LEQ", "LE", IN_CELL },
@@ -570,6 +571,18 @@ static bool is_wrong_call(const struct mender *m, struct lex lex, struct expr *e
 	       expr_has_wrong_call(expr, words);
 }
 
+/* Is the token at the cursor the end of a value? */
+static bool ends_value(const struct lex *lex)
+{
+	static const char *const words[] = { "AND", "OR", "XOR", "NOT", "MOD" };
+
+	for (size_t i = 0; i < COUNT(words); i++)
+		if (lex_is(lex, words[i]))
+			return false;
+	return lex->token.kind == TOKEN_NAME || lex->token.kind == TOKEN_NUMBER || lex->token.kind == TOKEN_ADDRESS ||
+	       lex_is(lex, ")") || lex_is(lex, "]");
+}
+
 /* Are its constants well formed, and do calls of built-in functions have the arguments that
  * they need? A reader leaves both to the checks that follow it. */
 static bool numbers_read(const struct mender *m)
@@ -579,13 +592,14 @@ static bool numbers_read(const struct mender *m)
 	bool good = expr && diags;
 	struct literal literal;
 	struct lex lex, ahead;
+	bool value = false; /* a word behind one joins: A AND (B)               */
 
 	lex_init(&lex, m->text, m->len);
-	while (good && lex_next(&lex) != TOKEN_END) {
+	for (; good && lex_next(&lex) != TOKEN_END; value = ends_value(&lex)) {
 		ahead = lex;
 		if (lex.token.kind == TOKEN_NUMBER)
 			good = literal_parse(lex.token.text, lex.token.len, &literal) != LITERAL_BAD;
-		else if (lex.token.kind == TOKEN_NAME && lex_next(&ahead) != TOKEN_END &&
+		else if (lex.token.kind == TOKEN_NAME && !value && lex_next(&ahead) != TOKEN_END &&
 			 lex_is(&ahead, "("))
 			good = !is_wrong_call(m, lex, expr, diags);
 	}
@@ -807,7 +821,8 @@ static bool mend_more(struct mender *m, const struct word_row *row, size_t at, s
 		return false;
 	for (size_t next = at; next < to; next = skip_blanks(m, next + len)) {
 		len = plain_length(m, next, to);
-		if (!len || operator_follows(m, next + len) || used + len + 20 >= sizeof(made) || ascii_digit(m->text[next]))
+		if (!len || operator_follows(m, next + len) || used + len + 20 >= sizeof(made) || ascii_digit(m->text[next]) ||
+		    (len > 1 && words_find(&m->in->project->words, m->text + next, len) != WORD_COUNT))
 			return false;
 		used += (size_t)snprintf(made + used, sizeof(made) - used, "%s%.*s", used ? " | " : "", (int)len,
 					 m->text + next);
@@ -852,6 +867,19 @@ static const char *edge_block(const struct word_row *row)
 	return strcmp(row->word, "N") == 0 ? "Fall : F_TRIG" : "Rise : R_TRIG";
 }
 
+/* Are the parentheses at both ends a pair? */
+static bool wraps(const struct mender *m, size_t at, size_t end)
+{
+	int depth = 0;
+
+	for (size_t i = at; i < end; i++) {
+		depth += m->text[i] == '(' ? 1 : m->text[i] == ')' ? -1 : 0;
+		if (depth <= 0)
+			return i + 1 == end && i > at;
+	}
+	return false;
+}
+
 /* P (NOT Start) → N Start, NO (Start) → NO Start, NO A AND B → [ A AND B ]. */
 static bool mend_contact(struct mender *m, const struct word_row *row, size_t from, size_t word, size_t to)
 {
@@ -869,13 +897,17 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 	if (drop_quotes(m, at, to))
 		return true;
 	end = to;
-	while (end - at > 2 && m->text[at] == '(' && m->text[end - 1] == ')') {
+	while (end - at > 2 && wraps(m, at, end)) {
 		at = skip_blanks(m, at + 1);
 		for (end--; end > at && m->text[end - 1] == ' '; end--)
 			;
 	}
 	turn = end - at > 4 && ascii_same(m->text + at, "NOT", 3) && !mend_is_word(m->text[at + 3]);
 	len = turn ? 3 : 0;
+	if (!turn && end - at > 1 && strchr("/!", m->text[at])) {
+		turn = true;
+		len = 1;
+	}
 	for (size_t i = at + len; turn && i < end && (m->text[i] == ' ' || m->text[i] == '('); i++)
 		len++;
 	const size_t bare = plain_length(m, at + len, end);
@@ -905,7 +937,7 @@ static bool mend_contact(struct mender *m, const struct word_row *row, size_t fr
 		snprintf(m->out->to, sizeof(m->out->to), "%s", edge_block(row));
 		return true;
 	} else if (plain && to - at < MADE - 20 && has_operator(m, at, to)) {
-		snprintf(made, sizeof(made), negated ? "[ NOT (%.*s) ]" : "[ %.*s ]", (int)(to - at), m->text + at);
+		snprintf(made, sizeof(made), negated ? "[ NOT (%.*s) ]" : "[ %.*s ]", (int)(end - at), m->text + at);
 		at = from;
 		if (!negated && to - skip_blanks(m, from + word) < MADE - 20)
 			snprintf(made, sizeof(made), "[ %.*s ]", (int)(to - skip_blanks(m, from + word)),
@@ -1012,7 +1044,7 @@ static bool mend_values(struct mender *m, const struct word_row *row, size_t fro
 		return false;
 	snprintf(contact, sizeof(contact), "NO %.*s | ", (int)(power ? size[0] : 0), m->text + power);
 	for (int i = power ? 1 : 0; i < count; i++, pin++) {
-		const bool result = row->kind == WORD_FN && i == count - 1 && count > 1 && !word_is_test(row);
+		const bool result = row->kind == WORD_FN && i == count - 1 && count > row->pin_count && !word_is_test(row);
 		const char *name = NULL;
 
 		pin = row->kind == WORD_FB ? next_pin(row, pin, bits, i == 1 && power) : pin;
@@ -1079,13 +1111,6 @@ static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
 				   WORD_COUNT;
 	size_t at = from;
 
-	if (ascii_same(m->text + from, "CMP ", 4) && to - from > 4) {
-		change(m, to, 0, " ]");
-		m->changed = false;
-		change(m, from, 4, "");
-		change(m, from, 0, "[ ");
-		return;
-	}
 	if (m->text[from] == '(' && m->text[to - 1] == ')') {
 		char made[MADE];
 
@@ -1711,7 +1736,11 @@ static bool mend_once(const struct mend_line *line, struct mended *out, bool hab
 		return false;
 	replace_signs(&m);
 	if (habits) {
-		if (m.changed || !mend_habits(line->project, m.text, MOST - 32, out))
+		struct mended more = { 0 };
+
+		const bool drawn = !m.changed && mend_drawn(m.text, MOST - 32, out);
+
+		if (m.changed || (!mend_habits(line->project, m.text, MOST - 32, drawn ? &more : out) && !drawn))
 			return false;
 		m.changed = true;
 		m.len = strlen(m.text);
@@ -1729,11 +1758,21 @@ static bool mend_once(const struct mend_line *line, struct mended *out, bool hab
 	return true;
 }
 
+static bool is_drawn(const struct mend_line *line)
+{
+	char text[MOST];
+
+	snprintf(text, sizeof(text), "%.*s", (int)line->len, line->text);
+	return mend_is_drawn(text);
+}
+
 bool mend_line(const struct mend_line *line, struct mended *out)
 {
 	if (line->len >= MOST - 32 || memchr(line->text, '\037', line->len))
 		return false;
 	if (line->kind == MEND_LIST && mend_in_steps(line, out))
 		return true;
+	if (line->kind == MEND_HEAD && is_drawn(line)) /* nobody means a comment */
+		return false;
 	return (line->kind == MEND_ROW && mend_once(line, out, true)) || mend_once(line, out, false);
 }

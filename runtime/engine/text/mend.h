@@ -32,7 +32,7 @@ struct mend_line {
 /* The first of the changes, and the line after all of them. */
 struct mended {
 	enum diag_id id; /* DIAG_WRITE_INSTEAD, _MISSING, _SURPLUS, _COMPUTED, _SEVERAL_STEPS, _SPECIAL_INSTEAD,
-			    _EDGE_OF_VALUE */
+			    _EDGE_OF_VALUE, _DRAWN, _DRAWN_NAMELESS, _VALUE_MISSING, _MISSING_INSTANCE */
 	int column;      /* 1-based byte of the change in the line            */
 	char from[24], to[24], line[112];
 };

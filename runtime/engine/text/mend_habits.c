@@ -10,7 +10,6 @@
 #include "engine/base/ascii.h"
 #include "engine/base/iec.h"
 
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -289,6 +288,17 @@ static bool part_elements(struct habits *h)
 	return put(h, end_of(h, end - 1), 0, h->text[end_of(h, end - 1)] == ' ' ? " |" : " | ");
 }
 
+/* NO A / COIL B, NO A I COIL B: a sign or letter that looks like a bar. */
+static bool bar_of_other(struct habits *h)
+{
+	const int end = element_end(h, 0);
+
+	if (!end || end >= h->count || h->piece[end].len != 1 || !strchr("\\/Il!:;1", *text_of(h, end)) ||
+	    !is_one_of(h, end + 1, elements, COUNT(elements)))
+		return false;
+	return put(h, h->piece[end].at, 1, "|");
+}
+
 /* ---- constants ---- */
 
 /* TRUE and 1 are a wire, 0 a contact that is never closed. */
@@ -381,6 +391,12 @@ static bool preset_of_logix(struct habits *h)
 	return put(h, h->piece[1].at, h->to - h->piece[1].at, made);
 }
 
+/* The letter of a timer's or counter's name. */
+static const char *block_letter(const struct block *block)
+{
+	return !block || is_timer(block) ? "T" : "C";
+}
+
 /* Of K50 the digits; NULL: it is no such constant. */
 static const char *constant_of_mitsubishi(const struct habits *h, int i)
 {
@@ -427,6 +443,10 @@ static bool take_time(struct habits *h)
 			return put(h, h->piece[i].at, 2, "");
 		if (len > 7 && ascii_same(text, "S5TIME#", 7))
 			return put(h, h->piece[i].at, 7, "T#");
+		if ((len == 4 || len == 5) && text[len - 3] == ':' && strspn(text, "0123456789:") >= len && is(h, i - 1, ":=")) {
+			snprintf(made, sizeof(made), "T#%lus", 60 * number_at(text) + number_at(text + len - 2));
+			return put(h, h->piece[i].at, len, made);
+		}
 		if (len == 8 && text[2] == ':' && text[5] == ':' && strspn(text, "0123456789:") >= 8 &&
 		    (is(h, i - 1, ":=") || i == 2)) {
 			const unsigned long all = 3600 * number_at(text) + 60 * number_at(text + 3) + number_at(text + 6);
@@ -455,6 +475,164 @@ static const struct word_row *block_word(const struct habits *h, int i)
 	const struct word_row *row = words_row(words, word);
 
 	return word != WORD_COUNT && row->kind == WORD_FB ? row : NULL;
+}
+
+/* Does the project or this POU have a variable that is a block of this word? Its name; NULL: none. */
+static const char *instance_of(const struct habits *h, const char *word)
+{
+	const struct project *project = h->project;
+	const struct pou *pou = project->pou_count ? &project->pou[project->pou_count - 1] : NULL;
+	const struct var_table *tables[] = { pou ? &pou->vars : &project->globals, &project->globals };
+
+	for (size_t n = 0; n < COUNT(tables); n++)
+		for (int k = 0; k < tables[n]->count; k++) {
+			const struct var *var = &tables[n]->var[k];
+
+			if (var->type == IEC_NONE && var->fb != WORD_COUNT &&
+			    strcmp(words_row(&project->words, var->fb)->word, word) == 0)
+				return project_text(project, var->name);
+		}
+	return NULL;
+}
+
+/* A name for a block that has none yet. */
+static const char *usual_name(const char *word)
+{
+	static const char *const names[][2] = {
+		{ "TON", "Delay" }, { "TOF", "Delay" }, { "TONR", "Delay" }, { "TP", "Pulse" }, { "CTU", "Parts" }, { "CTD", "Parts" },
+		{ "CTUD", "Parts" }, { "R_TRIG", "Rise" }, { "F_TRIG", "Fall" }, { "SR", "Latch" }, { "RS", "Latch" },
+	};
+
+	for (size_t n = 0; n < COUNT(names); n++)
+		if (strcmp(names[n][0], word) == 0)
+			return names[n][1];
+	return "Block1";
+}
+
+static bool is_constant(const struct habits *h, int i)
+{
+	const char *text = i < h->count ? text_of(h, i) : "";
+
+	return ascii_digit(*text) || ascii_same(text, "T#", 2) || ascii_same(text, "TIME#", 5);
+}
+
+/* TON PT:=T#5s Delay and CTU 9 Parts: the name stands first. Without any name, TON PT:=T#5s, one is needed. */
+static bool name_first(struct habits *h)
+{
+	const struct word_row *row = block_word(h, 0);
+	const int last = h->count - 1;
+	const bool pin = is(h, 2, ":=") || is(h, 2, "=>");
+	const char *name = row ? instance_of(h, row->word) : NULL;
+	char made[MADE];
+
+	if (!row || !(h->count == 1 || pin || is_constant(h, 1)))
+		return false;
+	if (last > 1 && is_operand(h, last) && !is_constant(h, last) && !is(h, last - 1, ":=") && !is(h, last - 1, "=>")) {
+		snprintf(made, sizeof(made), "%.*s %.*s", (int)h->piece[last].len, text_of(h, last),
+			 (int)(end_of(h, last - 1) - h->piece[1].at), text_of(h, 1));
+		return put(h, h->piece[1].at, h->to - h->piece[1].at, made);
+	}
+	if (h->changed)
+		return false;
+	name = name ? name : usual_name(row->word);
+	snprintf(made, sizeof(made), " %.40s", name);
+	if (!put(h, end_of(h, 0), 0, made))
+		return false;
+	h->out->id = DIAG_MISSING_INSTANCE;
+	h->out->column = (int)h->from + 1;
+	quote(h->out->from, row->word, strlen(row->word));
+	snprintf(made, sizeof(made), "%s %.40s", row->word, name);
+	quote(h->out->to, made, strlen(made));
+	return true;
+}
+
+/* TON Delay PT:= gets a value to begin with; CTU Parts CU:= has the power of the row there. */
+static bool fill_pin(struct habits *h)
+{
+	const struct word_row *row = block_word(h, 0);
+	int pin = -1, i;
+
+	for (i = 2; row && i + 1 < h->count; i++)
+		if (is(h, i + 1, ":=") && (i + 2 == h->count || is(h, i + 3, ":=") || is(h, i + 3, "=>"))) {
+			pin = word_pin_find(row, text_of(h, i), h->piece[i].len);
+			break;
+		}
+	if (pin < 0 || pin >= row->pin_count || row->pin[pin].dir != PIN_IN || h->changed)
+		return false;
+	if (row->pin[pin].type == IEC_BOOL)
+		return put(h, end_of(h, i - 1), end_of(h, i + 1) - end_of(h, i - 1), "");
+	if (!put(h, end_of(h, i + 1), 0, row->pin[pin].type == IEC_TIME ? "T#1s" : "1"))
+		return false;
+	h->out->id = DIAG_VALUE_MISSING;
+	quote(h->out->from, row->pin[pin].name, strlen(row->pin[pin].name));
+	return true;
+}
+
+/* P alone: the edge of the power before it. */
+static bool edge_of_power(struct habits *h)
+{
+	const bool rising = is(h, 0, "P");
+
+	if (h->count != 1 || h->changed || (!rising && !is(h, 0, "N")) ||
+	    !put(h, h->from, 1, rising ? "R_TRIG Rise" : "F_TRIG Fall"))
+		return false;
+	h->out->id = DIAG_EDGE_OF_VALUE;
+	snprintf(h->out->to, sizeof(h->out->to), rising ? "Rise : R_TRIG" : "Fall : F_TRIG");
+	return true;
+}
+
+/* ONS Bit: the edge of the power before it, which Logix keeps in a bit. In front of a row it is P. */
+static bool edge_of_logix(struct habits *h)
+{
+	static const char *const words[] = { "ONS", "OSR", "OSF" };
+
+	return h->count == 2 && is_one_of(h, 0, words, COUNT(words)) && h->from > 2 + (size_t)(*h->text == '|') &&
+	       put(h, h->from, h->to - h->from, is(h, 0, "OSF") ? "F_TRIG Fall" : "R_TRIG Rise");
+}
+
+/* Words that compare, and what they are called elsewhere. */
+static const struct { const char *word, *other, *sign; } tests[] = {
+	{ "EQ", "EQU", "=" }, { "NE", "NEQ", "<>" }, { "GT", "GRT", ">" }, { "GE", "GEQ", ">=" }, { "LT", "LES", "<" },
+	{ "LE", "LEQ", "<=" },
+};
+
+/* The sign of a comparison in a cell, from byte @at on; *@len: its bytes, 0: none. */
+static size_t find_sign(const struct habits *h, size_t at, size_t *len)
+{
+	for (; at < h->to && !strchr("<>=:", h->text[at]); at++)
+		;
+	*len = at < h->to ? strspn(h->text + at, "<>=:") : 0;
+	return at;
+}
+
+/* EQ A := 5, EQ A = 5, GT A > 5 → EQ IN1:=A IN2:=5; CMP A = B → [ A = B ]. */
+static bool compare_word(struct habits *h)
+{
+	const bool any = is(h, 0, "CMP");
+	size_t len, more, at = find_sign(h, h->from, &len), end = at;
+	char sign[4], made[MADE];
+	size_t n = 0;
+
+	while (n < COUNT(tests) && !is(h, 0, tests[n].word) && !is(h, 0, tests[n].other))
+		n++;
+	if ((!any && n == COUNT(tests)) || h->count < 2 || !len || len > 2 || is(h, 1, "(") ||
+	    (!any && (find_sign(h, at + len, &more) < h->to || ascii_same(text_of(h, 1), "IN", 2))))
+		return false;
+	if (any) {
+		snprintf(made, sizeof(made), "[ %.*s ]", (int)(h->to - h->piece[1].at), text_of(h, 1));
+		return put(h, h->from, h->to - h->from, made);
+	}
+	snprintf(sign, sizeof(sign), "%.*s", (int)len, h->text + at);
+	if (strcmp(sign, ":=") != 0 && strcmp(sign, "=") != 0 && strcmp(sign, "==") != 0 && strcmp(sign, tests[n].sign) != 0)
+		return false;
+	while (end > h->piece[1].at && h->text[end - 1] == ' ')
+		end--;
+	at += len + strspn(h->text + at + len, " ");
+	if (end <= h->piece[1].at || at >= h->to || h->text[end - 1] == '!')
+		return false;
+	snprintf(made, sizeof(made), "%s IN1:=%.*s IN2:=%.*s", tests[n].word, (int)(end - h->piece[1].at), text_of(h, 1),
+		 (int)(h->to - at), h->text + at);
+	return put(h, h->from, h->to - h->from, made);
 }
 
 /* TON Delay, PT:=T#5s and TON Delay [PT:=T#5s]: the values stand behind the name without anything around them. */
@@ -512,20 +690,6 @@ static bool call_block(struct habits *h)
 	if (*contact && h->from >= strlen(contact) && !strncmp(h->text + h->from - strlen(contact), contact, strlen(contact)))
 		*contact = '\0';
 	return put(h, end_of(h, 1), h->to - end_of(h, 1), made) && (!*contact || put(h, h->from, 0, contact));
-}
-
-/* TON PT:=T#5s Delay → TON Delay PT:=T#5s. */
-static bool name_first(struct habits *h)
-{
-	const int last = h->count - 1;
-	char made[MADE];
-
-	if (last < 4 || !block_word(h, 0) || !is(h, 2, ":=") || is(h, last - 1, ":=") || is(h, last - 1, "=>") ||
-	    !is_operand(h, last) || h->to - h->from >= MADE)
-		return false;
-	snprintf(made, sizeof(made), "%.*s %.*s %.*s", (int)h->piece[0].len, text_of(h, 0), (int)h->piece[last].len, text_of(h, last),
-		 (int)(end_of(h, last - 1) - h->piece[1].at), text_of(h, 1));
-	return put(h, h->from, h->to - h->from, made);
 }
 
 static bool is_pin(const struct word_row *row, const struct habits *h, int i)
@@ -669,13 +833,30 @@ static bool address_of_omron(struct habits *h)
 		const unsigned long first = word >= 100 ? 100 : word >= 10 ? 10 : 0;
 
 		if (!digits || digits > 3 || text[digits] != '.' || strspn(text + digits + 1, "0123456789") != 2 || bit > 15 ||
-		    !is_one_of(h, i - 1, elements, COUNT(elements)))
+		    (!is_one_of(h, i - 1, elements, COUNT(elements)) && !is(h, i - 1, "P") && !is(h, i - 1, "N")))
 			continue;
 		snprintf(made, sizeof(made), "%%%cX%lu.%lu", first ? 'Q' : 'I', 2 * (word - first) + bit / 8, bit % 8);
 		if (iec_addr_parse(made, strlen(made), &addr) == ADDR_OK)
 			return put(h, h->piece[i].at, len, made);
 	}
 	return false;
+}
+
+/* TIM 000 #50 → TON T0 PT:=T#5s, CNT 1 #10 → CTU C1 PV:=10: Omron's timers count tenths of a second. */
+static bool timer_of_omron(struct habits *h)
+{
+	static const struct block timer = { "TIM", "TON", "PT" }, counter = { "CNT", "CTU", "PV" };
+	const struct block *block = is(h, 0, "TIM") ? &timer : is(h, 0, "CNT") ? &counter : NULL;
+	const char *number = h->count == 3 ? text_of(h, 1) : "", *value = h->count == 3 ? text_of(h, 2) : "";
+	char preset[32], made[MADE];
+
+	number += ascii_upper(*number) == *block_letter(block);
+	value += *value == '#' || *value == '&' || ascii_upper(*value) == 'K';
+	if (!block || !ascii_digit(*number) || !ascii_digit(*value))
+		return false;
+	print_preset(block, number_at(value), 100, preset, sizeof(preset));
+	snprintf(made, sizeof(made), "%s %s%lu %s", block->ours, block_letter(block), number_at(number), preset);
+	return put(h, h->from, h->to - h->from, made);
 }
 
 /* #Start, <Start>, [Start], {Start}: a name has nothing around it. */
@@ -913,6 +1094,46 @@ static bool close_brackets(struct habits *h)
 	return put(h, h->from, 1, "[") && put(h, h->to - 1, 1, "]");
 }
 
+/* [ (A > B ] → [ (A > B) ], [ A > B) ] → [ A > B ] */
+static bool balance(struct habits *h)
+{
+	size_t surplus = 0;
+	int depth = 0;
+
+	for (size_t at = h->from; at < h->to; at++) {
+		depth += h->text[at] == '(' ? 1 : h->text[at] == ')' ? -1 : 0;
+		if (depth < 0 && !surplus)
+			surplus = at;
+	}
+	if (surplus)
+		return put(h, surplus, 1, "");
+	if (depth <= 0 || depth > 3 || h->text[h->to - 1] != ']')
+		return false;
+	for (surplus = h->to - 1; surplus > h->from && h->text[surplus - 1] == ' '; surplus--)
+		;
+	return put(h, surplus, 0, depth == 1 ? ")" : depth == 2 ? "))" : ")))");
+}
+
+/* Does nothing but the closing bracket follow? */
+static bool past_sign(const struct habits *h, size_t at)
+{
+	return h->text[at + strspn(h->text + at, " ")] == ']';
+}
+
+/* [ A := A++ ] → [ A := A + 1 ] */
+static bool count_up(struct habits *h)
+{
+	char sign;
+
+	for (size_t at = h->from; at + 1 < h->to; at++) {
+		sign = h->text[at];
+		if ((sign == '+' || sign == '-') && h->text[at + 1] == sign && past_sign(h, at + 2) &&
+		    memchr(h->text + h->from, '=', at - h->from))
+			return put(h, at, 2, sign == '+' ? " + 1" : " - 1");
+	}
+	return false;
+}
+
 /* In brackets: 50% → 50, A BETWEEN 1 AND 5 → A >= 1 AND A <= 5, and a cell for each of two statements. */
 static bool mend_inside(struct habits *h)
 {
@@ -920,6 +1141,8 @@ static bool mend_inside(struct habits *h)
 
 	if (h->text[h->from] != '[')
 		return false;
+	if (balance(h) || count_up(h))
+		return true;
 	for (int i = 1; i < h->count; i++) {
 		const size_t len = h->piece[i].len;
 
@@ -938,84 +1161,6 @@ static bool mend_inside(struct habits *h)
 	}
 	return false;
 }
-
-/* ---- drawings ---- */
-
-/* The elements of a row that is drawn: --| Start |--|/ Stop |--( Lamp )--. */
-struct drawing {
-	char made[MADE];
-	size_t used;
-	int elements;
-	bool wired; /* a dash touches an element                              */
-};
-
-/* What stands between two signs of a drawing, as a cell: the name, or only the kind, as in --(S)--. */
-static bool draw_element(struct drawing *drawing, const char *text, size_t len, bool coil)
-{
-	static const char *const kinds[][3] = { { "P", "P", "COILP" }, { "N", "N", "COILN" }, { "S", NULL, "S" }, { "R", NULL, "R" } };
-	const bool negated = len && *text == '/';
-	const char *word = negated ? (coil ? "COILNOT" : "NC") : coil ? "COIL" : "NO", *name = text + negated;
-	size_t name_len = len - negated;
-	bool kind = false;
-
-	for (; name_len && *name == ' '; name_len--)
-		name++;
-	while (name_len && name[name_len - 1] == ' ')
-		name_len--;
-	for (size_t i = 0; i < COUNT(kinds) && !kind; i++) {
-		kind = !negated && kinds[i][1 + coil] && ascii_is(kinds[i][0], name, name_len);
-		word = kind ? kinds[i][1 + coil] : word;
-	}
-	for (size_t i = 0; i < name_len; i++)
-		if (!mend_is_word(name[i]) && !strchr("%.#", name[i]))
-			return false;
-	if (name_len > 60 || drawing->used + name_len + 20 >= sizeof(drawing->made))
-		return false;
-	drawing->used += (size_t)snprintf(drawing->made + drawing->used, sizeof(drawing->made) - drawing->used, "%s %.*s | ", word,
-					  name_len && !kind ? (int)name_len : 4, name_len && !kind ? name : "Name");
-	drawing->elements++;
-	return true;
-}
-
-/* --| Start |--( Lamp )--, |--[/Stop]--(S)--|: the whole row anew. A name that is not there is `Name`. */
-static bool redraw(struct habits *h)
-{
-	static const char open[] = "|[](", shut[] = "|][)";
-	struct drawing drawing = { .made = "| ", .used = 2 };
-	const char *text = h->text, *at = text + strspn(text, " ");
-	ptrdiff_t dash;
-
-	if (*at == '|' && at[1 + strspn(at + 1, " ")] == '-')
-		at++;
-	for (at += strspn(at, " "); *at; at += strspn(at, " ")) {
-		const char *sign = strchr(open, *at), *end;
-
-		if (*at == '-') {
-			at += strspn(at, "-");
-			drawing.wired = drawing.wired || (*at && strchr(open, *at) && at[1]);
-			continue;
-		}
-		if (*at == '|' && !at[1 + strspn(at + 1, " ")])
-			break;
-		end = sign ? strchr(at + 1, shut[sign - open]) : NULL;
-		if (!end || !draw_element(&drawing, at + 1, (size_t)(end - at) - 1, *at == '('))
-			return false;
-		at = end + 1;
-		drawing.wired = drawing.wired || *at == '-';
-	}
-	if (!drawing.wired || !drawing.elements)
-		return false;
-	drawing.made[drawing.used - 1] = '\0';
-	dash = strchr(text, '-') - text;
-	if (!put(h, 0, strlen(text), drawing.made))
-		return false;
-	h->out->id = DIAG_SURPLUS;
-	h->out->column = (int)dash + 1;
-	snprintf(h->out->from, sizeof(h->out->from), "-");
-	return true;
-}
-
-/* ---- comments ---- */
 
 /* ; on: a comment at the end of the row. */
 static bool name_comment(struct habits *h)
@@ -1056,14 +1201,14 @@ static void close_comment(struct habits *h)
 bool mend_habits(struct project *project, char *text, size_t size, struct mended *out)
 {
 	static bool (*const habits[])(struct habits *) = {
-		join_logix, join_branches, join_pins, part_elements, name_of_logix, join_address, address_of_omron, bare_name, turn_tilde,
-		name_comment, name_constant, draw_wire, name_block, preset_of_logix, take_constant, take_time, bare_values, call_block, turn_name,
-		name_first, drop_sign, add_word, turn_arrow, word_of_siemens, word_of_basic, bare_coil, if_then, compute, close_brackets, mend_inside,
+		join_logix, join_branches, fill_pin, join_pins, part_elements, bar_of_other, compare_word, name_first, edge_of_power,
+		edge_of_logix, name_of_logix, join_address, address_of_omron, timer_of_omron, bare_name, turn_tilde, name_comment,
+		name_constant, draw_wire, name_block, preset_of_logix, take_constant, take_time, bare_values, call_block, turn_name,
+		drop_sign, add_word, turn_arrow, word_of_siemens, word_of_basic, bare_coil, if_then, compute, close_brackets, mend_inside,
 	};
 	struct habits h = { .project = project, .out = out, .text = text, .size = size };
 	int again = 0;
 
-	redraw(&h);
 	close_comment(&h);
 	for (int n = 0; !h.full && cell_open(&h, n); again = 0, n++)
 		for (size_t i = 0; i < COUNT(habits) && again < AGAIN && !h.full; i++)

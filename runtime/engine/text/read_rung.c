@@ -65,16 +65,30 @@ static bool read_pin(struct reader *r, struct cell *cell)
 	return true;
 }
 
+/* May the word be a pin of a function? */
+static bool is_pin(const struct word_row *row, const struct token *token)
+{
+	return word_pin_find(row, token->text, token->len) >= 0 || ascii_same(token->text, "IN", 2) ||
+	       ascii_is("OUT", token->text, token->len) || ascii_is("EN", token->text, token->len) ||
+	       ascii_is("ENO", token->text, token->len);
+}
+
 static bool read_args(struct reader *r, struct cell *cell)
 {
+	const struct word_row *row = words_row(&r->project->words, cell->word);
+	bool strange = false;
+
 	buffer_clear(&r->text);
 	r->arg_count = 0;
 	r->keep_pins = word_is_own((enum word)cell->word);
 	while (!reader_at_end(r) && !reader_is(r, '|') && !reader_is(r, '^')) {
+		strange |= row->kind == WORD_FN && !r->keep_pins && !is_pin(row, &r->lex.token);
 		if (!reader_arg(r))
 			return false;
 		reader_next(r);
 	}
+	if (strange && reader_mend(r, DIAG_EXTRA_TEXT)) /* EQ A := 5; others are judged in check/ */
+		return false;
 	cell->args = buffer_take(r, &r->text);
 	return true;
 }
@@ -190,6 +204,16 @@ static bool refuse_negated(struct reader *r, const struct word_row *row)
 	return reader_fail_word(r, DIAG_NEGATED, text);
 }
 
+/* `TON PT:=T#3s`. */
+static bool refuse_nameless(struct reader *r, const struct token *word)
+{
+	const int len = word->len < LIMIT_ARG / 2 - 8 ? (int)word->len : LIMIT_ARG / 2 - 8;
+	char text[LIMIT_ARG + 1];
+
+	snprintf(text, sizeof(text), "%.*s" DIAG_AND "%.*s Delay", len, word->text, len, word->text);
+	return reader_fail_word(r, DIAG_MISSING_INSTANCE, text);
+}
+
 /* The operand or instance after a word. Without this a box that lacks its instance would take
  * its first parameter for one. */
 static bool read_operand(struct reader *r, struct cell *cell,
@@ -205,8 +229,7 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&
 	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
-		return row->kind == WORD_FB ? reader_fail(r, DIAG_MISSING_INSTANCE, word->text, word->len) :
-					      reader_fail_operand(r, word);
+		return row->kind == WORD_FB ? refuse_nameless(r, word) : reader_fail_operand(r, word);
 	if (plain && !(row->kind == WORD_FB ?
 		       reader_instance(r, &cell->operand) :
 		       reader_name(r, "name", &cell->operand)))

@@ -114,7 +114,8 @@ static bool mend_as(struct reader *r, enum mend_kind kind, const char *text, int
 		for (int i = 1; i < out.column - 1; i++)
 			place.col += text[i] == '|' && memchr(text, '|', (size_t)i);
 	}
-	if (out.id == DIAG_WRITE_INSTEAD || out.id == DIAG_SPECIAL_INSTEAD || out.id == DIAG_EDGE_OF_VALUE)
+	if (out.id == DIAG_WRITE_INSTEAD || out.id == DIAG_SPECIAL_INSTEAD || out.id == DIAG_EDGE_OF_VALUE ||
+	    out.id == DIAG_MISSING_INSTANCE)
 		diag_add(r->diags, place, "%s" DIAG_AND "%s" DIAG_AND "%s", out.from, out.to,
 			 out.line);
 	else
