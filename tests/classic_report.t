@@ -265,7 +265,19 @@ sub test_forms {
 	}
 }
 
+# A function that stands behind a sign is declared, too.
+sub test_functions {
+	for my $call ('ROL', 'ROR', 'SHL', 'SHR') {
+		for my $sign ('', '-', '--', '---', '5*-', '12-') {
+			spew($file, container(['rung_0.csv', "#VER=2.0\n1-0-50/0 , 99-0-0/0 , 99-0-0/0 , 60-0-0/0\n"],
+				['arithmetic_expressions.csv', "#VER=2.0\n0000,\@200/3\@:=$sign$call(\@200/4\@,2)\n"]));
+			unlike(join('', said($ladder, 'check', $file)), qr/ error /, "$sign$call is taken");
+		}
+	}
+}
+
 test_elements();
+test_functions();
 test_table();
 test_no_news();
 test_forms();

@@ -368,7 +368,7 @@ static void find_written(struct conversion *c, const char *text)
 	if (!word)
 		return;
 	for (; *text; text += len ? len : 1) {
-		len = strcspn(text, " .,()[]|\n:;");
+		len = strcspn(text, " .,()[]|\n:;-+"); /* -RotateLeft(…) */
 		if (len)
 			word[names_find_any(&c->taken, text, len)] = true;
 	}
