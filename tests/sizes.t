@@ -58,7 +58,7 @@ measure() {
 # 2 KB for numbers that plain IEC text converts by itself, values to begin with by other variables, and ENO of blocks.
 # 3 KB for comparisons with three sides, members of other tools, resets of blocks, and two turns of truth tables at once.
 # 4 KB for forces in the quality of values, serial lines that are not there, and what to do about a line or a disk that fails.
-measure 'ladderd' 566272 '' CFLAGS=-O2
+measure 'ladderd' 570368 '' CFLAGS=-O2
 # The alarms and clocks are in all words; on a Cortex-M3 it has 120,237 of 124,928 bytes.
 measure 'ladderd, SMALL=1' 105472 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 67584 /small-core SMALL=1 WORDS=core
