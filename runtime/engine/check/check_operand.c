@@ -1094,14 +1094,19 @@ static void report_chain(struct operand_check *c, struct operand_spot at, const 
 /* `A = A + 1` compares. Whoever writes it means to store. */
 static void warn_of_count(struct operand_check *c, struct operand_spot at, const struct expr *expr)
 {
-	const struct expr_node *root = &expr->node[expr->root], *a = &expr->node[root->left], *b = &expr->node[root->right];
-	const struct expr_node *left = &expr->node[b->left], *right = &expr->node[b->right];
+	const struct expr_node *root = &expr->node[expr->root], *a, *b, *left, *right;
 	char text[LIMIT_PARTS];
 
-	if (expr->target || root->op != EXPR_FN || root->fn != FN_EQ || b->op != EXPR_FN || (b->fn != FN_ADD && b->fn != FN_SUB))
+	if (expr->target || root->op != EXPR_FN || root->fn != FN_EQ)
 		return;
-	if (a->op != EXPR_NAME || left->op != EXPR_NAME || !is_plain(a) || right->op != EXPR_LITERAL || !is_plain(right) ||
-	    a->len != left->len || !ascii_same(a->text, left->text, (size_t)a->len) || (right->len == 1 && *right->text == '0'))
+	a = &expr->node[root->left];
+	b = &expr->node[root->right];
+	if (a->op != EXPR_NAME || !is_plain(a) || b->op != EXPR_FN || (b->fn != FN_ADD && b->fn != FN_SUB))
+		return;
+	left = &expr->node[b->left];
+	right = &expr->node[b->right];
+	if (left->op != EXPR_NAME || right->op != EXPR_LITERAL || !is_plain(right) || a->len != left->len ||
+	    !ascii_same(a->text, left->text, (size_t)a->len) || (right->len == 1 && *right->text == '0'))
 		return;
 	snprintf(text, sizeof(text), "%.*s = %.*s %c %.*s" DIAG_AND "%.*s := %.*s %c %.*s", a->len, a->text, a->len, a->text,
 		 b->fn == FN_ADD ? '+' : '-', right->len, right->text, a->len, a->text, a->len, a->text,
