@@ -231,9 +231,9 @@ static void test_boxes(void)
 	CHECK_TEXT(topology("| NO A | CTU C |\n| NO B | .seen |"),
 		   "LD209(2,2)seen");
 	CHECK_TEXT(topology("| NO A | CTU C |\n| NO B | .CU |"), "LD213(2,2)CU");
-	CHECK_TEXT(topology("| NO A | CTU C CU:=B |"), "LD213(1,2)CU");
+	CHECK_TEXT(topology("| NO A | CTU C CU:=B |"), "LD213(1,2)CU" DIAG_AND DIAG_AND "CU:=B");
 	CHECK_TEXT(topology("| NO A | ADD EN:=B IN1:=1 IN2:=2 OUT=>X |"),
-		   "LD213(1,2)EN");
+		   "LD213(1,2)EN" DIAG_AND DIAG_AND "EN:=B");
 	CHECK_TEXT(topology("| NO A | MOVE IN:=1 |\n| NO B | .OUT |"),
 		   "LD211(2,2)OUT");
 	CHECK_TEXT(topology("| NO A | MOVE OUT=>X |\n| NO B | .IN |"), "");

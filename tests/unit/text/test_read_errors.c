@@ -152,7 +152,7 @@ static void test_cell_errors(void)
 	fails(LD("RUNG\n|\n"), "LD119 5 1 (1,0) 2 ");
 	fails(LD("RUNG\n| NO A ^| RET |\n"), "LD219 5 1 (1,1) 8 ");
 	fails(LD("RUNG\n| NO %IX0.9 |\n"), "LD143 5 1 (1,1) 6 %IX0.9");
-	fails(LD("RUNG\n| TON PT:=T#3s |\n"), "LD127 5 1 (1,1) 7 TON");
+	fails(LD("RUNG\n| TON PT:=T#3s |\n"), "LD127 5 1 (1,1) 7 TON" DIAG_AND "TON Delay");
 	fails(LD("RUNG\n| TON T1 PT:=T#3x |\n"), "LD115 5 1 (1,1) 14 T#3x");
 	fails(LD("RUNG\n| TON T1 PT:=T#3s pt:=T#4s |\n"),
 	      "LD124 5 1 (1,1) 19 pt");
